@@ -1,0 +1,52 @@
+# The habits of the project. `make demo` and `make test` work on a fresh machine with Python 3.11+.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
+PROMPT ?= A wooden table with a bowl of three apples, a red mug and a stack of four books on it.
+
+.DEFAULT_GOAL := help
+.PHONY: help setup setup-dev demo format check test test-all bench clean
+
+help:  ## list the targets
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
+
+$(VENV)/.made:
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/.setup: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable .
+	@touch $@
+
+$(VENV)/.setup-dev: $(VENV)/.setup
+	$(PIP) --editable '.[dev,torch,usd,envs]'
+	@touch $@
+
+setup: $(VENV)/.setup  ## create .venv with the pinned packages and the pat3d command
+
+setup-dev: $(VENV)/.setup-dev  ## the same with the packages that the tests need
+
+demo: setup  ## a sentence to a proven scene: scenes/demo
+	$(BIN)/pat3d generate "$(PROMPT)" --out scenes/demo --seed 0
+
+format: setup-dev  ## sort imports and format
+	$(BIN)/ruff check --fix --quiet .
+	$(BIN)/ruff format --quiet .
+
+check: setup-dev  ## lint and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+
+test: check  ## lint, types and the quick tests
+	$(BIN)/pytest -m 'not slow' --numprocesses auto
+
+test-all: check  ## every test, the slow ones too
+	$(BIN)/pytest --numprocesses auto
+
+bench: setup-dev  ## the figures of the README
+	$(BIN)/python benchmarks/generate.py
+
+clean:  ## remove the environment and the caches
+	rm -rf $(VENV) build *.egg-info .pytest_cache .ruff_cache .hypothesis

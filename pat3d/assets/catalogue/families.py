@@ -1,0 +1,5 @@
+"""Imports every module of recipes; importing one registers its entries."""
+
+from pat3d.assets.catalogue import basics
+
+__all__ = ["basics"]

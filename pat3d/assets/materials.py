@@ -1,0 +1,77 @@
+"""Materials by name: density and friction.
+
+Densities are mid-range handbook values (CRC Handbook of Chemistry and Physics, 97th ed., section 15;
+Ashby, Materials Selection in Mechanical Design, 4th ed., appendix A). Foam, plush, foliage and
+foods are bulk values with their air (FAO/INFOODS Density Database 2.0 for foods). Friction
+coefficients are dry static values against wood or themselves (Avallone & Baumeister, Marks' Standard
+Handbook for Mechanical Engineers, 11th ed., table 3.2.1), rounded down where sources spread.
+"""
+
+from __future__ import annotations
+
+from pat3d.assets.asset import Material
+from pat3d.errors import AssetError
+
+_TABLE: dict[str, tuple[float, float]] = {
+    "wood": (650.0, 0.45),
+    "bamboo": (700.0, 0.45),
+    "cork": (200.0, 0.6),
+    "cardboard": (250.0, 0.45),
+    "paper": (800.0, 0.4),
+    "ceramic": (2300.0, 0.45),
+    "porcelain": (2400.0, 0.4),
+    "stone": (2600.0, 0.5),
+    "glass": (2500.0, 0.4),
+    "metal": (7800.0, 0.4),
+    "steel": (7850.0, 0.4),
+    "iron": (7200.0, 0.4),
+    "aluminium": (2700.0, 0.4),
+    "brass": (8500.0, 0.4),
+    "plastic": (1050.0, 0.4),
+    "rubber": (1100.0, 0.8),
+    "silicone": (1150.0, 0.8),
+    "foam": (60.0, 0.6),
+    "fabric": (300.0, 0.5),
+    "cotton": (300.0, 0.5),
+    "wool": (250.0, 0.5),
+    "plush": (90.0, 0.5),
+    "leather": (860.0, 0.5),
+    "upholstery": (120.0, 0.5),
+    "wicker": (350.0, 0.45),
+    "wax": (920.0, 0.4),
+    "soap": (1050.0, 0.3),
+    "food": (900.0, 0.45),
+    "bread": (290.0, 0.5),
+    "cake": (450.0, 0.5),
+    "fruit": (900.0, 0.45),
+    "foliage": (150.0, 0.5),
+    "electronics": (1600.0, 0.4),
+}
+
+MATERIAL_WORDS: dict[str, str] = {
+    "wooden": "wood", "oak": "wood", "pine": "wood", "walnut": "wood", "mahogany": "wood", "teak": "wood",
+    "metallic": "metal", "steel": "steel", "stainless": "steel", "iron": "iron", "aluminum": "aluminium",
+    "golden": "brass", "bronze": "brass", "copper": "brass", "rubbery": "rubber", "leathery": "leather",
+    "woven": "wicker", "rattan": "wicker", "straw": "wicker", "stuffed": "plush", "marble": "stone",
+    "granite": "stone", "clay": "ceramic", "terracotta": "ceramic", "earthenware": "ceramic", "crystal": "glass",
+    "woollen": "wool", "woolen": "wool", "knitted": "wool", "cloth": "fabric", "linen": "fabric", "velvet": "fabric",
+    "inflatable": "plastic", "acrylic": "plastic", "felt": "fabric",
+}  # fmt: skip
+"""Adjectives that name a material other than by its own name."""
+
+
+def material(name: str) -> Material:
+    """The material called `name`.
+
+    Raises:
+        AssetError: no such material; the message lists them.
+    """
+    if name not in _TABLE:
+        raise AssetError(f'unknown material "{name}". Known: {", ".join(sorted(_TABLE))}.')
+    density, friction = _TABLE[name]
+    return Material(name=name, density=density, friction=friction)
+
+
+def find_material(word: str) -> str | None:
+    """Name of the material that an English `word` means ("wooden" -> "wood"), or None."""
+    return word if word in _TABLE else MATERIAL_WORDS.get(word)

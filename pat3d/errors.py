@@ -1,0 +1,44 @@
+"""The errors that PAT3D raises on purpose.
+
+A message says what was wrong, where, and what would have been valid. The command line prints it
+without a traceback and exits with the class's `exit_code`: 2 for what the user can fix, 1 for a
+scene that failed a check.
+"""
+
+
+class Pat3dError(Exception):
+    """Base class of every error that PAT3D raises on purpose."""
+
+    exit_code = 2
+
+
+class PromptError(Pat3dError):
+    """The prompt cannot be planned: an unknown noun, an impossible count, nothing to place."""
+
+
+class SpecError(Pat3dError):
+    """A scene specification or a scene file is invalid."""
+
+
+class AssetError(Pat3dError):
+    """A mesh or a catalogue object cannot be made or used."""
+
+
+class LayoutError(Pat3dError):
+    """No arrangement without intersection was found, or an object does not fit where it belongs."""
+
+
+class SimulationError(Pat3dError):
+    """The simulator was given an invalid state or could not converge."""
+
+    exit_code = 1
+
+
+class ExportError(Pat3dError):
+    """A scene cannot be written to, or read back from, an exchange format."""
+
+
+class CheckError(Pat3dError):
+    """A scene failed its proof: certificate, penetration or settling."""
+
+    exit_code = 1
