@@ -21,14 +21,13 @@ def smooth(light: Array, surface: NDArray[np.int32], position: Array, normal: Ar
         normal: unit normals, shape (h, w, 3).
         pixel: size of a pixel on the surface, seen straight on [m], shape (h, w).
     """
-    for axis in (1, 0):
+    # The first round evens out the tile; the second rounds off the steps that a box leaves.
+    for axis in (1, 0, 1, 0):
         light = _along(light, surface, position, normal, pixel, axis)
     return light
 
 
-def _along(
-    light: Array, surface: NDArray[np.int32], position: Array, normal: Array, pixel: Array, axis: int
-) -> Array:
+def _along(light: Array, surface: NDArray[np.int32], position: Array, normal: Array, pixel: Array, axis: int) -> Array:
     total, weights = light.copy(), np.ones(light.shape[:2], dtype=np.float32)
     for offset, weight in _TAPS:
         if offset == 0 or abs(offset) >= light.shape[axis]:

@@ -35,24 +35,30 @@ def crease_normals(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> N
     """
     corners = vertices[faces]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = np.linalg.norm(area, axis=1)
-    flat = area / np.maximum(size, 1e-300)[:, None]
-    order = np.argsort(faces.reshape(-1), kind="stable")
+    flat = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
+    vertex_of = faces.reshape(-1)
+    order = np.argsort(vertex_of, kind="stable")
     face_of = order // 3
-    fan = np.bincount(faces.reshape(-1), minlength=len(vertices))
-    start = np.concatenate([[0], np.cumsum(fan)[:-1]])
-    sums = area[np.arange(len(faces)).repeat(3)]
+    fan = np.bincount(vertex_of, minlength=len(vertices))
+    start = np.cumsum(fan) - fan
     limit = math.cos(math.radians(CREASE_ANGLE))
+    # Where every face is within half the crease angle of the mean, all pairs are within the whole.
+    weights = [np.bincount(vertex_of, area[:, axis].repeat(3), len(vertices)) for axis in range(3)]
+    mean = np.stack(weights, axis=1)
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
+    apart = np.einsum("ij,ij->i", flat.repeat(3, axis=0), mean[vertex_of]) < math.cos(math.radians(CREASE_ANGLE / 2))
+    creased = np.bincount(vertex_of, apart, len(vertices)) > 0
+    sums = np.where(creased[vertex_of][:, None], area.repeat(3, axis=0), mean[vertex_of])
     # Corner i of its vertex's fan against the corner `shift` places further round, for all vertices at once.
     rank = np.arange(len(order)) - start.repeat(fan)
-    valence = fan.repeat(fan)
-    first = start.repeat(fan)
-    active = np.flatnonzero((valence > 1) & (valence <= _LARGEST_FAN))
-    for shift in range(1, int(min(fan.max(initial=0), _LARGEST_FAN))):
+    valence, first = fan.repeat(fan), start.repeat(fan)
+    active = np.flatnonzero(creased.repeat(fan) & (valence <= _LARGEST_FAN))
+    for shift in range(1, _LARGEST_FAN):
         active = active[valence[active] > shift]
-        other = first[active] + (rank[active] + shift) % valence[active]
-        mine, theirs = face_of[active], face_of[other]
-        close = np.einsum("ij,ij->i", flat[mine], flat[theirs]) > limit
+        if len(active) == 0:
+            break
+        theirs = face_of[first[active] + (rank[active] + shift) % valence[active]]
+        close = np.einsum("ij,ij->i", flat[face_of[active]], flat[theirs]) > limit
         sums[order[active[close]]] += area[theirs[close]]
     length = np.linalg.norm(sums, axis=1)
     return (sums / np.maximum(length, 1e-300)[:, None]).reshape(-1, 3, 3).astype(np.float32)

@@ -18,7 +18,7 @@ from pat3d.view.tone import decode
 
 TILE = 4
 """Side [pixel] of the tile that shares one sample set."""
-SKY_RAYS = 8
+SKY_RAYS = 4
 """Rays towards sky and neighbours per pixel."""
 KEY_RAYS = 4
 """Rays towards the key light per pixel."""
@@ -56,15 +56,15 @@ class Studio:
         right = np.array([axes[0, 0], axes[0, 1], 0.0])
         right /= max(float(np.linalg.norm(right)), 1e-9)
         back = np.cross(right, (0.0, 0.0, 1.0))
-        key = -0.62 * right + 0.42 * back + np.array([0.0, 0.0, 1.0])
+        key = -0.70 * right + 0.24 * back + np.array([0.0, 0.0, 1.0])
         fill = 0.85 * right + 0.45 * back + np.array([0.0, 0.0, 0.35])
         return Studio(
             key_direction=_unit(*key),
             fill_direction=_unit(*fill),
-            key=np.array([0.86, 0.82, 0.75], dtype=np.float32),
-            fill=np.array([0.10, 0.11, 0.125], dtype=np.float32),
-            zenith=np.array([0.40, 0.425, 0.46], dtype=np.float32),
-            horizon=np.array([0.47, 0.475, 0.48], dtype=np.float32),
+            key=np.array([1.04, 0.99, 0.91], dtype=np.float32),
+            fill=np.array([0.10, 0.11, 0.12], dtype=np.float32),
+            zenith=np.array([0.31, 0.33, 0.36], dtype=np.float32),
+            horizon=np.array([0.37, 0.375, 0.38], dtype=np.float32),
         )
 
     def sky(self, height: Array) -> Array:
@@ -78,7 +78,7 @@ class Studio:
         return self.horizon + np.float32(2.0 / 3.0) * (self.zenith - self.horizon)
 
 
-GROUND_COLOUR: Array = decode(np.array([0.93, 0.925, 0.915]))
+GROUND_COLOUR: Array = decode(np.array([0.945, 0.94, 0.93]))
 """Linear RGB of the lit ground near the scene."""
 BACKDROP_COLOUR: Array = decode(np.array([0.83, 0.845, 0.86]))
 """Linear RGB that the ground fades into."""

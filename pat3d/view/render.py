@@ -43,7 +43,7 @@ def render(
     camera: Camera | None = None,
     width: int = 960,
     height: int = 720,
-    samples: int = 12,
+    samples: int = 8,
     ground: float | None = 0.0,
     seed: int = 0,
 ) -> NDArray[np.uint8]:
@@ -155,9 +155,7 @@ class _View:
         start, normal, tiles = surfaces.start[near], surfaces.normal[near], tile[near]
         face_light = light.bounce(self.geometry, self.studio)
         lit[near, 3] = light.key_visibility(self.geometry, self.studio, start, normal, tiles, seed)
-        lit[near, :3] = light.sky_light(
-            self.geometry, self.studio, face_light, self.ground, start, normal, tiles, seed
-        )
+        lit[near, :3] = light.sky_light(self.geometry, self.studio, face_light, self.ground, start, normal, tiles, seed)
         shape = (self.height, self.width)
         return smooth(
             lit.reshape(*shape, 4),
