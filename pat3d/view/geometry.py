@@ -171,12 +171,12 @@ class Geometry:
         found = self._scene.run(np.tile(origin, (len(directions), 1)), directions, output=1)
         which = np.flatnonzero(found["primID"] >= 0)
         face, distance = found["primID"][which], found["tfar"][which]
-        u, v = found["u"][which][:, None], found["v"][which][:, None]
+        u, v = found["u"][which], found["v"][which]
         ray = directions[which]
         point = origin + distance[:, None] * ray
-        weights = (1.0 - u - v, u, v)
+        weights = np.stack([1.0 - u - v, u, v], axis=1)
         corner_normals, corners, uv = self._normals[face], self.corners[face], self._uv[face]
-        normal = sum(weight * corner_normals[:, k] for k, weight in enumerate(weights))
+        normal = np.einsum("ij,ijk->ik", weights, corner_normals)
         normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-20)[:, None]
         flat = self.face_normals[face]
         inside = np.einsum("ij,ij->i", flat, ray) > 0.0
@@ -184,10 +184,10 @@ class Geometry:
         # Rays from flat facets to the light would see the facets' own horizon and draw it as a staircase;
         # starting from the tangent planes of the corners hides it.
         lift = np.zeros_like(point)
-        for k, weight in enumerate(weights):
+        for k in range(3):
             depth = np.einsum("ij,ij->i", point - corners[:, k], corner_normals[:, k])[:, None]
-            lift -= weight * np.minimum(depth * side, 0.0) * side * corner_normals[:, k]
-        coordinates = sum(weight * uv[:, k] for k, weight in enumerate(weights))
+            lift -= weights[:, k, None] * np.minimum(depth * side, 0.0) * side * corner_normals[:, k]
+        coordinates = np.einsum("ij,ijk->ik", weights, uv)
         slope = np.maximum(np.abs(np.einsum("ij,ij->i", flat, ray)), 0.1)
         footprint = self._density[face] * distance * np.float32(pixel) / np.sqrt(slope)
         return Hits(

@@ -27,8 +27,8 @@ Array = NDArray[np.float32]
 
 
 def _unit(x: float, y: float, z: float) -> Array:
-    vector = np.array([x, y, z], dtype=np.float32)
-    return vector / np.linalg.norm(vector)
+    vector = np.array([x, y, z])
+    return (vector / np.linalg.norm(vector)).astype(np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,39 +56,39 @@ class Studio:
         right = np.array([axes[0, 0], axes[0, 1], 0.0])
         right /= max(float(np.linalg.norm(right)), 1e-9)
         back = np.cross(right, (0.0, 0.0, 1.0))
-        key = -0.70 * right + 0.24 * back + np.array([0.0, 0.0, 1.0])
+        key = -0.70 * right + 0.36 * back + np.array([0.0, 0.0, 1.0])
         fill = 0.85 * right + 0.45 * back + np.array([0.0, 0.0, 0.35])
         return Studio(
             key_direction=_unit(*key),
             fill_direction=_unit(*fill),
             key=np.array([1.04, 0.99, 0.91], dtype=np.float32),
             fill=np.array([0.10, 0.11, 0.12], dtype=np.float32),
-            zenith=np.array([0.31, 0.33, 0.36], dtype=np.float32),
+            zenith=np.array([0.315, 0.33, 0.35], dtype=np.float32),
             horizon=np.array([0.37, 0.375, 0.38], dtype=np.float32),
         )
 
     def sky(self, height: Array) -> Array:
         """Radiance of the sky towards unit vectors with z = `height`, shape (n,) -> (n, 3)."""
         blend = np.clip(height, 0.0, 1.0)[:, None]
-        return self.horizon + blend * (self.zenith - self.horizon)
+        return (self.horizon + blend * (self.zenith - self.horizon)).astype(np.float32, copy=False)
 
     @property
     def open_sky(self) -> Array:
         """Irradiance of a horizontal surface under the whole sky, RGB: the mean of `sky` over cosine-weighted rays."""
-        return self.horizon + np.float32(2.0 / 3.0) * (self.zenith - self.horizon)
+        return (self.horizon + (2.0 / 3.0) * (self.zenith - self.horizon)).astype(np.float32)
 
 
 GROUND_COLOUR: Array = decode(np.array([0.945, 0.94, 0.93]))
 """Linear RGB of the lit ground near the scene."""
-BACKDROP_COLOUR: Array = decode(np.array([0.83, 0.845, 0.86]))
+BACKDROP_COLOUR: Array = decode(np.array([0.865, 0.875, 0.885]))
 """Linear RGB that the ground fades into."""
 
 
 def backdrop(distance: Array) -> Array:
     """Colour of the unshadowed ground at `distance` from the scene's middle, in scene radii; shape (n,) -> (n, 3)."""
     blend = np.clip((distance - 0.6) / 9.0, 0.0, 1.0)
-    blend = (1.0 - (1.0 - blend) ** 3)[:, None].astype(np.float32)
-    return GROUND_COLOUR + blend * (BACKDROP_COLOUR - GROUND_COLOUR)
+    blend = (1.0 - (1.0 - blend) ** 3)[:, None]
+    return (GROUND_COLOUR + blend * (BACKDROP_COLOUR - GROUND_COLOUR)).astype(np.float32)
 
 
 @cache

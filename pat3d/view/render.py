@@ -20,7 +20,7 @@ from pat3d.view import light
 from pat3d.view.camera import Camera, frame
 from pat3d.view.denoise import smooth
 from pat3d.view.geometry import Geometry
-from pat3d.view.tone import compress, encode
+from pat3d.view.tone import compress, quantise
 
 Item = tuple[VisualMesh, Pose]
 Array = NDArray[np.float32]
@@ -79,7 +79,7 @@ def render(
     edge = np.flatnonzero(_edges(surfaces, picture, width, height, view.pixel))
     if samples > 1 and len(edge):
         picture[edge] = _refined(view, surfaces, lit, edge, samples)
-    return np.round(encode(picture) * 255.0).astype(np.uint8).reshape(height, width, 3)
+    return quantise(picture, row, column).reshape(height, width, 3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +195,7 @@ class _View:
         diffuse = sky + key[:, None] * studio.key + (fill * openness)[:, None] * studio.fill
         # A faint varnish: Schlick's reflectance of sky at grazing angles and a broad highlight of the key light.
         facing = np.clip(-np.einsum("ij,ij->i", normal, ray), 0.0, 1.0)
-        mirror = 0.03 + 0.35 * (1.0 - facing) ** 5
+        mirror = 0.02 + 0.14 * (1.0 - facing) ** 5
         half = studio.key_direction - ray
         half /= np.linalg.norm(half, axis=1)[:, None]
         glint = 0.16 * np.maximum(np.einsum("ij,ij->i", normal, half), 0.0) ** 48 * lit[mesh, 3]

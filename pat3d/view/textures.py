@@ -18,12 +18,11 @@ class TextureAtlas:
     """All textures of a picture: trilinear lookup in linear light."""
 
     def __init__(self, textures: Sequence[NDArray[np.uint8]]) -> None:
-        chains = {id(texture): None for texture in textures}
         texels: list[NDArray[np.uint8]] = []
         tables: dict[int, list[tuple[int, int, int]]] = {}
         start = 0
         for texture in textures:
-            if chains[id(texture)] is not None or id(texture) in tables:
+            if id(texture) in tables:
                 continue
             tables[id(texture)] = []
             for level in _chain(texture):
@@ -76,7 +75,7 @@ class TextureAtlas:
 
         top = texel(x0, y0) * (1 - fx) + texel(x1, y0) * fx
         bottom = texel(x0, y1) * (1 - fx) + texel(x1, y1) * fx
-        return top * (1 - fy) + bottom * fy
+        return (top * (1 - fy) + bottom * fy).astype(np.float32, copy=False)
 
 
 def _chain(texture: NDArray[np.uint8]) -> list[NDArray[np.uint8]]:

@@ -18,7 +18,7 @@ def decode(values: ArrayLike) -> NDArray[np.float32]:
 
 
 def encode(values: ArrayLike) -> NDArray[np.float32]:
-    """sRGB values of linear light in [0, 1], any shape."""
+    """Encode linear light as sRGB: values in [0, 1], any shape."""
     light = np.clip(np.asarray(values, dtype=np.float32), 0.0, 1.0)
     return np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1.0 / 2.4) - 0.055).astype(np.float32)
 
@@ -28,6 +28,16 @@ def compress(light: NDArray[np.float32]) -> NDArray[np.float32]:
     room = 1.0 - _SHOULDER
     excess = np.maximum(light - _SHOULDER, 0.0)
     return (np.minimum(light, _SHOULDER) + room * (1.0 - np.exp(-excess / room))).astype(np.float32)
+
+
+def quantise(light: NDArray[np.float32], row: NDArray[np.int32], column: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """8-bit sRGB of linear light, shape (n, 3), at pixels (`row`, `column`).
+
+    Less than one grey level of a fixed pattern (Jimenez's interleaved gradient noise) is added before
+    rounding, without which slow gradients show contour lines.
+    """
+    pattern = (52.9829189 * ((0.06711056 * column + 0.00583715 * row) % 1.0)) % 1.0
+    return np.clip(np.floor(encode(light) * 255.0 + pattern[:, None].astype(np.float32)), 0, 255).astype(np.uint8)
 
 
 @cache
