@@ -131,10 +131,8 @@ def tube(
     count, around = len(centres), 16
     radii = np.broadcast_to(np.asarray(radius, dtype=np.float64), (count,))
     normal = np.asarray(up, dtype=np.float64) / np.linalg.norm(up)
-    if closed:
-        tangents = np.roll(centres, -1, axis=0) - np.roll(centres, 1, axis=0)
-    else:
-        tangents = np.gradient(centres, axis=0)
+    ahead, behind = (np.roll(centres, step, axis=0) for step in (-1, 1))
+    tangents = ahead - behind if closed else np.gradient(centres, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     across = np.cross(normal, tangents)
     across /= np.linalg.norm(across, axis=1)[:, None]
@@ -177,7 +175,7 @@ def rounded_rectangle(x: float, y: float, corner: float) -> NDArray[np.float64]:
 
 
 def ring_of(shape: Shape, radius: float, count: int, start: float = 0.0) -> Shape:
-    """`count` copies of `shape` around z at `radius` [m], the first at angle `start` [degrees], each turned outwards."""
+    """`count` copies of `shape` around z at `radius` [m], turned outwards, the first at `start` [degrees]."""
     return join(*(shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)))
 
 
@@ -185,6 +183,23 @@ def taper(bottom: tuple[float, float], top: tuple[float, float], height: float) 
     """A block [m] standing on z = 0 between rectangles of sizes `bottom` and `top`."""
     levels = ((bottom, 0.0), (top, height))
     return convex([(i * x / 2, j * y / 2, z) for (x, y), z in levels for i in (-1, 1) for j in (-1, 1)])
+
+
+def lobed(shape: Shape, lobes: int, depth: float) -> Shape:
+    """`shape` with `lobes` grooves around z, pressed in by `depth` of the radius; the parts stay as they are."""
+
+    def press(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        turn = np.arctan2(points[:, 1], points[:, 0])
+        factor = 1.0 - depth * (0.5 + 0.5 * np.cos(lobes * turn)) ** 2
+        return points * np.column_stack([factor, factor, np.ones(len(points))])
+
+    return Shape(shape.solid.warp_batch(press), shape.hulls)
+
+
+def covered(pieces: Sequence[Shape], cover: Shape) -> tuple[Shape, ...]:
+    """`pieces` for the picture with the convex parts of `cover`, which contains them, as their only parts."""
+    first, *others = pieces
+    return (Shape(first.solid, cover.hulls), *(unseen(piece) for piece in others))
 
 
 def _circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,10 +2,12 @@
 
 from pat3d.assets.catalogue import (
     basics,
+    fruit,
     tableware,
 )
 
 __all__ = [
     "basics",
+    "fruit",
     "tableware",
 ]
