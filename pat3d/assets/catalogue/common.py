@@ -1,0 +1,54 @@
+"""What many recipes share: proportions from adjectives, cavities, floors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Literal
+
+from pat3d.assets.asset import Region
+from pat3d.assets.catalogue.registry import Style
+
+CREAM = (244, 236, 214)
+LEAF = (86, 134, 62)
+STALK = (112, 84, 52)
+STEEL = (178, 182, 188)
+DARK = (52, 48, 46)
+WHITE = (242, 240, 236)
+GOLDEN_CRUST = (206, 146, 74)
+
+
+def height(style: Style, value: float, spread: float = 0.06) -> float:
+    """A height [m] varied by seed, more when asked for "tall", less when asked for "short" or "shallow"."""
+    factor = 1.3 if style.adjectives & {"tall", "high", "deep"} else 1.0
+    factor *= 0.75 if style.adjectives & {"short", "shallow", "low", "flat"} else 1.0
+    return style.vary(value * factor, spread)
+
+
+def length(style: Style, value: float, spread: float = 0.06) -> float:
+    """A length [m] varied by seed, more when asked for "long", less when asked for "short"."""
+    factor = 1.3 if style.adjectives & {"long", "wide"} else 1.0
+    factor *= 0.75 if style.adjectives & {"short", "narrow"} else 1.0
+    return style.vary(value * factor, spread)
+
+
+def cavity(inner: Sequence[tuple[float, float]], segments: int, lift: float = 0.0) -> Region:
+    """The free cylinder inside a vessel whose cavity has the (radius, z) points `inner` [m]."""
+    radius = min(r for r, _ in inner) * math.cos(math.pi / segments)
+    return Region(
+        kind="in",
+        shape="disc",
+        floor=(0.0, 0.0, inner[0][1] + lift),
+        half_size=(radius, radius),
+        height=inner[-1][1] - inner[0][1],
+    )
+
+
+def disc(kind: Literal["on", "in"], z: float, radius: float, height: float = math.inf) -> Region:
+    """A round floor [m] centred on the object."""
+    return Region(kind=kind, shape="disc", floor=(0.0, 0.0, z), half_size=(radius, radius), height=height)
+
+
+def rectangle(kind: Literal["on", "in"], z: float, x: float, y: float, height: float = math.inf) -> Region:
+    """A rectangular floor [m] of full sizes x and y centred on the object."""
+    return Region(kind=kind, shape="rectangle", floor=(0.0, 0.0, z), half_size=(x / 2, y / 2), height=height)

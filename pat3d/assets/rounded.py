@@ -1,0 +1,310 @@
+"""Smooth solids with few convex parts: turned bodies, hollow vessels, bent tubes, extrusions.
+
+Each function returns a `Shape` whose picture is fine and whose convex parts are coarse polyhedra
+circumscribed about it, at most 64 vertices and 64 triangles each. A turned body is one part however
+smooth it looks, so that a fruit costs as little as a box, and it rests on the flat base of its part.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import manifold3d
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.spatial import HalfspaceIntersection
+
+from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex, join
+
+Profile = Sequence[tuple[float, float]]
+
+
+def unseen(shape: Shape) -> Shape:
+    """`shape` without convex parts of its own: details that another part of the object contains."""
+    return Shape(shape.solid, ())
+
+
+def curve(points: ArrayLike, count: int = 24) -> NDArray[np.float64]:
+    """`count` points on a smooth curve through `points` [m], shape (n, d), evenly spread in its parameter."""
+    array = np.asarray(points, dtype=np.float64)
+    steps = np.linalg.norm(np.diff(array, axis=0), axis=1)
+    parameter = np.concatenate([[0.0], np.cumsum(steps)])
+    return CubicSpline(parameter, array)(np.linspace(0.0, parameter[-1], count))
+
+
+def arc(radius: float, start: float, stop: float, count: int = 12) -> NDArray[np.float64]:
+    """Points [m] of a circular arc about the origin between two angles [degrees], shape (count, 2)."""
+    angle = np.radians(np.linspace(start, stop, count))
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def wrapped(solid: manifold3d.Manifold, directions: ArrayLike) -> Shape:
+    """A solid with one convex part: the half-spaces along `directions`, shape (n, 3), that touch it."""
+    points = np.asarray(solid.to_mesh64().vert_properties)[:, :3]
+    return Shape(solid, (_circumscribed(points, np.asarray(directions, dtype=np.float64)),))
+
+
+def lump(points: ArrayLike) -> Shape:
+    """The convex hull of many points [m], shape (n, 3), in a part of at most 18 faces: loaves, potatoes."""
+    solid = manifold3d.Manifold.hull_points(np.ascontiguousarray(points, dtype=np.float64))
+    steps = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]
+    return wrapped(solid, [step for step in steps if 1 <= sum(map(abs, step)) <= 2])
+
+
+def lathe(
+    profile: ArrayLike, cuts: Sequence[float] = (), angles: Sequence[float] = (-45.0, 0.0, 45.0), sides: int = 0
+) -> Shape:
+    """A solid of revolution about z with one convex part between any two heights.
+
+    Args:
+        profile: (radius, z) [m] from the bottom to the top, shape (n, 2); drawn as it is.
+        cuts: heights [m] that divide the body into convex parts (a bottle's shoulder).
+        angles: slopes of the part's tangent faces [degrees]: 0 is an upright wall, 45 faces up.
+        sides: of the part's rings; 0 for the most that 64 triangles allow.
+    """
+    points = np.asarray(profile, dtype=np.float64).copy()
+    points[:, 0] = np.maximum(points[:, 0], 0.0)
+    sides = sides or 32 // (len(angles) + 1)
+    outline = np.concatenate([[(0.0, points[0, 1])], points, [(0.0, points[-1, 1])]])
+    heights = [float(points[:, 1].min()), *cuts, float(points[:, 1].max())]
+    hulls = []
+    for low, high in zip(heights, heights[1:], strict=False):
+        piece = _between(points, low, high)
+        hulls.append(_rings(_tangent_polygon(piece, low, high, angles), sides))
+    return Shape(_revolved(outline), tuple(hulls))
+
+
+def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> Shape:
+    """An open vessel of revolution about z, smooth to see: bowls, plates, mugs, vases.
+
+    Args:
+        outer: (radius, z) [m] of the outside, z strictly increasing from 0 to the rim.
+        inner: (radius, z) [m] of the cavity, z strictly increasing from its floor to the same rim.
+        levels: heights [m] that divide the wall into rows of convex parts.
+        segments: parts around in a row; a divisor of 48. The cavity loses 1 - cos(pi / segments) of its radius.
+    """
+    rim, floor = outer[-1][1], inner[0][1]
+    outside, inside = _radius_of(outer), _radius_of(inner)
+    fine_outer = _sampled(outside, outer, 0.0, rim)
+    fine_inner = _sampled(inside, inner, floor, rim)
+    body = _revolved(np.concatenate([[(0.0, 0.0)], fine_outer, [(0.0, rim)]]))
+    mouth = [(fine_inner[-1, 0], rim + 0.01), (0.0, rim + 0.01)]
+    solid = body - _revolved(np.concatenate([[(0.0, floor)], fine_inner, mouth]))
+    bottom = _chord(_between(fine_outer, 0.0, floor), outward=True)
+    hulls = [_rings([(bottom[0], 0.0), (bottom[1], floor)], 16)]
+    heights = [floor, *levels, rim]
+    step = 2 * math.pi / segments
+    for low, high in zip(heights, heights[1:], strict=False):
+        out = _chord(_between(fine_outer, low, high), outward=True) / math.cos(step / 2)
+        into = _chord(_between(fine_inner, low, high), outward=False)
+        corners = [(into[0], low), (into[1], high), (out[0], low), (out[1], high)]
+        for k in range(segments):
+            spokes = [(math.cos(a), math.sin(a)) for a in (k * step, (k + 1) * step)]
+            hulls.append(np.array([(r * c, r * s, z) for c, s in spokes for r, z in corners]))
+    return Shape(solid, tuple(hulls))
+
+
+def tube(
+    path: ArrayLike,
+    radius: float | ArrayLike,
+    groups: int,
+    *,
+    up: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    closed: bool = False,
+    sides: int = 8,
+    flatness: float = 1.0,
+) -> Shape:
+    """A round bar along a planar curve: handles, spouts, bananas, rings.
+
+    Args:
+        path: centres [m], shape (n, 3), dense enough to look smooth.
+        radius: [m], one value or shape (n,).
+        groups: convex parts along the curve.
+        up: normal of the curve's plane.
+        closed: joins the last point to the first.
+        sides: of each convex part's section.
+        flatness: height of the section along `up` over its width.
+    """
+    centres = np.asarray(path, dtype=np.float64)
+    count, around = len(centres), 16
+    radii = np.broadcast_to(np.asarray(radius, dtype=np.float64), (count,))
+    normal = np.asarray(up, dtype=np.float64) / np.linalg.norm(up)
+    ahead, behind = (np.roll(centres, step, axis=0) for step in (-1, 1))
+    tangents = ahead - behind if closed else np.gradient(centres, axis=0)
+    tangents /= np.linalg.norm(tangents, axis=1)[:, None]
+    across = np.cross(normal, tangents)
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    angle = 2 * np.pi * np.arange(around) / around
+    spread = np.cos(angle)[None, :, None] * across[:, None] + flatness * np.sin(angle)[None, :, None] * normal
+    rings = centres[:, None] + radii[:, None, None] * spread
+    hulls = []
+    bounds = np.linspace(0, count if closed else count - 1, groups + 1).round().astype(int)
+    for first, last in zip(bounds, bounds[1:], strict=False):
+        index = np.arange(first, last + 1) % count
+        along = centres[index[-1]] - centres[index[0]]
+        along = along / np.linalg.norm(along)
+        side = np.cross(normal, along)
+        turn = 2 * np.pi * np.arange(sides) / sides
+        directions = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * normal
+        hulls.append(_circumscribed(rings[index].reshape(-1, 3), np.concatenate([directions, [along, -along]])))
+    return Shape(_skin(rings, centres, closed), tuple(hulls))
+
+
+def extruded(outline: ArrayLike, height: float, sides: int = 8) -> Shape:
+    """A convex outline [m], shape (n, 2), raised from z = 0 to `height`, in one part with `sides` walls."""
+    section = manifold3d.CrossSection([np.asarray(outline, dtype=np.float64)])
+    turn = 2 * np.pi * np.arange(sides) / sides
+    walls = np.stack([np.cos(turn), np.sin(turn), np.zeros(sides)], axis=1)
+    return wrapped(manifold3d.Manifold.extrude(section, height), [*walls, (0, 0, 1), (0, 0, -1)])
+
+
+def slab(x: float, y: float, z: float, corner: float) -> Shape:
+    """A board [m] standing on z = 0 whose upright edges are rounded by `corner`."""
+    return extruded(rounded_rectangle(x, y, corner), z)
+
+
+def rounded_rectangle(x: float, y: float, corner: float) -> NDArray[np.float64]:
+    """Counter-clockwise outline [m] of a rectangle with round corners, shape (n, 2)."""
+    pieces = []
+    for k, (i, j) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
+        centre = np.array([i * (x / 2 - corner), j * (y / 2 - corner)])
+        pieces.append(centre + arc(corner, 90.0 * k, 90.0 * (k + 1), 7))
+    return np.concatenate(pieces)
+
+
+def ring_of(shape: Shape, radius: float, count: int, start: float = 0.0) -> Shape:
+    """`count` copies of `shape` around z at `radius` [m], turned outwards, the first at `start` [degrees]."""
+    return join(*(shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)))
+
+
+def taper(bottom: tuple[float, float], top: tuple[float, float], height: float) -> Shape:
+    """A block [m] standing on z = 0 between rectangles of sizes `bottom` and `top`."""
+    levels = ((bottom, 0.0), (top, height))
+    return convex([(i * x / 2, j * y / 2, z) for (x, y), z in levels for i in (-1, 1) for j in (-1, 1)])
+
+
+def lobed(shape: Shape, lobes: int, depth: float) -> Shape:
+    """`shape` with `lobes` grooves around z, pressed in by `depth` of the radius; the parts stay as they are."""
+
+    def press(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        turn = np.arctan2(points[:, 1], points[:, 0])
+        factor = 1.0 - depth * (0.5 + 0.5 * np.cos(lobes * turn)) ** 2
+        return points * np.column_stack([factor, factor, np.ones(len(points))])
+
+    return Shape(shape.solid.warp_batch(press), shape.hulls)
+
+
+def covered(pieces: Sequence[Shape], cover: Shape) -> tuple[Shape, ...]:
+    """`pieces` for the picture with the convex parts of `cover`, which contains them, as their only parts."""
+    first, *others = pieces
+    return (Shape(first.solid, cover.hulls), *(unseen(piece) for piece in others))
+
+
+def _circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners of the polyhedron of half-spaces along `directions` that touch `points`."""
+    directions = directions / np.linalg.norm(directions, axis=1)[:, None]
+    centre = points.mean(axis=0)
+    size = float(np.ptp(points, axis=0).max())
+    local = (points - centre) / size
+    reach = (directions @ local.T).max(axis=1)
+    corners = HalfspaceIntersection(np.column_stack([directions, -reach]), np.zeros(3)).intersections
+    # Where more than three planes meet, the corner comes out several times, apart by rounding.
+    _, first = np.unique(np.round(corners / 1e-7).astype(np.int64), axis=0, return_index=True)
+    kept: list[NDArray[np.float64]] = []
+    for corner in corners[np.sort(first)]:
+        if all(np.abs(corner - other).max() > 3e-7 for other in kept):
+            kept.append(corner)
+    return np.array(kept) * size + centre
+
+
+def _tangent_polygon(
+    piece: NDArray[np.float64], low: float, high: float, angles: Sequence[float]
+) -> list[tuple[float, float]]:
+    """(radius, z) corners of the tangents to `piece` at `angles` [degrees], between two heights."""
+    lines = [(0.0, -1.0, -low)]
+    for angle in np.radians(angles):
+        normal = np.array([math.cos(angle), math.sin(angle)])
+        lines.append((normal[0], normal[1], float((piece @ normal).max())))
+    lines.append((0.0, 1.0, high))
+    corners = []
+    for (a, b, e), (c, d, f) in zip(lines, lines[1:], strict=False):
+        det = a * d - b * c
+        corners.append(((e * d - b * f) / det, (a * f - e * c) / det))
+    corners[0] = (corners[0][0], low)
+    corners[-1] = (corners[-1][0], high)
+    return corners
+
+
+def _rings(profile: Sequence[tuple[float, float]], sides: int) -> NDArray[np.float64]:
+    """Corners of regular polygons around circles of (radius, z)."""
+    turn = 2 * np.pi * (np.arange(sides) + 0.5) / sides
+    around = np.stack([np.cos(turn), np.sin(turn)], axis=1) / math.cos(math.pi / sides)
+    distinct: list[tuple[float, float]] = []
+    for point in profile:
+        if not distinct or math.dist(point, distinct[-1]) > 1e-6:
+            distinct.append(point)
+    return np.concatenate([np.column_stack([max(r, 5e-4) * around, np.full(sides, z)]) for r, z in distinct])
+
+
+def _between(points: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
+    """The part of a (radius, z) polyline between two heights, with its points on them."""
+    pieces = [points[(points[:, 1] >= low) & (points[:, 1] <= high)]]
+    for a, b in zip(points, points[1:], strict=False):
+        for z in (low, high):
+            if min(a[1], b[1]) < z < max(a[1], b[1]):
+                part = (z - a[1]) / (b[1] - a[1])
+                pieces.append(np.array([[a[0] + part * (b[0] - a[0]), z]]))
+    return np.concatenate(pieces)
+
+
+def _chord(points: NDArray[np.float64], outward: bool) -> NDArray[np.float64]:
+    """Radii at the lowest and highest z of the line, parallel to the end points' chord, beyond all points."""
+    low, high = points[np.argmin(points[:, 1])], points[np.argmax(points[:, 1])]
+    line = low[0] + (points[:, 1] - low[1]) / (high[1] - low[1]) * (high[0] - low[0])
+    gap = points[:, 0] - line
+    shift = max(0.0, float(gap.max())) if outward else min(0.0, float(gap.min()))
+    return np.array([low[0] + shift, high[0] + shift])
+
+
+def _radius_of(profile: Profile) -> PchipInterpolator:
+    points = np.asarray(profile, dtype=np.float64)
+    return PchipInterpolator(points[:, 1], points[:, 0])
+
+
+def _sampled(radius: PchipInterpolator, profile: Profile, low: float, high: float) -> NDArray[np.float64]:
+    heights = np.linspace(low, high, 2 if len(profile) == 2 else 16)
+    heights = np.unique(np.concatenate([heights, [z for _, z in profile]]))
+    return np.column_stack([radius(heights), heights])
+
+
+def _revolved(outline: ArrayLike) -> manifold3d.Manifold:
+    points = np.asarray(outline, dtype=np.float64)
+    distinct = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > 1e-9
+    section = manifold3d.CrossSection([points[distinct]], manifold3d.FillRule.NonZero)
+    return manifold3d.Manifold.revolve(section, SMOOTH_SEGMENTS)
+
+
+def _skin(rings: NDArray[np.float64], centres: NDArray[np.float64], closed: bool) -> manifold3d.Manifold:
+    """The solid bounded by rings of points, shape (n, around, 3), closed by fans or onto itself."""
+    count, around = rings.shape[:2]
+    vertices = rings.reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(count if closed else count - 1), np.arange(around), indexing="ij")
+    a, b = (i * around + j).ravel(), (i * around + (j + 1) % around).ravel()
+    after = (i + 1) % count
+    c, d = (after * around + j).ravel(), (after * around + (j + 1) % around).ravel()
+    faces = [np.column_stack([a, b, d]), np.column_stack([a, d, c])]
+    if not closed:
+        vertices = np.concatenate([vertices, centres[[0, -1]]])
+        k = np.arange(around)
+        first, last = count * around, count * around + 1
+        final = (count - 1) * around
+        faces.append(np.column_stack([np.full(around, first), (k + 1) % around, k]))
+        faces.append(np.column_stack([np.full(around, last), final + k, final + (k + 1) % around]))
+    triangles = np.concatenate(faces)
+    corners = vertices[triangles]
+    if np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0:
+        triangles = triangles[:, ::-1]
+    mesh = manifold3d.Mesh64(np.ascontiguousarray(vertices), np.ascontiguousarray(triangles, dtype=np.uint64))
+    return manifold3d.Manifold(mesh)
