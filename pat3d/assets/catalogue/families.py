@@ -1,5 +1,11 @@
 """Imports every module of recipes; importing one registers its entries."""
 
-from pat3d.assets.catalogue import basics
+from pat3d.assets.catalogue import (
+    basics,
+    furniture,
+)
 
-__all__ = ["basics"]
+__all__ = [
+    "basics",
+    "furniture",
+]
