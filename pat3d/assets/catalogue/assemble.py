@@ -8,6 +8,8 @@ from typing import Any
 
 import manifold3d
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from pat3d.assets.asset import Asset, Material, Region, VisualMesh
 from pat3d.assets.catalogue.registry import RGB, Build
@@ -93,4 +95,17 @@ def _painted(union: manifold3d.Manifold, colour_of: dict[int, RGB], paint: tuple
     colours = np.zeros((len(faces), 3), dtype=np.uint8)
     for original, start, stop in zip(mesh.run_original_id, bounds, bounds[1:], strict=False):
         colours[start:stop] = colour_of[original]
-    return vertices, faces, colours
+    return _without_flakes(vertices, faces, colours)
+
+
+def _without_flakes(vertices: np.ndarray, faces: np.ndarray, colours: np.ndarray):
+    """The surface without its closed pieces of no volume, which cuts along a cut can leave behind."""
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+    graph = coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(len(vertices),) * 2)
+    count, piece = connected_components(graph, directed=False)
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    volume = np.bincount(piece[faces[:, 0]], np.einsum("fi,fi->f", a, np.cross(b, c)) / 6.0, minlength=count)
+    # A tenth of a millimetre cubed; the smallest real details are a thousand times larger.
+    kept = (np.abs(volume) > 1e-12)[piece[faces[:, 0]]]
+    used, renumbered = np.unique(faces[kept], return_inverse=True)
+    return vertices[used], renumbered.reshape(-1, 3).astype(np.int32), colours[kept]

@@ -3,9 +3,11 @@
 from pat3d.assets.catalogue import (
     basics,
     furniture,
+    storage,
 )
 
 __all__ = [
     "basics",
     "furniture",
+    "storage",
 ]

@@ -185,12 +185,14 @@ def disc_top(radius: float, z: float) -> Region:
     return Region(kind="on", shape="disc", floor=(0.0, 0.0, z), half_size=(radius, radius))
 
 
-def cavity(half_x: float, half_y: float, z: float, height: float, *, round_: bool = False) -> Region:
+def cavity(
+    half_x: float, half_y: float, z: float, height: float, *, round_: bool = False, at: Range = (0.0, 0.0)
+) -> Region:
     """The free space of an open container above its floor at `z` [m]."""
     return Region(
         kind="in",
         shape="disc" if round_ else "rectangle",
-        floor=(0.0, 0.0, z),
+        floor=(*at, z),
         half_size=(half_x, half_y),
         height=height,
     )
