@@ -88,7 +88,7 @@ def _painted(union: manifold3d.Manifold, colour_of: dict[int, RGB], paint: tuple
         inside = inside.as_original()
         colour_of = {**colour_of, inside.original_id(): colour, brush.original_id(): colour}
         union = (union - brush) + inside
-    mesh = union.to_mesh64()
+    mesh = union.simplify(1e-7).to_mesh64()
     vertices = np.asarray(mesh.vert_properties)[:, :3]
     faces = np.asarray(mesh.tri_verts, dtype=np.int32)
     bounds = np.asarray(mesh.run_index) // 3

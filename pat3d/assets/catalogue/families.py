@@ -3,11 +3,15 @@
 from pat3d.assets.catalogue import (
     basics,
     furniture,
+    ornaments,
+    room,
     storage,
 )
 
 __all__ = [
     "basics",
     "furniture",
+    "ornaments",
+    "room",
     "storage",
 ]
