@@ -40,7 +40,7 @@ class SettleOptions:
     """Steps of the polish before giving up."""
     d_hat: float = 1.0e-3
     """Barrier activation distance while dropping [m]."""
-    final_d_hat: float = 3.0e-5
+    final_d_hat: float = 1.5e-5
     """Barrier activation distance at rest [m]; gaps end between a third of it and it."""
     friction_speed: float = 1.0e-3
     """Speed below which friction is not fully mobilised [m/s]."""
