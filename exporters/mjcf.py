@@ -57,6 +57,9 @@ GROUND_HALF_THICKNESS = 0.5
 CONDIM = "4"
 """Contact forces along the normal, the two tangents, and a torque about the normal."""
 
+_SAME_SPOT = 5e-4
+"""Contacts of one pair closer together than this [m] are one support."""
+
 _FLUSH = 2e-6
 """Sides of two boxes closer to one plane than this [m] confuse the box-box collider."""
 
@@ -108,7 +111,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
     option = ET.SubElement(root, "option", timestep=_text(TIMESTEP), integrator="implicitfast",
                            cone="elliptic", impratio="10", ccd_tolerance=_text(CCD_TOLERANCE))  # fmt: skip
     # On by default only since MuJoCo 3.9; without it a hull rests on a single point and falls over.
-    ET.SubElement(option, "flag", multiccd="enable", nativeccd="enable")
+    ET.SubElement(option, "flag", multiccd="enable")
     _look(root, scene)
     _defaults(root)
     names = body_names(scene)
@@ -227,8 +230,13 @@ def _margins(scene: Scene, contacts: Contacts) -> list[float]:
     contact from flickering.
     """
     needed: dict[tuple[int, int], float] = {}
-    for (first, second), gap in zip(contacts.bodies.tolist(), contacts.gaps.tolist(), strict=True):
-        needed[first, second] = max(needed.get((first, second), 0.0), 1.2 * gap, 1e-6)
+    for pair in np.unique(contacts.bodies, axis=0).tolist():
+        members = np.flatnonzero((contacts.bodies == pair).all(axis=1))
+        points, gaps = contacts.points[members], contacts.gaps[members]
+        # Just outside a rim the nearest surface is further than the one that carries; only the nearest counts.
+        beside = np.linalg.norm(points[:, None] - points[None], axis=2) < _SAME_SPOT
+        carrying = gaps <= np.where(beside, gaps[None], np.inf).min(axis=1) + 1e-9
+        needed[pair[0], pair[1]] = max(1.2 * float(gaps[carrying].max()), 1e-6)
     if not needed:
         return [0.0] * len(scene.objects)
     from scipy.optimize import linprog
@@ -242,6 +250,8 @@ def _margins(scene: Scene, contacts: Contacts) -> list[float]:
     # In units of the largest margin: the solver's tolerances are absolute.
     unit = max(needed.values())
     result = linprog(np.ones(len(scene.objects)), A_ub=rows.tocsr(), b_ub=-np.array(list(needed.values())) / unit)
+    if result.x is None:
+        raise ExportError(f"no contact margins found for gaps up to {unit:.3g} m ({result.message}).")
     return (np.clip(result.x, 0.0, 1.0) * unit).tolist()
 
 
