@@ -229,14 +229,10 @@ def other_faces(group: Group, rng: np.random.Generator) -> Iterator[Array]:
     if len(group.members) > 1:
         return
     start = float(rng.uniform(-math.pi, math.pi))
-    for tilt in (
-        _about("x", -math.pi / 2),
-        _about("x", math.pi / 2),
-        _about("y", math.pi / 2),
-        _about("y", -math.pi / 2),
-    ):
-        for k in range(4):
-            yield yaw_matrix(start + k * math.pi / 4) @ tilt
+    for axis in ("x", "y"):
+        for angle in (-math.pi / 2, math.pi / 2):
+            for k in range(4):
+                yield yaw_matrix(start + k * math.pi / 4) @ _about(axis, angle)
     yield _about("x", math.pi)
 
 
@@ -253,12 +249,12 @@ def _wide_end(body: Placed, axis: int) -> float:
     across = np.delete(body.vertices, axis, axis=1)
     middle = (along.min() + along.max()) / 2
     reach = 0.25 * (along.max() - along.min())
-    spread = [float(np.prod(np.ptp(across[end * (along - middle) >= reach], axis=0) + 1e-6)) for end in (1.0, -1.0)]
-    return (
-        1.0
-        if axis == 2 and abs(spread[0] - spread[1]) < 0.1 * max(spread)
-        else float(np.sign(spread[0] - spread[1]) or 1.0)
+    top, bottom = (
+        float(np.prod(np.ptp(across[end * (along - middle) >= reach], axis=0) + 1e-6)) for end in (1.0, -1.0)
     )
+    if axis == 2 and abs(top - bottom) < 0.1 * max(top, bottom):
+        return 1.0
+    return 1.0 if top >= bottom else -1.0
 
 
 def _about(axis: str, angle: float) -> Array:

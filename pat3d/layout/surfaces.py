@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
 
@@ -76,7 +77,7 @@ class Surface:
 
     @property
     def area(self) -> float:
-        """[m^2]"""
+        """Area [m^2], infinite without an edge."""
         return (math.pi if self.disc else 4.0) * self.half_size[0] * self.half_size[1]
 
 
@@ -150,7 +151,7 @@ def natural_gap(first: Array, second: Array) -> float:
     return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))
 
 
-def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> Array:
+def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:
     """Whether rectangles `low`..`high`, shape (n, 2), stand `kind` of one rectangle, clear of it along that axis."""
     axis, sign = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}[kind]
     clear = (low_p[axis] - high[:, axis]) if sign < 0 else (low[:, axis] - high_p[axis])
@@ -307,7 +308,7 @@ class _Search:
                     turn = np.abs((angle - self.rings[item.name] + math.pi) % (2 * math.pi) - math.pi)
                     cost += 3.0 * turn * float(np.linalg.norm(half + other.size / 2))
             else:
-                cost[~side_holds(kind, centres - half, centres + half, low, high)] = np.inf
+                cost[np.logical_not(side_holds(kind, centres - half, centres + half, low, high))] = np.inf
                 across = 1 if kind in ("left_of", "right_of") else 0
                 cost += 2.0 * distance + 1.5 * in_line[:, across]
         return cost

@@ -200,7 +200,7 @@ def test_a_watermelon_in_a_mug_is_refused_with_both_sizes():
 
 def test_a_full_container_is_refused_with_what_is_inside():
     assets = {"mug": mug(), **{f"egg {k}": ball(0.022) for k in range(12)}}
-    with pytest.raises(LayoutError, match='"mug".* is full: no room for "egg'):
+    with pytest.raises(LayoutError, match=r'"mug".* is full: no room for "egg'):
         arrange(assets, tuple(rel(f"egg {k}", "in", "mug") for k in range(12)), seed=0)
 
 

@@ -6,7 +6,7 @@ import pytest
 from pat3d.errors import SpecError
 from pat3d.layout.predicates import check_relations, polygon_gap, relation_holds
 from pat3d.scene import GROUND, Pose, Relation
-from tests.layout.things import asset, ball, block, table, tree_with_branch, vessel
+from tests.layout.things import ball, block, table, tree_with_branch, vessel
 
 ASSETS = {
     "a": block(0.1, 0.1, 0.1),
@@ -66,9 +66,8 @@ def test_a_thing_leaning_on_a_table_leg_is_not_on_the_table():
     ],
 )
 def test_in(case, poses, expected):
-    assets = dict(ASSETS)
     # Circumscribed balls touch at a vertex or a face: measure, then allow for it.
-    result = check_relations((Relation(child="apple 1", kind="in", parent="bowl"),), assets, poses, touch=0.004)[0]
+    result = check_relations((Relation(child="apple 1", kind="in", parent="bowl"),), ASSETS, poses, touch=0.004)[0]
     assert result.holds is expected, (case, result.detail)
 
 
@@ -168,17 +167,3 @@ def test_polygon_gap_matches_shapely():
         a = a if shapely.LinearRing(a).is_ccw else a[::-1]
         b = b if shapely.LinearRing(b).is_ccw else b[::-1]
         assert polygon_gap(a, b) == pytest.approx(hull_a.distance(hull_b), abs=1e-12)
-
-
-def test_a_cap_is_on_the_head_it_covers():
-    cap = asset("cap", _cap())
-    assets = {"cap": cap, "head": ball(0.08)}
-    poses = {"head": Pose(), "cap": Pose(position=(0, 0, 0.10))}
-    result = check_relations((Relation(child="cap", kind="on", parent="head"),), assets, poses, touch=0.06)[0]
-    assert result.holds
-
-
-def _cap():
-    from pat3d.assets import shapes
-
-    return shapes.vessel([(0.1, 0.0), (0.1, 0.09)], [(0.09, 0.01), (0.09, 0.09)], segments=12).turned("x", 180)
