@@ -74,7 +74,7 @@ def pack(
     rng: np.random.Generator,
     gap: float,
 ) -> list[Group]:
-    """Place every group inside the container's cavity, in order.
+    """Place every group inside the container's cavity.
 
     Args:
         container: what holds them.
@@ -87,15 +87,24 @@ def pack(
     Raises:
         LayoutError: one is larger than the cavity, or the cavity is full.
     """
-    placed: list[Group] = []
-    settled = [container, *obstacles]
-    for group in groups:
-        found = _best_place(container, column, group, settled, heap=bool(placed), rng=rng, gap=gap)
-        if found is None:
-            raise _refusal(container, column, group, [other.name for other in placed])
-        placed.append(found)
-        settled.extend(found.members)
-    return placed
+    bulky = sorted(groups, key=lambda group: -float(np.prod(np.sort(group.size)[1:])))
+    refusals = []
+    # Large before small packs densest; small below large lets the large ones form the heap's top.
+    for order in (bulky, bulky[::-1]):
+        placed: list[Group] = []
+        settled = [container, *obstacles]
+        for group in order:
+            found = _best_place(container, column, group, settled, heap=bool(placed), rng=rng, gap=gap)
+            if found is None:
+                refusals.append(_refusal(container, column, group, [other.name for other in placed]))
+                break
+            placed.append(found)
+            settled.extend(found.members)
+        else:
+            return placed
+        if not placed:
+            break
+    raise refusals[-1]
 
 
 def _best_place(
@@ -108,13 +117,31 @@ def _best_place(
     rng: np.random.Generator,
     gap: float,
 ) -> Group | None:
+    for rotations in (list(orientations(group, column, rng)), list(other_faces(group, rng))):
+        found = _best_turned(container, column, group, rotations, settled, heap=heap, rng=rng, gap=gap)
+        if found is not None:
+            return found
+    return None
+
+
+def _best_turned(
+    container: Placed,
+    column: Column,
+    group: Group,
+    rotations: list[Array],
+    settled: list[Placed],
+    *,
+    heap: bool,
+    rng: np.random.Generator,
+    gap: float,
+) -> Group | None:
     cell = float(2 * column.reach.max() / CELLS)
     counts = np.maximum(1, np.round(2 * column.reach / cell).astype(int))
     corner = column.centre[:2] - cell * (counts - 1) / 2
     x, y = (corner[k] + cell * np.arange(counts[k]) for k in range(2))
     spots = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     ranked: list[tuple[float, int, Group, Array]] = []
-    for turned in (group.turned(rotation) for rotation in orientations(group, column, rng)):
+    for turned in (group.turned(rotation) for rotation in rotations):
         low, high = turned.low, turned.high
         centre = turned.centre_of_mass
         before = np.ceil((-low[:2] + gap + cell) / cell).astype(int)
@@ -154,10 +181,9 @@ def _best_place(
 
 def _deep_enough(lowest: Array, group: Group, column: Column, heap: bool) -> NDArray[np.bool_]:
     """Whether a body with its lowest point at `lowest` [m] is in the cavity, or on a heap that stays in it."""
-    tall = float(group.high[2] - group.low[2])
-    inside = lowest <= column.rim - 0.25 * min(column.height, tall)
-    if heap and not column.capped and np.sort(group.size)[1] <= 2 * column.half_size.max():
-        inside |= lowest <= column.rim + 0.5 * tall
+    inside = lowest <= column.rim - 0.25 * column.height
+    if heap and not column.capped and group.size[:2].max() <= 2.1 * column.half_size.max():
+        inside |= lowest <= column.rim + 0.5 * float(group.size[2])
     return inside
 
 
@@ -187,8 +213,6 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
     for yaw in yaws:
         yield yaw_matrix(yaw)
     if upright or long < 2.2 * wide:
-        if not upright and long > 1.3 * thin and min(size[0], size[1]) > 1.8 * column.half_size.min():
-            yield from (yaw_matrix(start) @ _onto_end(group, int(order[2]), end) for end in (1.0, -1.0))
         return
     on_end = _onto_end(group, int(order[2]), _wide_end(group.root, int(order[2])))
     steepest = min(math.atan2(max(0.0, 2 * column.half_size.min() - 1.2 * wide), column.height), math.radians(50))
@@ -198,6 +222,18 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
         for k in range(6 if share else 1):
             for spin in spins:
                 yield yaw_matrix(start + k * math.pi / 3) @ lean @ yaw_matrix(spin) @ on_end
+
+
+def other_faces(group: Group, rng: np.random.Generator) -> Iterator[Array]:
+    """Rotations, shape (3, 3), that lay a single thing on its back, front, sides and head, turned four ways."""
+    if len(group.members) > 1:
+        return
+    start = float(rng.uniform(-math.pi, math.pi))
+    for axis in ("x", "y"):
+        for angle in (-math.pi / 2, math.pi / 2):
+            for k in range(4):
+                yield yaw_matrix(start + k * math.pi / 4) @ _about(axis, angle)
+    yield _about("x", math.pi)
 
 
 def _onto_end(group: Group, axis: int, end: float) -> Array:
@@ -213,10 +249,12 @@ def _wide_end(body: Placed, axis: int) -> float:
     across = np.delete(body.vertices, axis, axis=1)
     middle = (along.min() + along.max()) / 2
     reach = 0.25 * (along.max() - along.min())
-    spread = [
+    top, bottom = (
         float(np.prod(np.ptp(across[end * (along - middle) >= reach], axis=0) + 1e-6)) for end in (1.0, -1.0)
-    ]
-    return 1.0 if axis == 2 and abs(spread[0] - spread[1]) < 0.1 * max(spread) else float(np.sign(spread[0] - spread[1]) or 1.0)
+    )
+    if axis == 2 and abs(top - bottom) < 0.1 * max(top, bottom):
+        return 1.0
+    return 1.0 if top >= bottom else -1.0
 
 
 def _about(axis: str, angle: float) -> Array:

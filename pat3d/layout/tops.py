@@ -20,6 +20,12 @@ from pat3d.layout.surfaces import Item, Lateral, arrange_flat
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
 
+_WALLED = frozenset(
+    {"bed", "sofa", "couch", "bookshelf", "bookcase", "shelf", "wardrobe", "dresser", "cabinet", "desk", "piano"}
+    | {"bedside table", "nightstand", "armchair", "filing cabinet", "floor lamp", "mirror"}
+)
+"""Nouns that stand with their backs in one line."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Top:
@@ -75,6 +81,7 @@ def item_of(group: Group, *, turnable: bool) -> Item:
     origin = group.root.position[:2]
     low, high = group.low, group.high
     points = np.concatenate([member.vertices[:, :2] for member in group.members])
+    noun = group.root.body.asset.noun
     return Item(
         name=group.name,
         low=low[:2] - origin,
@@ -82,8 +89,9 @@ def item_of(group: Group, *, turnable: bool) -> Item:
         outline=outline(points) - origin,
         centre_of_mass=group.centre_of_mass[:2] - origin,
         tall=float(high[2] - low[2]),
-        alike=group.root.body.asset.noun,
+        alike=noun,
         turnable=turnable,
+        walled=not _WALLED.isdisjoint({noun, *noun.split()}),
     )
 
 
