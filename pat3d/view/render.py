@@ -32,8 +32,7 @@ _BACKGROUND, _GROUND = -1, 0
 
 def frame_items(items: Sequence[Item], *, aspect: float = 4.0 / 3.0, **options: float) -> Camera:
     """The automatic camera for `items`; `options` are those of `pat3d.view.camera.frame`."""
-    if not items:
-        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    _check(items)
     return frame(np.concatenate([pose.apply(mesh.vertices) for mesh, pose in items]), aspect=aspect, **options)
 
 
@@ -64,8 +63,7 @@ def render(
     Raises:
         SpecError: there is nothing to draw or a size is out of range.
     """
-    if not items:
-        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    _check(items)
     if not (8 <= width <= LARGEST_PICTURE and 8 <= height <= LARGEST_PICTURE and 1 <= samples <= 64):
         raise SpecError(
             f"a picture is 8 to {LARGEST_PICTURE} pixels wide and high with 1 to 64 samples; "
@@ -80,6 +78,14 @@ def render(
     if samples > 1 and len(edge):
         picture[edge] = _refined(view, surfaces, lit, edge, samples)
     return quantise(picture, row, column).reshape(height, width, 3)
+
+
+def _check(items: Sequence[Item]) -> None:
+    if not items:
+        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    for index, (mesh, _) in enumerate(items):
+        if len(mesh.faces) == 0 or not np.all(np.isfinite(mesh.vertices)):
+            raise SpecError(f"mesh {index} of the picture has no triangles or vertices that are not finite.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +191,9 @@ class _View:
         colour = surfaces.colour.copy()
         ground = np.flatnonzero(surfaces.what == _GROUND)
         key_up = studio.key * studio.key_direction[2]
-        arriving = lit[ground, :3] + key_up * lit[ground, 3:]
+        # More than the sky that is hidden is taken away: contacts must read on a ground this bright.
+        openness = np.clip(lit[ground, :3] / studio.open_sky, 0.0, 1.1) ** 1.7
+        arriving = openness * studio.open_sky + key_up * lit[ground, 3:]
         colour[ground] *= np.minimum(arriving / (studio.open_sky + key_up), 1.05)
         mesh = np.flatnonzero(surfaces.what > 0)
         normal, ray, sky = surfaces.normal[mesh], surfaces.ray[mesh], lit[mesh, :3]
