@@ -72,7 +72,7 @@ def render(
     view = _View(items, camera or frame_items(items, aspect=width / height), width, height, ground)
     row, column = np.divmod(np.arange(width * height, dtype=np.int32), np.int32(width))
     surfaces = view.surfaces(column + np.float32(0.5), row + np.float32(0.5))
-    lit = view.lighting(surfaces, (row % light.TILE) * light.TILE + column % light.TILE, seed)
+    lit = view.lighting(surfaces, light.tile_places(row, column), seed)
     picture = compress(view.colours(surfaces, lit))
     edge = np.flatnonzero(_edges(surfaces, picture, width, height, view.pixel))
     if samples > 1 and len(edge):

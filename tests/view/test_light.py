@@ -8,11 +8,11 @@ from pat3d.view.geometry import Geometry
 from tests.view.shapes import ball
 
 STUDIO = light.Studio.facing(Camera(position=(0.0, -1.0, 0.5), target=(0.0, 0.0, 0.0)).axes)
-TILES = np.tile(np.arange(16, dtype=np.int32), 20)
+TILES = np.tile(np.arange(64, dtype=np.int32), 5)
 
 
 def test_sample_set_puts_one_point_in_every_elementary_interval():
-    points = light.sample_set(4, seed=3).reshape(-1, 2)
+    points = light.sample_set(16, 4, seed=3).reshape(-1, 2)
     for columns in (1, 2, 4, 8, 16, 32, 64):
         cell = np.floor(points * (columns, 64 // columns)).astype(int)
         assert len({tuple(pair) for pair in cell}) == 64
@@ -63,15 +63,17 @@ def test_key_light_is_seen_in_the_open_and_hidden_behind_a_ball():
 
 
 def test_smoothing_averages_a_tile_pattern_to_its_mean_and_respects_borders():
-    h, w = 32, 40
+    h, w = 48, 40
     rows, columns = np.indices((h, w))
-    pattern = ((rows % 4) * 4 + columns % 4)[..., None].astype(np.float32)
+    flat = (rows.reshape(-1).astype(np.int32), columns.reshape(-1).astype(np.int32))
+    places = light.tile_places(*flat).reshape(h, w)
+    pattern = np.stack([places, places, places, places % 16], axis=2).astype(np.float32)
     surface = np.where(columns < 20, 1, 2).astype(np.int32)
     position = np.stack([columns, rows, np.zeros((h, w))], axis=2).astype(np.float32)
     normal = np.broadcast_to(np.array([0.0, 0.0, 1.0], dtype=np.float32), (h, w, 3))
     pixel = np.ones((h, w), dtype=np.float32)
-    same = np.ones_like(surface)
-    even = smooth(pattern, same, position, normal, pixel)
-    np.testing.assert_allclose(even[6:-6, 6:-6], 7.5, atol=1e-4)
-    halves = np.where(columns < 20, 0.0, 1.0)[..., None].astype(np.float32)
+    even = smooth(pattern, np.ones_like(surface), position, normal, pixel)
+    inner = even[8:-8, 8:-8]
+    np.testing.assert_allclose(inner, np.broadcast_to([31.5, 31.5, 31.5, 7.5], inner.shape), atol=1e-4)
+    halves = np.repeat(np.where(columns < 20, 0.0, 1.0)[..., None], 4, axis=2).astype(np.float32)
     np.testing.assert_array_equal(smooth(halves, surface, position, normal, pixel), halves)
