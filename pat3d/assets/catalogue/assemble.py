@@ -13,6 +13,7 @@ from pat3d.assets.asset import Asset, Material, Region, VisualMesh
 from pat3d.assets.catalogue.registry import RGB, Build
 from pat3d.assets.hull import convex_part
 from pat3d.assets.mass import mass_properties
+from pat3d.assets.seams import close_seams
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError
 
@@ -102,8 +103,8 @@ def _painted(noun: str, union: manifold3d.Manifold, colour_of: dict[int, RGB], p
     )
     faces = inverse.reshape(-1, 3)
     kept = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = faces[kept].astype(np.int32)
+    faces, source = close_seams(flat[first], faces[kept].astype(np.int32))
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     if np.any(np.unique(edges, axis=0, return_counts=True)[1] % 2):
         raise AssetError(f'the painted surface of recipe "{noun}" is not closed.')
-    return flat[first], faces, np.concatenate(colours)[kept]
+    return flat[first], faces, np.concatenate(colours)[kept][source]

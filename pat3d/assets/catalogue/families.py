@@ -2,12 +2,18 @@
 
 from pat3d.assets.catalogue import (
     basics,
+    food,
     fruit,
+    kitchen,
+    pantry,
     tableware,
 )
 
 __all__ = [
     "basics",
+    "food",
     "fruit",
+    "kitchen",
+    "pantry",
     "tableware",
 ]

@@ -207,10 +207,10 @@ def carrot(style: Style) -> Build:
     root = lathe(profile, angles=(-45.0, -lean, 45.0))
     stems = [rod((0, 0, n), (0.0085 * np.cos(a), 0.0085 * np.sin(a), n + 0.05), 0.002, sides=4) for a in range(0, 6)]
     greens = covered(stems, lathe([(0.003, n), (0.011, n + 0.051)], angles=(-8.0,), sides=8))
-    down = -float(root.turned("y", 90 + lean).hulls[0][:, 2].min())
+    down = -float(root.turned("y", 90 - lean).hulls[0][:, 2].min())
 
     def laid(shape: Shape) -> Shape:
-        return shape.turned("y", 90 + lean).moved(z=down)
+        return shape.turned("y", 90 - lean).moved(z=down)
 
     rings = [cylinder(0.1, 0.0012).moved(z=part * n) for part in (0.3, 0.45, 0.62, 0.74, 0.9)]
     return Build(
