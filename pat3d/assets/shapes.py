@@ -55,6 +55,18 @@ class Shape:
         """The shape reflected in the plane through the origin normal to `axis`."""
         return self.transformed(np.diag([-1.0 if name == axis else 1.0 for name in "xyz"]))
 
+    def cut_below(self, z: float) -> Shape:
+        """The part above height `z` [m]: round things get a flat base to stand on.
+
+        A convex part with corners too many or too close together gets a simpler, slightly larger base.
+        """
+        hulls = tuple(_clipped(points, z) for points in self.hulls if points[:, 2].max() > z + 1e-6)
+        return Shape(self.solid.trim_by_plane((0.0, 0.0, 1.0), z), hulls)
+
+    def cut_above(self, z: float) -> Shape:
+        """The part below height `z` [m]."""
+        return self.mirrored("z").cut_below(-z).mirrored("z")
+
 
 def join(*shapes: Shape) -> Shape:
     """One shape of several (of one colour)."""
@@ -227,6 +239,51 @@ def tray(x: float, y: float, height: float, wall: float, floor: float, flare: fl
                         points.append(point)
             pieces.append(convex(points))
     return join(*pieces)
+
+
+def _clipped(points: NDArray[np.float64], z: float) -> NDArray[np.float64]:
+    """Vertices, shape (n, 3), of the hull of `points` above height `z`, at most 34 so that it has 64 triangles.
+
+    A base of too many corners becomes a polygon around it: each step drops the edge whose
+    neighbours, prolonged until they meet, add the smallest area.
+    """
+    if points[:, 2].min() >= z - 1e-12:
+        return points
+    hull = ConvexHull(points)
+    # A corner left a hair above the base would be a bump on it, so the edge down to it is prolonged to the base.
+    band = z + 0.02 * (points[:, 2].max() - z)
+    above = points[[index for index in hull.vertices if points[index, 2] > band]]
+    edges = {tuple(sorted(pair)) for a, b, c in hull.simplices for pair in ((a, b), (b, c), (c, a))}
+    crossing = []
+    for i, j in sorted(edges):
+        (low, high) = sorted((points[i], points[j]), key=lambda point: point[2])
+        if low[2] <= band < high[2]:
+            crossing.append((low + (high - low) * (z - low[2]) / (high[2] - low[2]))[:2])
+    base = np.array(crossing)
+    base = base[ConvexHull(base).vertices]
+    size = float(np.ptp(base, axis=0).max())
+    while len(base) > 3:
+        added, corner, edge = min(_without_edge(base, k, size) for k in range(len(base)))
+        shortest = np.linalg.norm(base - np.roll(base, -1, axis=0), axis=1).min()
+        fine = len(base) == 4 or shortest > 0.03 * size
+        if not np.isfinite(added) or (len(above) + len(base) <= 34 and fine):
+            break
+        base[edge] = corner
+        base = np.delete(base, (edge + 1) % len(base), axis=0)
+    return np.concatenate([above, np.column_stack([base, np.full(len(base), z)])])
+
+
+def _without_edge(ring: NDArray[np.float64], edge: int, size: float) -> tuple[float, tuple[float, float], int]:
+    """(added area, new corner, edge) when a counter-clockwise polygon's neighbours of `edge` are prolonged to meet."""
+    before, start, end, after = (ring[(edge + step) % len(ring)] for step in (-1, 0, 1, 2))
+    u, v, gap = start - before, after - end, end - start
+    turn = u[0] * v[1] - u[1] * v[0]
+    if turn <= 1e-9 * size**2:
+        return math.inf, (0.0, 0.0), edge
+    along = (gap[0] * v[1] - gap[1] * v[0]) / turn
+    corner = start + along * u
+    area = 0.5 * abs(gap[0] * (corner - start)[1] - gap[1] * (corner - start)[0])
+    return (float(area) if along > 0 else math.inf), (float(corner[0]), float(corner[1])), edge
 
 
 def _revolved(outline: Sequence[tuple[float, float]]) -> manifold3d.Manifold:

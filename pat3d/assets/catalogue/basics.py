@@ -1,7 +1,8 @@
 """Plain solids: boxes, blocks, balls."""
 
+from pat3d.assets.catalogue.joinery import resting_ball
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.shapes import box, ellipsoid
+from pat3d.assets.shapes import box
 
 
 @entry(
@@ -37,4 +38,4 @@ def block(style: Style) -> Build:
 def ball(style: Style) -> Build:
     """A hollow play ball."""
     radius = style.vary(0.035)
-    return Build(parts=((ellipsoid(radius).moved(z=radius), style.colour()),), mass=0.012)
+    return Build(parts=((resting_ball(radius), style.colour()),), mass=0.012)

@@ -1,0 +1,236 @@
+"""From assets and relations to poses where nothing touches: every object just above what will carry it.
+
+The scene tree is arranged from the leaves up: an object gathers what it contains and carries into a group
+that moves as one, and groups are arranged on what carries them, the ground last. All frames are parallel
+to the world's, so "left of" means the same everywhere. The result is proved before it is returned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.assets.asset import Asset
+from pat3d.errors import LayoutError
+from pat3d.layout.bodies import Body
+from pat3d.layout.containers import pack
+from pat3d.layout.frames import column_of, flat_regions
+from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.hanging import hang
+from pat3d.layout.proof import Proof, prove
+from pat3d.layout.surfaces import Lateral, Surface, arrange_flat, ring_angles
+from pat3d.layout.tops import Top, item_of, spread
+from pat3d.scene import GROUND, Pose, Relation, check_tree, parent_of
+
+_SEATS = frozenset({"chair", "armchair", "stool", "bench"})
+"""Nouns that turn towards what they stand around."""
+_FURNITURE = 0.6
+"""Objects larger than this [m] stand parallel to the walls of an imagined room."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layout:
+    """Initial poses, proved free of intersection."""
+
+    poses: Mapping[str, Pose]
+    """Pose of every object, in the order of the assets."""
+    notes: tuple[str, ...] = ()
+    """What was decided where the relations were silent or could not be honoured."""
+    proof: Proof
+    """Distances between neighbours."""
+
+
+def arrange(
+    assets: Mapping[str, Asset],
+    relations: tuple[Relation, ...],
+    *,
+    seed: int,
+    fixed_poses: Mapping[str, Pose] | None = None,
+    gap: float = 0.002,
+) -> Layout:
+    """Place every asset by its relations; the same arguments give the same layout.
+
+    Args:
+        assets: by object name, in the order in which they matter.
+        relations: the scene tree and the lateral relations.
+        seed: of the small variations (yaw, jitter, order in containers).
+        fixed_poses: objects that stay exactly where they are given.
+        gap: distance that objects keep from what will carry them [m].
+
+    Raises:
+        SpecError: the relations name unknown objects or form no tree.
+        LayoutError: something does not fit where it belongs, or given poses intersect.
+    """
+    fixed = dict(fixed_poses or {})
+    check_tree(list(assets), relations)
+    unknown = [name for name in fixed if name not in assets]
+    if unknown:
+        raise LayoutError(f'"{unknown[0]}" has a pose but is not in the scene. Objects: {", ".join(assets)}.')
+    arranger = _Arranger(assets, relations, seed, fixed, gap)
+    placed = {member.body.name: member for group in arranger.ground() for member in group.members}
+    bodies = [placed[name] for name in assets]
+    proof = prove(bodies)
+    poses = {body.body.name: fixed.get(body.body.name) or body.pose for body in bodies}
+    return Layout(poses=poses, notes=tuple(arranger.notes), proof=proof)
+
+
+class _Arranger:
+    def __init__(
+        self,
+        assets: Mapping[str, Asset],
+        relations: tuple[Relation, ...],
+        seed: int,
+        fixed: dict[str, Pose],
+        gap: float,
+    ) -> None:
+        self.seed, self.fixed, self.gap = seed, fixed, gap
+        self.notes: list[str] = []
+        self.bodies = {name: Body(name, asset) for name, asset in assets.items()}
+        self.parents = {name: parent_of(name, relations) for name in assets}
+        self.kinds = {rel.child: rel.kind for rel in relations if rel.supports}
+        self.children: dict[str, list[str]] = {name: [] for name in (GROUND, *assets)}
+        for name, parent in self.parents.items():
+            self.children[parent].append(name)
+        self.laterals = self._sibling_laterals(relations)
+        for name in fixed:
+            parent = self.parents[name]
+            if parent != GROUND and parent not in fixed:
+                raise LayoutError(
+                    f'"{name}" has a given pose but its support "{parent}" has none. Give "{parent}" a pose too, or '
+                    f'leave "{name}" to the layout. Nothing was written.'
+                )
+
+    def ground(self) -> list[Group]:
+        """Every object, in groups that stand on the ground."""
+        names = self.children[GROUND]
+        laterals = self.laterals.get(GROUND, [])
+        groups = {name: self._build(name, self._yaw(name, GROUND, 0.0, laterals)) for name in names}
+        items = [item_of(group, turnable=False) for group in groups.values()]
+        pinned = {name: np.array(self.fixed[name].position[:2]) for name in names if name in self.fixed}
+        spots = arrange_flat(items, laterals, Surface(), pinned=pinned)
+        if spots is None:
+            listed = ", ".join(f"{lat.child} {lat.kind} {lat.parent}" for lat in laterals)
+            raise LayoutError(
+                f"no arrangement on the {GROUND} satisfies all of: {listed}. Remove one, or give poses. "
+                "Nothing was written."
+            )
+        result = []
+        for name, group in groups.items():
+            if name in self.fixed:
+                result.append(group.shifted(np.array(self.fixed[name].position)))
+            else:
+                height = self.gap - float(group.low[2])
+                result.append(group.shifted(np.array([*spots[name].position, height])))
+        return result
+
+    def _build(self, name: str, yaw: float) -> Group:
+        """The object at the origin with everything that it contains, carries and holds."""
+        rotation = self.fixed[name].rotation if name in self.fixed else yaw_matrix(yaw)
+        root = self.bodies[name].at(rotation, np.zeros(3))
+        group = Group((root,))
+        kids = self.children[name]
+        inside = [kid for kid in kids if self.kinds[kid] == "in" and column_of(root) is not None]
+        hanging = [kid for kid in kids if self.kinds[kid] == "hangs_from"]
+        for kid in kids:
+            if self.kinds[kid] == "in" and kid not in inside:
+                self.notes.append(f'"{name}" has no cavity; "{kid}" stands on it.')
+        onto = [kid for kid in kids if kid not in inside and kid not in hanging]
+        group = self._fill(group, inside)
+        group = self._load(group, onto, yaw)
+        for kid in hanging:
+            if kid in self.fixed:
+                group = self._with(group, [self._pinned(kid, name)])
+                continue
+            found = hang(self._build(kid, 0.0), group, gap=self.gap)
+            group = self._with(group, [found])
+        return group
+
+    def _fill(self, group: Group, names: list[str]) -> Group:
+        root = group.root
+        column = column_of(root)
+        if not names or column is None:
+            return group
+        given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
+        groups = [self._build(kid, 0.0) for kid in names if kid not in self.fixed]
+        # Long things first while the bottom is free, then large before small.
+        groups.sort(key=lambda kid: -float(np.prod(np.sort(kid.size)[1:])))
+        obstacles = [member for other in given for member in other.members]
+        packed = pack(
+            root, column, groups, obstacles=obstacles, rng=self._rng(group.name, "pack"), gap=self.gap
+        )  # fmt: skip
+        return self._with(group, [*given, *packed])
+
+    def _load(self, group: Group, names: list[str], yaw: float) -> Group:
+        if not names:
+            return group
+        laterals = [
+            lat for lat in self.laterals.get(group.name, []) if lat.child in names and lat.parent in names
+        ]  # fmt: skip
+        given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
+        free = [kid for kid in names if kid not in self.fixed]
+        groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]
+        top = Top(
+            supports=[*group.members, *(member for other in given for member in other.members)],
+            root=group.root,
+            regions=flat_regions(group.root),
+            given=given,
+            turnable={kid for kid in free if not self.children[kid]},
+            gap=self.gap,
+        )
+        placed, notes = spread(top, groups, laterals, self._rng(group.name, "on"))
+        self.notes.extend(notes)
+        return self._with(group, [*given, *placed])
+
+    def _pinned(self, name: str, parent: str) -> Group:
+        """A fixed child in its fixed parent's frame."""
+        offset = np.array(self.fixed[name].position) - np.array(self.fixed[parent].position)
+        return self._build(name, 0.0).shifted(offset)
+
+    def _with(self, group: Group, others: Sequence[Group]) -> Group:
+        return Group((*group.members, *(member for other in others for member in other.members)))
+
+    def _yaw(self, name: str, parent: str, base: float, laterals: list[Lateral]) -> float:
+        angle = ring_angles(laterals).get(name)
+        if angle is not None and _SEATS & set(self.bodies[name].asset.noun.split()):
+            return float(np.arctan2(-np.cos(angle), np.sin(angle)))
+        kids, size = self.children[name], float(self.bodies[name].asset.size.max())
+        if size > _FURNITURE or len(kids) > 1:
+            return 0.0
+        alone = parent != GROUND and len(self.children[parent]) == 1
+        spread_by = 0.06 if kids or alone else 0.14
+        return (base if alone else 0.0) + float(self._rng(name, "yaw").uniform(-spread_by, spread_by))
+
+    def _rng(self, name: str, purpose: str) -> np.random.Generator:
+        return np.random.default_rng([self.seed, *name.encode(), *purpose.encode()])
+
+    def _sibling_laterals(self, relations: tuple[Relation, ...]) -> dict[str, list[Lateral]]:
+        """Lateral relations as relations between two children of one support, by support."""
+        found: dict[str, list[Lateral]] = {}
+        for relation in relations:
+            if relation.supports:
+                continue
+            if relation.parent == GROUND:
+                self.notes.append(f'"{relation}" places nothing: the ground is everywhere.')
+                continue
+            first, second = self._path(relation.child), self._path(relation.parent)
+            shared = next(name for name in first if name in second)
+            if shared in (relation.child, relation.parent):
+                self.notes.append(f'"{relation}" is left aside: one carries the other.')
+                continue
+            child, parent = first[first.index(shared) - 1], second[second.index(shared) - 1]
+            if shared != GROUND and "on" not in (self.kinds[child], self.kinds[parent]):
+                self.notes.append(f'"{relation}" is left aside: things inside "{shared}" lie as they fit.')
+                continue
+            lateral = Lateral(child=child, kind=relation.kind, parent=parent)
+            group = found.setdefault(shared, [])
+            if lateral not in group:
+                group.append(lateral)
+        return found
+
+    def _path(self, name: str) -> list[str]:
+        path = [name]
+        while path[-1] != GROUND:
+            path.append(self.parents[path[-1]])
+        return path

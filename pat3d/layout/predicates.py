@@ -1,0 +1,275 @@
+"""Does a relation hold at given poses? Yes or no, as a person looking at the scene would answer.
+
+With the bounding box, the footprint (hull of the parts seen from above) and the centre of mass of the
+exported parts, and the viewer at -y:
+
+- carried: the child touches the parent (parts at most `touch` apart), or touches something that is itself
+  carried by the parent and whose centre of mass is over the parent's footprint.
+- on: carried, the child's centre of mass over the parent's footprint, and the child's lowest point above the
+  parent's lowest point (a ball leaning on a table leg is not on the table).
+- in: carried, the centre of mass in the column over the parent's cavity, and the lowest point below the rim, or,
+  on a heap, above the rim by at most half the child's own height. Without a cavity: the centre of mass and
+  the lowest point inside the bounding box.
+- left_of, right_of, in_front_of, behind: along the axis the centres are in that order and the boxes overlap
+  by at most half of the smaller one; and the offset is mostly along that axis (within 60 degrees of it), or
+  the boxes overlap across it.
+- next_to: the gap between the footprints is at most the larger of 0.25 m and the longer horizontal side of
+  both objects (never more than 1 m), neither centre is over the other's footprint, and the heights that they
+  span overlap or are at most 0.1 m apart.
+- around: as next_to with twice the gap; of three or more that stand around one thing, neighbours are at most
+  200 degrees apart as seen from it.
+- hangs_from: the child's top is not above the parent's, its centre of mass is below what it touches or is
+  attached to, and it is off the ground.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from pat3d.assets.asset import Asset
+from pat3d.errors import SpecError
+from pat3d.layout.bodies import Array, Placed, distance, place_all
+from pat3d.layout.frames import column_of
+from pat3d.scene import GROUND, Pose, Relation
+
+TOUCH = 1.0e-3
+"""Parts at most this far apart [m] touch."""
+_SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RelationResult:
+    """Whether a relation holds, and what was measured."""
+
+    relation: Relation
+    holds: bool
+    detail: str
+    """For example "gap 0.02 mm, centre inside the footprint"."""
+
+
+def relation_holds(
+    relation: Relation, assets: Mapping[str, Asset], poses: Mapping[str, Pose], *, touch: float = TOUCH
+) -> bool:
+    """Whether `relation` holds at `poses`; see the module for what each kind means."""
+    return check_relations((relation,), assets, poses, touch=touch)[0].holds
+
+
+def check_relations(
+    relations: tuple[Relation, ...],
+    assets: Mapping[str, Asset],
+    poses: Mapping[str, Pose],
+    *,
+    touch: float = TOUCH,
+) -> tuple[RelationResult, ...]:
+    """Every relation with its verdict and what was measured.
+
+    Args:
+        relations: support and lateral relations.
+        assets: by object name.
+        poses: of every object.
+        touch: parts at most this far apart touch [m].
+
+    Raises:
+        SpecError: a relation names an object without a pose.
+    """
+    for relation in relations:
+        for name in (relation.child, relation.parent):
+            if name != GROUND and name not in poses:
+                raise SpecError(f'relation "{relation}" names "{name}", which has no pose.')
+    view = _View(place_all(assets, poses), relations, touch)
+    return tuple(view.judge(relation) for relation in relations)
+
+
+class _View:
+    """The posed objects, with distances and footprints computed once."""
+
+    def __init__(self, bodies: dict[str, Placed], relations: tuple[Relation, ...], touch: float) -> None:
+        self.bodies, self.relations, self.touch = bodies, relations, touch
+        self._footprints: dict[str, Array] = {}
+        self._gaps: dict[tuple[str, str], float] = {}
+
+    def judge(self, relation: Relation) -> RelationResult:
+        if relation.parent == GROUND:
+            holds, detail = self._on_ground(relation)
+        elif relation.kind == "on":
+            holds, detail = self._on(relation.child, relation.parent)
+        elif relation.kind == "in":
+            holds, detail = self._in(relation.child, relation.parent)
+        elif relation.kind == "hangs_from":
+            holds, detail = self._hangs(relation.child, relation.parent)
+        elif relation.kind in _SIDES:
+            holds, detail = self._side(relation.child, relation.kind, relation.parent)
+        else:
+            holds, detail = self._beside(relation)
+        return RelationResult(relation=relation, holds=holds, detail=detail)
+
+    def _on_ground(self, relation: Relation) -> tuple[bool, str]:
+        height = float(self.bodies[relation.child].low[2])
+        if not relation.supports:
+            return True, "everything stands over the ground"
+        return relation.kind == "on" and height <= self.touch, f"{height * 1e3:.2f} mm above the ground"
+
+    def _on(self, child: str, parent: str) -> tuple[bool, str]:
+        body, under = self.bodies[child], self.bodies[parent]
+        carried, how = self._carried(child, parent)
+        over = self._over(child, parent)
+        above = bool(body.low[2] > under.low[2] + self.touch)
+        where = f"centre {'inside' if over else 'outside'} the footprint"
+        return carried and over and above, how + ", " + where + ("" if above else ", not above its base")
+
+    def _in(self, child: str, parent: str) -> tuple[bool, str]:
+        body, holder = self.bodies[child], self.bodies[parent]
+        carried, how = self._carried(child, parent)
+        column = column_of(holder)
+        if column is None:
+            points = np.stack([body.centre_of_mass, [*body.centre_of_mass[:2], body.low[2]]])
+            inside = bool(np.all((points >= holder.low - self.touch) & (points <= holder.high + self.touch)))
+            return carried and inside, f"{how}, centre {'inside' if inside else 'outside'} the bounding box"
+        within = bool(column.holds(body.centre_of_mass[:2]))
+        depth = column.rim - float(body.low[2])
+        tall = float(body.high[2] - body.low[2])
+        deep = depth > 0.0 or (depth > -0.5 * tall and not column.capped)
+        deep = deep and bool(body.high[2] > column.centre[2])
+        side = "below" if depth > 0 else "above"
+        return (
+            carried and within and deep,
+            f"{how}, centre {'inside' if within else 'outside'} the cavity, lowest point {abs(depth) * 1e3:.1f} mm "
+            f"{side} the rim",
+        )
+
+    def _hangs(self, child: str, parent: str) -> tuple[bool, str]:
+        body, holder = self.bodies[child], self.bodies[parent]
+        closest = distance(body, holder, self.touch + 1e-9)
+        below = bool(body.high[2] <= holder.high[2] + self.touch)
+        free = bool(body.low[2] > self.touch)
+        if closest is None:
+            return False, f"gap over {self.touch * 1e3:.1f} mm"
+        point = closest.first if closest.distance > 0.0 else body.high
+        pendant = bool(body.centre_of_mass[2] < point[2])
+        detail = f"gap {closest.distance * 1e3:.2f} mm, top {'below' if below else 'above'} the carrier's top"
+        return below and free and pendant, detail + ("" if pendant else ", not below its attachment")
+
+    def _side(self, child: str, kind: str, parent: str) -> tuple[bool, str]:
+        axis, sign = _SIDES[kind]
+        a, b = self.bodies[child], self.bodies[parent]
+        offset = (a.low + a.high - b.low - b.high) / 2
+        along = sign * float(offset[axis])
+        overlap = min(a.high[axis], b.high[axis]) - max(a.low[axis], b.low[axis])
+        smaller = min(a.high[axis] - a.low[axis], b.high[axis] - b.low[axis])
+        other = 1 - axis
+        facing = min(a.high[other], b.high[other]) > max(a.low[other], b.low[other])
+        aligned = facing or abs(float(offset[other])) <= math.sqrt(3.0) * along
+        holds = along > 0.0 and overlap <= 0.5 * smaller and aligned
+        detail = f"centre {along * 1e3:.0f} mm to that side"
+        if overlap > 0.0:
+            detail += f", overlapping by {overlap / smaller:.0%}"
+        return bool(holds), detail + ("" if aligned else f", but {abs(offset[other]) * 1e3:.0f} mm across")
+
+    def _beside(self, relation: Relation) -> tuple[bool, str]:
+        a, b = self.bodies[relation.child], self.bodies[relation.parent]
+        reach = max(float((body.high - body.low)[:2].max()) for body in (a, b))
+        limit = min(max(0.25, reach), 1.0) * (2.0 if relation.kind == "around" else 1.0)
+        gap = polygon_gap(self._footprint(relation.child), self._footprint(relation.parent))
+        apart = max(0.0, float(max(a.low[2] - b.high[2], b.low[2] - a.high[2])))
+        stacked = self._over(relation.child, relation.parent) or self._over(relation.parent, relation.child)
+        holds = gap <= limit and apart <= 0.1 and not stacked
+        detail = f"{gap * 1e3:.0f} mm apart (at most {limit * 1e3:.0f})"
+        if stacked:
+            detail += ", one above the other"
+        if apart > 0.1:
+            detail += f", {apart:.2f} m between their heights"
+        if relation.kind == "around":
+            widest = self._widest_gap(relation.parent)
+            if widest is not None:
+                holds = holds and widest <= 200.0
+                detail += f", neighbours at most {widest:.0f} degrees apart"
+        return bool(holds), detail
+
+    def _widest_gap(self, centre: str) -> float | None:
+        """Widest angle [degrees] between neighbours around `centre`; None for fewer than three."""
+        names = [rel.child for rel in self.relations if rel.kind == "around" and rel.parent == centre]
+        if len(names) < 3:
+            return None
+        middle = (self.bodies[centre].low + self.bodies[centre].high) / 2
+        offsets = [(self.bodies[name].low + self.bodies[name].high) / 2 - middle for name in names]
+        angles = np.sort([math.degrees(math.atan2(offset[1], offset[0])) for offset in offsets])
+        return float(np.max(np.diff([*angles, angles[0] + 360.0])))
+
+    def _carried(self, child: str, parent: str) -> tuple[bool, str]:
+        """Whether contacts lead from the child down to the parent, and how."""
+        direct = self._gap(child, parent)
+        if direct <= self.touch:
+            return True, f"gap {max(direct, 0.0) * 1e3:.2f} mm"
+        reached, frontier = {child}, [child]
+        while frontier:
+            name = frontier.pop()
+            for other in self.bodies:
+                if other in reached or other == parent or self._gap(name, other) > self.touch:
+                    continue
+                reached.add(other)
+                if not self._over(other, parent):
+                    continue
+                if self._gap(other, parent) <= self.touch:
+                    return True, f'carried through "{other}"'
+                frontier.append(other)
+        return False, f"gap {direct * 1e3:.2f} mm" if math.isfinite(direct) else "far apart"
+
+    def _gap(self, first: str, second: str) -> float:
+        """Distance [m] between two objects, infinite beyond 0.1 m."""
+        key = (first, second) if first < second else (second, first)
+        if key not in self._gaps:
+            closest = distance(self.bodies[key[0]], self.bodies[key[1]], 0.1)
+            self._gaps[key] = math.inf if closest is None else closest.distance
+        return self._gaps[key]
+
+    def _over(self, name: str, parent: str) -> bool:
+        """Whether the centre of mass is over the parent's footprint."""
+        return _contains(self._footprint(parent), self.bodies[name].centre_of_mass[:2])
+
+    def _footprint(self, name: str) -> Array:
+        if name not in self._footprints:
+            points = self.bodies[name].vertices[:, :2]
+            try:
+                self._footprints[name] = points[ConvexHull(points).vertices]
+            except QhullError as error:  # pragma: no cover  (parts have volume)
+                raise SpecError(f'"{name}" has no footprint.') from error
+        return self._footprints[name]
+
+
+def polygon_gap(first: Array, second: Array) -> float:
+    """Distance [m] between two convex polygons, counter-clockwise corners of shape (n, 2); 0 where they overlap."""
+    best = math.inf
+    for polygon, points in ((first, second), (second, first)):
+        edges = np.roll(polygon, -1, axis=0) - polygon
+        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
+        relative = points[None] - polygon[:, None]
+        # A point inside, or an edge that separates.
+        if np.any(np.all(np.einsum("epi,ei->ep", relative, normals) <= 0.0, axis=0)):
+            return 0.0
+        share = np.clip(
+            np.einsum("epi,ei->ep", relative, edges) / np.maximum(np.sum(edges**2, axis=1), 1e-300)[:, None], 0.0, 1.0
+        )
+        best = min(best, float(np.min(np.linalg.norm(relative - share[..., None] * edges[:, None], axis=-1))))
+    return 0.0 if _cross(first, second) else best
+
+
+def _cross(first: Array, second: Array) -> bool:
+    """Whether no edge of either convex polygon separates the two."""
+    for polygon, points in ((first, second), (second, first)):
+        edges = np.roll(polygon, -1, axis=0) - polygon
+        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
+        sides = np.einsum("epi,ei->ep", points[None] - polygon[:, None], normals)
+        if np.any(np.all(sides >= 0.0, axis=1)):
+            return False
+    return True
+
+
+def _contains(polygon: Array, point: Array) -> bool:
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    relative = point - polygon
+    return bool(np.all(edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0] >= -1e-12))

@@ -1,0 +1,365 @@
+"""Arranging things on a flat surface, seen from above: rectangles, and who stands left of whom.
+
+Things are placed one after another. Each looks for the cheapest free place among those beside what is
+already there that satisfy its lateral relations; when none is left the search backs up, and when it runs
+dry things move closer together, turn by a quarter, and at last may stand over the edge a little.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from pat3d.layout.bodies import Array
+
+BRANCHES = 4
+"""Places tried for each thing before backing up."""
+BUDGET = 400
+"""Places tried in all before a strategy is given up."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Item:
+    """What is placed: the outline of a group relative to its root's origin."""
+
+    name: str
+    low: Array
+    """Lower corner of the bounding rectangle [m], shape (2,)."""
+    high: Array
+    """Upper corner [m], shape (2,)."""
+    outline: Array
+    """Points whose hull is the footprint [m], shape (n, 2)."""
+    centre_of_mass: Array
+    """[m], shape (2,)."""
+    tall: float
+    """Height above the surface [m]."""
+    alike: str = ""
+    """What it is; things alike keep closer together."""
+    turnable: bool = True
+    """Whether it may be turned by a quarter to fit."""
+
+    @property
+    def size(self) -> Array:
+        """Extents [m], shape (2,)."""
+        return self.high - self.low
+
+    def quarter(self) -> Item:
+        """The item turned by 90 degrees about its origin."""
+        turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+        corners = np.array([self.low, self.high]) @ turn.T
+        return Item(
+            name=self.name, low=corners.min(axis=0), high=corners.max(axis=0), outline=self.outline @ turn.T,
+            centre_of_mass=turn @ self.centre_of_mass, tall=self.tall, alike=self.alike, turnable=False,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Surface:
+    """A free rectangle or disc, or the unlimited ground."""
+
+    half_size: tuple[float, float] = (math.inf, math.inf)
+    """Half extents along x and y [m]."""
+    disc: bool = False
+
+    @property
+    def limited(self) -> bool:
+        """Whether it has an edge."""
+        return math.isfinite(self.half_size[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lateral:
+    """`child` stands `kind` of `parent`, both on this surface."""
+
+    child: str
+    kind: str
+    parent: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spot:
+    """Where an item's origin goes, relative to the centre of the surface."""
+
+    position: Array
+    """[m], shape (2,)."""
+    quarter: bool = False
+    """Whether it was turned by 90 degrees."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Strategy:
+    spacing: float
+    """Factor on the natural gaps."""
+    least: float
+    """Smallest gap [m]."""
+    quarters: bool = False
+    largest_first: bool = False
+    overhang: float = 0.0
+    """Share of an item's size that may stand over the edge."""
+
+
+_STRATEGIES = (
+    _Strategy(spacing=1.0, least=0.02),
+    _Strategy(spacing=0.5, least=0.01),
+    _Strategy(spacing=0.0, least=0.01, quarters=True),
+    _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True),
+    _Strategy(spacing=0.0, least=0.004, quarters=True, overhang=0.15),
+    _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True, overhang=0.3),
+)
+
+
+def arrange_flat(
+    items: Sequence[Item], laterals: Sequence[Lateral], surface: Surface, *, pinned: Mapping[str, Array] | None = None
+) -> dict[str, Spot] | None:
+    """Where every item goes, or None where they do not fit.
+
+    Args:
+        items: in the order in which they matter.
+        laterals: relations among them.
+        surface: what they stand on; positions are relative to its centre.
+        pinned: items already at a position [m], shape (2,).
+    """
+    fixed = dict(pinned or {})
+    for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
+        found = _Search(items, laterals, surface, fixed, strategy).run()
+        if found is not None:
+            return found
+    return None
+
+
+def natural_gap(first: Array, second: Array) -> float:
+    """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
+    small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))
+    return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))
+
+
+def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> Array:
+    """Whether rectangles `low`..`high`, shape (n, 2), stand `kind` of one rectangle, clear of it along that axis."""
+    axis, sign = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}[kind]
+    clear = (low_p[axis] - high[:, axis]) if sign < 0 else (low[:, axis] - high_p[axis])
+    other = 1 - axis
+    aside = np.abs((low + high)[:, other] - (low_p + high_p)[other]) / 2
+    ahead = np.abs((low + high)[:, axis] - (low_p + high_p)[axis]) / 2
+    return (clear > 0) & (aside <= 1.2 * ahead)
+
+
+def ring_angles(laterals: Sequence[Lateral]) -> dict[str, float]:
+    """Angle [rad], counter-clockwise from +x, of every item that stands around another."""
+    angles: dict[str, float] = {}
+    for centre in dict.fromkeys(lat.parent for lat in laterals if lat.kind == "around"):
+        members = [lat.child for lat in laterals if lat.kind == "around" and lat.parent == centre]
+        # Two stand left and right; more start at the left front, so that none hides the centre.
+        start = math.pi if len(members) <= 2 else math.pi + math.pi / len(members)
+        for k, name in enumerate(members):
+            angles[name] = start + 2 * math.pi * k / len(members)
+    return angles
+
+
+@dataclass(eq=False)
+class _Search:
+    items: Sequence[Item]
+    laterals: Sequence[Lateral]
+    surface: Surface
+    pinned: dict[str, Array]
+    strategy: _Strategy
+    budget: int = BUDGET
+    placed: dict[str, tuple[Item, Array, bool]] = field(default_factory=dict)
+    rings: dict[str, float] = field(default_factory=dict)
+
+    def run(self) -> dict[str, Spot] | None:
+        by_name = {item.name: item for item in self.items}
+        for name, position in self.pinned.items():
+            self.placed[name] = (by_name[name], np.asarray(position, dtype=np.float64), False)
+        order = self._order()
+        self.rings = ring_angles(self.laterals)
+        if not self._extend(order, 0):
+            return None
+        shift = self._recentring()
+        return {
+            name: Spot(position=position + (0.0 if name in self.pinned else shift), quarter=quarter)
+            for name, (_, position, quarter) in self.placed.items()
+        }
+
+    def _order(self) -> list[Item]:
+        """Insertion order (or largest first), each followed by what is related to it."""
+        waiting = [item for item in self.items if item.name not in self.pinned]
+        if self.strategy.largest_first:
+            waiting.sort(key=lambda item: -float(np.prod(item.size)))
+        done, order = set(self.pinned), []
+        while waiting:
+            tied = [
+                item for item in waiting
+                if any({item.name, other} == {lat.child, lat.parent} for other in done for lat in self.laterals)
+            ]  # fmt: skip
+            chosen = (tied or [item for item in waiting if self._leads(item.name)] or waiting)[0]
+            waiting.remove(chosen)
+            order.append(chosen)
+            done.add(chosen.name)
+        return order
+
+    def _leads(self, name: str) -> bool:
+        """Whether nothing is said about where the item stands: others stand relative to it."""
+        return all(lat.child != name for lat in self.laterals)
+
+    def _extend(self, order: list[Item], depth: int) -> bool:
+        if depth == len(order):
+            return True
+        item = order[depth]
+        variants = [(item, False)]
+        if self.strategy.quarters and item.turnable:
+            variants.append((item.quarter(), True))
+        options: list[tuple[float, int, Item, Array, bool]] = []
+        for variant, quarter in variants:
+            spots, cost = self._candidates(variant)
+            for index in np.argsort(cost, kind="stable"):
+                if not np.isfinite(cost[index]) or len(options) >= 2 * BRANCHES:
+                    break
+                if self._fits(variant, spots[index]):
+                    options.append((float(cost[index]), len(options), variant, spots[index], quarter))
+        for _, _, variant, spot, quarter in sorted(options, key=lambda option: option[:2])[:BRANCHES]:
+            self.budget -= 1
+            if self.budget < 0:
+                return False
+            self.placed[item.name] = (variant, spot, quarter)
+            if self._extend(order, depth + 1):
+                return True
+            del self.placed[item.name]
+        return False
+
+    def _candidates(self, item: Item) -> tuple[Array, Array]:
+        """Places for the item's origin, shape (n, 2), and their costs, inf where not allowed."""
+        if not self.placed:
+            return np.array([-(item.low + item.high) / 2]), np.zeros(1)
+        half = item.size / 2
+        boxes = [(spot + other.low, spot + other.high, other) for other, spot, _ in self.placed.values()]
+        gaps = np.array([self._gap(item, other) for _, _, other in boxes])
+        low, high = np.stack([box[0] for box in boxes]), np.stack([box[1] for box in boxes])
+        ring = [spot for spot in self._ring_spots(item)]
+        values = []
+        for axis in range(2):
+            # Beside, centred on, and flush with every placed rectangle.
+            edge = [low[:, axis] - gaps - half[axis], high[:, axis] + gaps + half[axis]]
+            edge += [(low + high)[:, axis] / 2, low[:, axis] + half[axis], high[:, axis] - half[axis]]
+            values.append(np.unique(np.round(np.concatenate(edge), 6)))
+        centres = np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, 2)
+        if ring:
+            centres = np.concatenate([np.array(ring), centres])
+        apart = np.maximum(
+            low[None] - (centres + half)[:, None], (centres - half)[:, None] - high[None]
+        ).max(axis=-1)
+        cost = np.where(np.all(apart >= 0.999 * gaps, axis=1), 0.0, np.inf)
+        cost += self._lateral_cost(item, centres)
+        cost += self._taste(item, centres, low, high)
+        return centres - (item.low + item.high) / 2, cost
+
+    def _gap(self, item: Item, other: Item) -> float:
+        gap = max(self.strategy.least, self.strategy.spacing * natural_gap(item.size, other.size))
+        return gap
+
+    def _lateral_cost(self, item: Item, centres: Array) -> Array:
+        cost = np.zeros(len(centres))
+        half = item.size / 2
+        for lat in self.laterals:
+            if item.name not in (lat.child, lat.parent):
+                continue
+            other_name = lat.parent if lat.child == item.name else lat.child
+            if other_name not in self.placed:
+                continue
+            other, spot, _ = self.placed[other_name]
+            low, high = spot + other.low, spot + other.high
+            middle = (low + high) / 2
+            kind = lat.kind if lat.child == item.name else _OPPOSITE[lat.kind]
+            separation = np.maximum(0.0, np.maximum(low - (centres + half), centres - half - high))
+            distance = np.linalg.norm(separation, axis=1)
+            if kind in ("next_to", "around"):
+                limit = max(0.22, 0.9 * float(max(item.size.max(), other.size.max())))
+                cost[distance > min(limit, 1.0)] = np.inf
+                cost += 3.0 * distance
+                if kind == "next_to":
+                    # Beside means left or right of it, in line, unless there is no room.
+                    cost += 1.5 * np.abs(centres[:, 1] - middle[1]) + np.where(separation[:, 0] > 0, 0.0, 0.5 * half[1])
+                elif lat.child == item.name:
+                    angle = np.arctan2(centres[:, 1] - middle[1], centres[:, 0] - middle[0])
+                    turn = np.abs((angle - self.rings[item.name] + math.pi) % (2 * math.pi) - math.pi)
+                    cost += 3.0 * turn * float(np.linalg.norm(half + other.size / 2))
+            else:
+                cost[~side_holds(kind, centres - half, centres + half, low, high)] = np.inf
+                across = 1 if kind in ("left_of", "right_of") else 0
+                cost += 2.0 * distance + 1.0 * np.abs(centres[:, across] - middle[across])
+        return cost
+
+    def _taste(self, item: Item, centres: Array, low: Array, high: Array) -> Array:
+        """Near the middle, in rows along x, and nothing hidden behind something taller."""
+        cost = np.linalg.norm((centres - (low.min(axis=0) + high.max(axis=0)) / 2) * np.array([1.0, 1.6]), axis=1)
+        half = item.size / 2
+        for other, spot, _ in self.placed.values():
+            a, b = spot + other.low, spot + other.high
+            overlap = np.minimum(centres[:, 0] + half[0], b[0]) - np.maximum(centres[:, 0] - half[0], a[0])
+            share = np.clip(overlap / min(item.size[0], other.size[0]), 0.0, 1.0)
+            front = centres[:, 1] < (a[1] + b[1]) / 2
+            hides = np.where(front, item.tall > 0.7 * other.tall, other.tall > 0.7 * item.tall)
+            cost += np.where(hides, 0.6 * share * float(max(item.size.max(), other.size.max())), 0.0)
+            if item.alike and item.alike == other.alike:
+                cost += 0.3 * np.linalg.norm(centres - (a + b) / 2, axis=1)
+        return cost
+
+    def _ring_spots(self, item: Item) -> list[Array]:
+        """Places at the item's own angle around the thing that it surrounds."""
+        spots = []
+        for lat in self.laterals:
+            if lat.kind == "around" and lat.child == item.name and lat.parent in self.placed:
+                other, spot, _ = self.placed[lat.parent]
+                middle = spot + (other.low + other.high) / 2
+                for extra in (0.0, 0.06, -0.06, 0.15, -0.15, 0.3, -0.3):
+                    angle = self.rings[item.name] + extra
+                    direction = np.array([math.cos(angle), math.sin(angle)])
+                    need = (other.size + item.size) / 2 + self._gap(item, other)
+                    radius = float(np.min(need / np.maximum(np.abs(direction), 1e-9)))
+                    spots.append(middle + radius * direction)
+        return spots
+
+    def _fits(self, item: Item, spot: Array) -> bool:
+        """Whether all that is placed, and `item`, can be shifted together onto the surface."""
+        if not self.surface.limited:
+            return True
+        pieces = [*((other, at) for other, at, _ in self.placed.values()), (item, spot)]
+        return self._shift(pieces) is not None
+
+    def _recentring(self) -> Array:
+        pieces = [(item, spot) for item, spot, _ in self.placed.values()]
+        shift = self._shift(pieces)
+        return np.zeros(2) if shift is None else shift
+
+    def _shift(self, pieces: list[tuple[Item, Array]]) -> Array | None:
+        """The translation that centres the pieces on the surface, or None where they do not fit it."""
+        low = np.min([spot + item.low for item, spot in pieces], axis=0)
+        high = np.max([spot + item.high for item, spot in pieces], axis=0)
+        shift = np.zeros(2) if self.pinned else -(low + high) / 2
+        if not self.surface.limited:
+            return shift
+        half = np.array(self.surface.half_size)
+        for item, spot in pieces:
+            if item.name in self.pinned:
+                continue
+            slack = half + self.strategy.overhang * item.size
+            points = item.outline + spot + shift
+            reach = np.linalg.norm(points / slack, axis=1) if self.surface.disc else np.abs(points / slack).max(axis=1)
+            if reach.max() > 1.0 + 1e-9:
+                return None
+            weight = (item.centre_of_mass + spot + shift) / half
+            if (np.linalg.norm(weight) if self.surface.disc else np.abs(weight).max()) > 0.92:
+                return None
+        return shift
+
+
+_OPPOSITE = {
+    "left_of": "right_of",
+    "right_of": "left_of",
+    "in_front_of": "behind",
+    "behind": "in_front_of",
+    "next_to": "next_to",
+    "around": "around",
+}

@@ -1,0 +1,211 @@
+"""Spreading groups over the tops (seats, shelves, boards, heads) of the object that carries them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.errors import LayoutError
+from pat3d.layout.balance import support_margin
+from pat3d.layout.bodies import Array, Placed
+from pat3d.layout.containers import listed, lower
+from pat3d.layout.frames import FlatRegion, outline
+from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.surfaces import Item, Lateral, arrange_flat
+
+JITTER = 0.015
+"""Offset of stacked things, as a share of their size."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Top:
+    """What carries, as the children see it."""
+
+    root: Placed
+    supports: Sequence[Placed]
+    """The root, its contents and children that are fixed."""
+    regions: Sequence[FlatRegion]
+    """Best first."""
+    given: Sequence[Group]
+    """Children at fixed poses."""
+    turnable: set[str]
+    """Children that may be turned by a quarter to fit."""
+    gap: float
+    """[m]"""
+
+    @property
+    def name(self) -> str:
+        """Name of the object that carries."""
+        return self.root.body.name
+
+
+def spread(
+    top: Top, groups: Sequence[Group], laterals: Sequence[Lateral], rng: np.random.Generator
+) -> tuple[list[Group], list[str]]:
+    """Place `groups` on the regions of `top`; returns them placed, and notes.
+
+    Raises:
+        LayoutError: there is no room.
+    """
+    placed: list[Group] = []
+    notes: list[str] = []
+    waiting = _shares(top, groups, laterals)
+    overflow: list[Group] = []
+    for region, share in zip(top.regions, waiting, strict=True):
+        share = [*overflow, *share]
+        overflow = []
+        while share:
+            found = _on_region(top, region, share, laterals, placed, rng, notes)
+            if found is not None:
+                placed.extend(found)
+                break
+            overflow.insert(0, share.pop())
+    if overflow:
+        raise _refusal(top, overflow[0], [group.name for group in (*top.given, *placed)])
+    order = {group.name: k for k, group in enumerate(groups)}
+    return sorted(placed, key=lambda group: order[group.name]), notes
+
+
+def item_of(group: Group, *, turnable: bool) -> Item:
+    """The outline of `group` from above, relative to its origin."""
+    origin = group.root.position[:2]
+    low, high = group.low, group.high
+    points = np.concatenate([member.vertices[:, :2] for member in group.members])
+    return Item(
+        name=group.name,
+        low=low[:2] - origin,
+        high=high[:2] - origin,
+        outline=outline(points) - origin,
+        centre_of_mass=group.centre_of_mass[:2] - origin,
+        tall=float(high[2] - low[2]),
+        alike=group.root.body.asset.noun,
+        turnable=turnable,
+    )
+
+
+def _shares(top: Top, groups: Sequence[Group], laterals: Sequence[Lateral]) -> list[list[Group]]:
+    """Groups for every region: shelves share them out, elsewhere the best region takes all it can."""
+    shares: list[list[Group]] = [[] for _ in top.regions]
+    if not top.regions[0].enclosed:
+        shares[0] = list(groups)
+        return shares
+    # Alike or related things stay together.
+    cluster = {group.name: group.root.body.asset.noun for group in groups}
+    for lat in laterals:
+        if lat.child in cluster and lat.parent in cluster:
+            old, new = cluster[lat.child], cluster[lat.parent]
+            cluster = {name: new if label == old else label for name, label in cluster.items()}
+    turn = itertools.cycle(range(len(top.regions)))
+    home: dict[str, int] = {}
+    for group in groups:
+        label = cluster[group.name]
+        if label not in home:
+            home[label] = next((k for k in itertools.islice(turn, len(top.regions)) if _low_enough(top, k, group)), 0)
+        shares[home[label]].append(group)
+    return shares
+
+
+def _low_enough(top: Top, region: int, group: Group) -> bool:
+    found = top.regions[region]
+    return not found.enclosed or float(group.size[2]) + 3 * top.gap < found.height
+
+
+def _on_region(
+    top: Top,
+    region: FlatRegion,
+    share: Sequence[Group],
+    laterals: Sequence[Lateral],
+    before: Sequence[Group],
+    rng: np.random.Generator,
+    notes: list[str],
+) -> list[Group] | None:
+    """All of `share` on one region, or None where they do not fit."""
+    if region.enclosed and any(group.size[2] + 3 * top.gap >= region.height for group in share):
+        return None
+    obstacles = [*top.supports, *(member for group in before for member in group.members)]
+    if len(share) == 1 and not top.given:
+        alone = _alone(top, region, share[0], obstacles, rng, notes)
+        return None if alone is None else [alone]
+    items = [item_of(group, turnable=group.name in top.turnable) for group in share]
+    pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
+    spots = arrange_flat(
+        [*(item_of(group, turnable=False) for group in top.given), *items], laterals, region.surface, pinned=pinned
+    )
+    if spots is None:
+        return None
+    placed = []
+    for group in share:
+        spot = spots[group.name]
+        turned = group.turned(yaw_matrix(math.pi / 2)) if spot.quarter else group
+        found = _set_down(top, region, turned, region.centre[:2] + spot.position, obstacles)
+        if found is None:
+            return None
+        placed.append(found)
+        obstacles.extend(found.members)
+    return placed
+
+
+def _alone(
+    top: Top, region: FlatRegion, group: Group, obstacles: list[Placed], rng: np.random.Generator, notes: list[str]
+) -> Group | None:
+    """One group in the middle of a region, or at the nearest place where it does not tip."""
+    base = _base_centre(group)
+    middle = region.centre[:2] - base
+    size = float(group.size[:2].max())
+    straight = _set_down(top, region, group, middle, obstacles)
+    shaken = _set_down(top, region, group, middle + JITTER * size * rng.uniform(-1, 1, 2), obstacles)
+    options = [found for found in (shaken, straight) if found is not None]
+    if straight is not None and shaken is not None and shaken.low[2] > straight.low[2] + 1e-3:
+        # Nested things sit deepest in the middle.
+        options.reverse()
+    for found in options:
+        if support_margin(found, obstacles, gap=top.gap) > 0.0:
+            return found
+    best: tuple[float, Group] | None = None
+    reach = 0.6 * np.minimum(np.array(region.surface.half_size), 2 * size)
+    steps = [np.array([i, j]) / 3.0 for i in range(-3, 4) for j in range(-3, 4) if i * i + j * j <= 10]
+    for step in sorted(steps, key=lambda step: float(step @ step)):
+        found = _set_down(top, region, group, middle + step * reach, obstacles)
+        if found is None:
+            continue
+        margin = support_margin(found, obstacles, gap=top.gap)
+        if margin > 0.02 * size:
+            return found
+        if best is None or margin > best[0]:
+            best = margin, found
+    if best is not None:
+        chosen = options[0] if options and best[0] < 0.0 else best[1]
+        notes.append(f'"{group.name}" may tip or roll on "{top.name}".')
+        return chosen
+    return options[0] if options else None
+
+
+def _set_down(top: Top, region: FlatRegion, group: Group, xy: Array, obstacles: Sequence[Placed]) -> Group | None:
+    spot = np.array([*xy, region.centre[2] - float(group.low[2]) + top.gap])
+    found = lower(group, spot, obstacles, floor=float(top.root.low[2]), gap=top.gap)
+    if found is None or (region.enclosed and found.high[2] > region.centre[2] + region.height):
+        return None
+    return found
+
+
+def _base_centre(group: Group) -> Array:
+    """Middle of what the root stands on [m], shape (2,)."""
+    vertices = group.root.vertices
+    foot = vertices[vertices[:, 2] < group.root.low[2] + 0.002, :2]
+    return (foot.min(axis=0) + foot.max(axis=0)) / 2
+
+
+def _refusal(top: Top, group: Group, before: list[str]) -> LayoutError:
+    region = top.regions[0]
+    width, depth = 2 * np.array(region.surface.half_size)
+    beside = f" beside {listed(before)}" if before else ""
+    tall = f", {region.height:.2f} m high" if region.enclosed else ""
+    return LayoutError(
+        f'"{group.name}" ({group.size[0]:.2f} x {group.size[1]:.2f} x {group.size[2]:.2f} m) finds no room on '
+        f'"{top.name}" ({width:.2f} x {depth:.2f} m{tall}){beside}. Fewer or smaller objects, fewer relations, or a '
+        f'larger "{top.name}", would fit. Nothing was written.'
+    )

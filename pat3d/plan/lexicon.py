@@ -1,0 +1,201 @@
+"""The planner's word tables: English that does not depend on what the catalogue can make."""
+
+from __future__ import annotations
+
+NUMBERS: dict[str, int] = {
+    "zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
+    "ten": 10, "eleven": 11, "twelve": 12, "thirteen": 13, "fourteen": 14, "fifteen": 15, "sixteen": 16,
+    "seventeen": 17, "eighteen": 18, "nineteen": 19, "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50,
+    "hundred": 100, "thousand": 1000, "both": 2, "single": 1, "couple": 2, "dozen": 12, "trio": 3,
+}  # fmt: skip
+VAGUE: dict[str, int] = {
+    "few": 3, "some": 3, "several": 4, "multiple": 3, "various": 3, "many": 5, "numerous": 5, "couple": 2,
+}  # fmt: skip
+"""Quantities that name no number, and the number taken for them."""
+
+BARE_PLURAL = 3
+STACK_HEIGHT = 4
+FILLING = 8
+"""Objects placed for "mugs", in "a stack of books", and for "filled with balls"."""
+
+PALETTE_COUNT = {"rainbow": 6}
+COLOURFUL_COUNT = 4
+"""Objects placed for "rainbow macarons" and for any other word of many colours, when the prompt gives no number."""
+
+COMES_IN_TWOS = frozenset({"bedside table", "nightstand", "shoe", "slipper", "boot", "sock", "candlestick"})
+
+SIZES: dict[str, float] = {
+    "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75, "compact": 0.8,
+    "medium": 1.0, "medium-sized": 1.0, "large": 1.3, "big": 1.3, "oversized": 1.5, "huge": 1.6, "giant": 1.8,
+    "enormous": 1.8, "massive": 1.8,
+}  # fmt: skip
+
+SHADES: dict[tuple[str, str], str] = {
+    ("dark", "blue"): "navy", ("dark", "brown"): "chocolate", ("dark", "red"): "maroon", ("light", "brown"): "tan",
+    ("light", "blue"): "cyan", ("light", "green"): "mint", ("light", "purple"): "lavender",
+    ("light", "yellow"): "cream", ("light", "orange"): "peach", ("light", "pink"): "pink",
+}  # fmt: skip
+SHADE_WORDS = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "warm", "cool", "rich", "muted"})
+
+DETERMINERS = frozenset({
+    "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "any", "all",
+})  # fmt: skip
+DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both"})
+POSSESSIVES = frozenset({"its", "his", "her", "their"})
+PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
+
+COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
+VERBS = frozenset({
+    "sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean", "perches",
+    "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
+})  # fmt: skip
+"""Finite verbs of posture: what follows relates to the subject of the clause."""
+PARTICIPLES = frozenset({
+    "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
+    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "propped", "laid",
+    "floating", "sleeping", "scattered", "left", "hanging", "mounted", "lined", "spread", "kept", "stored", "tucked",
+    "put", "facing", "crouching", "kneeling", "waiting", "posing", "dropped", "organised", "organized", "grouped",
+})  # fmt: skip
+NOT_VERBS = frozenset({
+    "painting", "pudding", "ring", "earring", "string", "king", "railing", "clothing", "stocking", "wing", "spring",
+    "building", "ceiling", "dressing", "icing", "bed", "seed", "shed", "weed", "sled", "thing", "pedding", "bedding",
+    "dumpling", "duckling", "sling", "swing", "wedding", "lightning", "led", "sibling", "figuring",
+})  # fmt: skip
+"""Words that end like a participle and are nouns."""
+COMMANDS = frozenset({
+    "place", "put", "create", "generate", "make", "show", "arrange", "add", "build", "draw", "imagine", "please",
+    "render", "depict", "i", "we", "you", "want", "need", "would", "like", "can", "see", "me", "let", "us", "design",
+    "then", "also", "now", "next", "finally", "just", "only", "there's", "here", "where", "who", "that", "while", "set",
+    "scene:", "visualize", "picture", "give", "have",
+})  # fmt: skip
+"""Words that may open a clause and mean nothing for the scene."""
+MOOD_VERBS = frozenset({
+    "creating", "giving", "adding", "evoking", "conveying", "making", "casting", "producing", "bathed", "illuminated",
+    "lit", "captured", "rendered", "photographed", "shot", "depicted", "painted", "emphasizing", "highlighting",
+    "evokes", "creates", "adds", "gives", "conveys", "enhancing", "complementing", "forming",
+})  # fmt: skip
+"""Verbs that begin a remark about light, mood or camera: set aside up to the end of the sentence."""
+
+ADVERBS = frozenset({
+    "very", "neatly", "quite", "really", "slightly", "carefully", "directly", "right", "just", "vertically",
+    "horizontally", "upright", "loosely", "closely", "together", "nicely", "partially", "too", "so", "still",
+    "precariously", "gently", "randomly", "evenly", "happily", "also", "comfortably", "currently", "up", "down",
+    "neat", "nearby",
+})  # fmt: skip
+
+BACKGROUND = frozenset({
+    "room", "setup", "set-up", "scene", "background", "backdrop", "composition", "perspective", "view", "floor",
+    "ground", "surface", "wall", "walls", "atmosphere", "style", "environment", "bedroom", "kitchen", "bathroom",
+    "office", "garden", "studio", "photo", "photograph", "image", "camera", "angle", "rendering", "render",
+    "illustration", "sunlight", "lighting", "shadow", "shadows", "mood", "tone", "tones", "palette", "morning",
+    "evening", "night", "day", "afternoon", "ceiling", "window", "outdoors", "indoors", "space", "area", "interior",
+    "vibe", "feel", "aesthetic", "setting", "layout", "display", "arrangement", "front-view", "viewpoint", "shot",
+    "closeup", "close-up", "grass", "lawn", "field", "beach", "sand", "park", "forest", "street", "house", "home",
+    "nursery", "playroom", "classroom", "workshop", "garage", "library", "cafe", "restaurant", "shop", "sky", "wind",
+    "quality", "resolution", "detail", "details", "workspace", "world", "corner", "tabletop scene", "still life",
+    "living room", "dining room", "carpeted floor", "countertop scene", "foreground", "sun", "moonlight", "light",
+    "hallway", "yard", "backyard", "patio", "terrace", "balcony", "pair view",
+})  # fmt: skip
+"""Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
+ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
+PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
+PARTS = frozenset({
+    "head", "top", "back", "edge", "side", "middle", "center", "centre", "seat", "lap", "rim", "bottom", "inside",
+    "handle", "cover", "page", "stripe", "leg", "spout", "dot", "pattern", "label", "petal", "leaf", "wheel", "button",
+    "texture", "finish", "design", "base", "eye", "ear", "tail", "nose", "spine", "trim", "accent", "print", "foot",
+    "paw", "hand", "arm", "armrest", "shelf", "drawer", "mattress", "corner", "surface", "fur", "body", "beak",
+    "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
+    "end", "half", "tip", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
+})  # fmt: skip
+"""Parts of objects: they place nothing, but may carry a colour or name where something sits."""
+
+STACK_NOUNS = frozenset({"stack", "pile", "tower", "column"})
+COLLECTIVES = frozenset({
+    "set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful", "lot", "lots",
+    "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio", "dozen",
+    "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit", "heap", "heaps",
+})  # fmt: skip
+ROWS = frozenset({"row", "line", "series"})
+PARTITIVES = frozenset({
+    "bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "block", "ball", "pack", "packet",
+    "figure", "statue", "figurine", "sculpture", "toy", "bouquet", "wedge", "head", "scoop", "model", "bunch", "carton",
+    "can", "tin", "bottle", "box",
+})  # fmt: skip
+"""X in "X of Y" where X only portions or shapes Y."""
+SUBSTANCES = frozenset({
+    "water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt", "honey", "jam", "oil",
+    "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade", "soda", "chocolate milk",
+    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper",
+})  # fmt: skip
+"""Contents too fine or too wet to be rigid bodies."""
+
+PLURAL_ONLY = frozenset({
+    "scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones", "pants", "jeans",
+    "shorts", "trousers", "binoculars", "goggles", "clippers", "pajamas", "shears",
+})  # fmt: skip
+"""One object with a plural name; "a pair of" them is one."""
+
+GENERICS: dict[str, tuple[str, ...]] = {
+    "fruit": ("apple", "orange", "banana", "lemon", "pear"),
+    "vegetable": ("carrot", "tomato", "pepper", "potato", "onion"),
+    "plush toy": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "soft toy": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "stuffed toy": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "stuffed animal": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "plush animal": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "plushie": ("teddy bear", "rabbit", "elephant", "giraffe"),
+    "toy": ("ball", "block", "rubber duck", "teddy bear"),
+    "animal": ("dog", "rabbit", "elephant", "giraffe"),
+    "dish": ("plate", "bowl", "cup"),
+    "utensil": ("fork", "knife", "spoon"),
+    "cutlery": ("fork", "knife", "spoon"),
+    "silverware": ("fork", "knife", "spoon"),
+    "stationery": ("pencil", "pen", "ruler"),
+    "toiletry": ("toothbrush", "soap", "toothpaste"),
+    "furniture": ("chair", "table", "sofa"),
+}  # fmt: skip
+"""Nouns for a kind of thing, and the things that stand for it in turn."""
+MASS_GENERICS = frozenset({"fruit", "cutlery", "silverware", "stationery", "furniture"})
+
+FLOOR = (
+    "bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee table", "table", "desk", "rug", "chair",
+    "side table", "shelf", "shelving unit", "cart", "pool", "inflatable pool", "tree", "armchair", "bench", "cabinet",
+    "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
+    "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
+    "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
+)  # fmt: skip
+"""Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
+LEVEL = (
+    "table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
+    "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
+    "tv stand", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
+)  # fmt: skip
+SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
+DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat")
+"""What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
+HOLLOW = (
+    "basket", "bowl", "cup", "mug", "vase", "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", "bag",
+    "pot", "crate", "bin", "glass", "soap dish", "drawer", "pan", "saucepan", "wine glass", "teacup", "planter",
+    "flowerpot", "trash can", "wastebasket", "toy box", "storage box", "pencil case", "pencil cup", "tumbler", "tin",
+    "bathtub", "sink", "backpack", "chest", "treasure chest", "storage bin", "laundry basket", "wheelbarrow", "wagon",
+    "goblet", "pitcher", "jug", "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl",
+    "mixing bowl", "hamper", "picnic basket", "pail", "toolbox", "casserole", "frying pan", "cooking pot", "flower pot",
+)  # fmt: skip
+NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder")
+SLENDER = (
+    "pen", "pencil", "ruler", "scissors", "toothbrush", "toothpaste", "razor", "spoon", "fork", "knife", "flower",
+    "bouquet", "brush", "straw", "chopstick", "chopsticks", "candle", "wand", "spatula", "whisk", "plant", "marker",
+    "comb", "rose", "tulip", "crayon", "paintbrush", "ladle", "screwdriver", "wrench", "sunflower", "daisy", "eraser",
+    "hairbrush", "candy cane", "lollipop", "twig", "branch", "stylus", "highlighter", "tongs", "feather", "umbrella",
+)  # fmt: skip
+"""What a narrow vessel holds; anything else in a list after it stands outside."""
+NOT_ON_DISH = (
+    "vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket", "radio",
+    "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",
+)  # fmt: skip
+THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
+        "cutting board", "table", "towel", "pillow", "cushion")  # fmt: skip
+"""What can lie under something: "a rug under a table" puts the table on the rug."""
+ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
+BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
+"""What stands beside a sofa rather than on it when the prompt only says "next to"."""

@@ -1,0 +1,75 @@
+"""Words and punctuation of a prompt."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+
+_TOKEN = re.compile(
+    r"(?P<number>\d+[.]\d+)|(?P<word>[^\W_]+(?:[-'][^\W_]+)*)|(?P<dash>\u2014|\u2013|--+|(?<=\s)-(?=\s))"
+    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]:])"
+)
+_IRREGULAR = {
+    "mice": "mouse", "knives": "knife", "loaves": "loaf", "leaves": "leaf", "shelves": "shelf", "halves": "half",
+    "scarves": "scarf", "wolves": "wolf", "geese": "goose", "feet": "foot", "teeth": "tooth", "children": "child",
+    "men": "man", "women": "woman", "people": "person", "dice": "die", "cacti": "cactus", "wives": "wife",
+    "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Token:
+    """One word or mark."""
+
+    text: str
+    """Lower case; ",", ".", "-" (a dash) or "'s" for marks."""
+    start: int
+    end: int
+    """Span in the normalised prompt [characters]."""
+    number: int
+    """1 for the first word of the prompt; a mark has the number of the word before it."""
+    mark: bool = False
+
+
+def normalise(prompt: str) -> str:
+    """`prompt` with one kind of quote, one kind of blank and compatibility characters resolved."""
+    text = unicodedata.normalize("NFKC", prompt)
+    return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
+
+
+def tokenise(text: str) -> list[Token]:
+    """The words and marks of normalised `text`, ending in a full stop."""
+    tokens: list[Token] = []
+    words = 0
+    for found in _TOKEN.finditer(text):
+        start, end = found.span()
+        if found.lastgroup in ("word", "number"):
+            words += 1
+            word = found.group().lower()
+            if word.endswith("'s") and len(word) > 2:
+                tokens.append(Token(text=word[:-2], start=start, end=end - 2, number=words))
+                tokens.append(Token(text="'s", start=end - 2, end=end, number=words))
+            else:
+                tokens.append(Token(text=word, start=start, end=end, number=words))
+        else:
+            mark = {"dash": "-", "stop": ".", "comma": ","}[str(found.lastgroup)]
+            tokens.append(Token(text=mark, start=start, end=end, number=words, mark=True))
+    tokens.append(Token(text=".", start=len(text), end=len(text), number=words, mark=True))
+    return tokens
+
+
+def singulars(word: str) -> tuple[str, ...]:
+    """What `word` may be the plural of, likeliest first; empty where it does not look like a plural."""
+    if word in _IRREGULAR:
+        return (_IRREGULAR[word],)
+    if len(word) < 4 or not word.endswith("s") or word.endswith("ss"):
+        return ()
+    guesses = [word[:-1]]
+    if word.endswith("ies"):
+        guesses.insert(0, word[:-3] + "y")
+    elif word.endswith("ves"):
+        guesses += [word[:-3] + "f", word[:-3] + "fe"]
+    elif word.endswith("es"):
+        guesses.append(word[:-2])
+    return tuple(guesses)

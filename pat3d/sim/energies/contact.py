@@ -1,0 +1,312 @@
+"""Barrier contact between bodies and with the ground.
+
+B(q) = sum over pairs of m b(d): the barrier b of the pair's distance, mollified by m for nearly parallel
+edges. The Hessian is either exact or its Gauss-Newton part m b'' grad d grad d^T, which is
+positive semidefinite and of rank one.
+"""
+
+from __future__ import annotations
+
+import warp as wp
+
+from pat3d.sim.contact.barrier import barrier_curvature, barrier_slope, barrier_value
+from pat3d.sim.contact.broad_phase import Candidates
+from pat3d.sim.contact.distance import Contact, contact_at
+from pat3d.sim.model import Model
+
+wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+
+
+class BarrierContact:
+    """Repulsion of every candidate pair closer than d_hat."""
+
+    def __init__(self, model: Model, candidates: Candidates):
+        self.model = model
+        self.candidates = candidates
+        self.d_hat = 1.0e-3
+        """Activation distance [m]."""
+        self.stiffness = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
+        """kappa [N], shape (worlds,)."""
+
+    def _inputs(self, position: wp.array) -> list:
+        model, candidates = self.model, self.candidates
+        return [
+            model.body_world, model.body_dof, model.vertex_rest, model.vertex_body, self.stiffness, self.d_hat,
+            candidates.kind, candidates.primitives, position,
+        ]  # fmt: skip
+
+    def add_value(self, position: wp.array, energy: wp.array) -> None:
+        """Add B [J] of every world at vertex positions [m] to `energy`, shape (worlds,)."""
+        wp.launch(
+            _value, dim=self.candidates.count, device=self.model.device, inputs=[*self._inputs(position), energy]
+        )  # fmt: skip
+
+    def add_gradient(self, position: wp.array, gradient: wp.array) -> None:
+        """Add dB/dq to `gradient`, shape (bodies, 4), vec3d."""
+        wp.launch(
+            _gradient, dim=self.candidates.count, device=self.model.device, inputs=[*self._inputs(position), gradient]
+        )  # fmt: skip
+
+    def add_hessian(self, position: wp.array, hessian: wp.array, exact: bool) -> None:
+        """Add d2B/dq2, or its Gauss-Newton part, to `hessian`, shape (worlds, unknowns, unknowns)."""
+        wp.launch(
+            _exact_hessian if exact else _hessian, dim=self.candidates.count, device=self.model.device,
+            inputs=[*self._inputs(position), hessian],
+        )  # fmt: skip
+
+
+@wp.func
+def pair_index(k: int, base_a: int, base_b: int) -> int:
+    """First unknown of the k-th of a pair's eight vectors; negative where its body is fixed."""
+    if k < 4:
+        if base_a < 0:
+            return -1
+        return base_a + 3 * k
+    if base_b < 0:
+        return -1
+    return base_b + 3 * (k - 4)
+
+
+@wp.func
+def first_unknown(body: int, body_dof: wp.array(dtype=int)) -> int:
+    """First unknown of a body in its world; -1 where it is fixed or the ground."""
+    if body < 0:
+        return -1
+    if body_dof[body] < 0:
+        return -1
+    return 12 * body_dof[body]
+
+
+@wp.func
+def _cross_gradient_u(contact: Contact) -> wp.vec3d:
+    """d|u x v|^2 / du."""
+    return wp.float64(2.0) * (wp.dot(contact.v, contact.v) * contact.u - wp.dot(contact.u, contact.v) * contact.v)
+
+
+@wp.func
+def _cross_gradient_v(contact: Contact) -> wp.vec3d:
+    return wp.float64(2.0) * (wp.dot(contact.u, contact.u) * contact.v - wp.dot(contact.u, contact.v) * contact.u)
+
+
+@wp.func
+def _mollifier_slope(contact: Contact) -> wp.float64:
+    if contact.cross >= contact.threshold:
+        return wp.float64(0.0)
+    return wp.float64(2.0) * (wp.float64(1.0) - contact.cross / contact.threshold) / contact.threshold
+
+
+@wp.func
+def _rest_edge(k: int, contact: Contact) -> wp.float64:
+    """Coefficient of the k-th vector in the edge direction u (k < 4) or v."""
+    if k == 0 or k == 4:
+        return wp.float64(0.0)
+    if k < 4:
+        return contact.rest_u[k - 1]
+    return contact.rest_v[k - 5]
+
+
+@wp.kernel
+def _value(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    vertex_rest: wp.array(dtype=wp.vec3d),
+    vertex_body: wp.array(dtype=int),
+    stiffness: wp.array(dtype=wp.float64),
+    d_hat: wp.float64,
+    # State in
+    kind: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    position: wp.array(dtype=wp.vec3d),
+    # Out
+    energy: wp.array(dtype=wp.float64),
+):
+    pair = wp.tid()
+    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    if contact.distance >= d_hat:
+        return
+    world = body_world[contact.body_a]
+    wp.atomic_add(energy, world, contact.mollifier * barrier_value(contact.distance, d_hat, stiffness[world]))
+
+
+@wp.kernel
+def _gradient(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    vertex_rest: wp.array(dtype=wp.vec3d),
+    vertex_body: wp.array(dtype=int),
+    stiffness: wp.array(dtype=wp.float64),
+    d_hat: wp.float64,
+    # State in
+    kind: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    position: wp.array(dtype=wp.vec3d),
+    # Out
+    gradient: wp.array2d(dtype=wp.vec3d),
+):
+    pair = wp.tid()
+    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    if contact.distance >= d_hat:
+        return
+    world = body_world[contact.body_a]
+    force = contact.mollifier * barrier_slope(contact.distance, d_hat, stiffness[world]) * contact.normal
+    for k in range(4):
+        wp.atomic_add(gradient, contact.body_a, k, contact.coefficients[k] * force)
+        if contact.body_b >= 0:
+            wp.atomic_add(gradient, contact.body_b, k, contact.coefficients[4 + k] * force)
+    slope = _mollifier_slope(contact)
+    if slope != wp.float64(0.0):
+        factor = slope * barrier_value(contact.distance, d_hat, stiffness[world])
+        gu = factor * _cross_gradient_u(contact)
+        gv = factor * _cross_gradient_v(contact)
+        for k in range(3):
+            wp.atomic_add(gradient, contact.body_a, 1 + k, contact.rest_u[k] * gu)
+            wp.atomic_add(gradient, contact.body_b, 1 + k, contact.rest_v[k] * gv)
+
+
+@wp.kernel
+def _hessian(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    vertex_rest: wp.array(dtype=wp.vec3d),
+    vertex_body: wp.array(dtype=int),
+    stiffness: wp.array(dtype=wp.float64),
+    d_hat: wp.float64,
+    # State in
+    kind: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    position: wp.array(dtype=wp.vec3d),
+    # Out
+    hessian: wp.array3d(dtype=wp.float64),
+):
+    pair = wp.tid()
+    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    if contact.distance >= d_hat:
+        return
+    world = body_world[contact.body_a]
+    curvature = contact.mollifier * barrier_curvature(contact.distance, d_hat, stiffness[world])
+    base_a = first_unknown(contact.body_a, body_dof)
+    base_b = first_unknown(contact.body_b, body_dof)
+    n = contact.normal
+    for i in range(8):
+        row = pair_index(i, base_a, base_b)
+        if row >= 0:
+            for j in range(8):
+                column = pair_index(j, base_a, base_b)
+                if column >= 0:
+                    weight = curvature * contact.coefficients[i] * contact.coefficients[j]
+                    for r in range(3):
+                        for s in range(3):
+                            wp.atomic_add(hessian, world, row + r, column + s, weight * n[r] * n[s])
+
+
+@wp.kernel
+def _exact_hessian(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    vertex_rest: wp.array(dtype=wp.vec3d),
+    vertex_body: wp.array(dtype=int),
+    stiffness: wp.array(dtype=wp.float64),
+    d_hat: wp.float64,
+    # State in
+    kind: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    position: wp.array(dtype=wp.vec3d),
+    # Out
+    hessian: wp.array3d(dtype=wp.float64),
+):
+    pair = wp.tid()
+    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    if contact.distance >= d_hat:
+        return
+    world = body_world[contact.body_a]
+    zero = wp.float64(0.0)
+    one = wp.float64(1.0)
+    two = wp.float64(2.0)
+    d = contact.distance
+    n = contact.normal
+    value = barrier_value(d, d_hat, stiffness[world])
+    slope = barrier_slope(d, d_hat, stiffness[world])
+    curvature = barrier_curvature(d, d_hat, stiffness[world])
+
+    # Inverse of G / 2 over the free closest-point parameters.
+    g11 = zero
+    g12 = zero
+    g22 = zero
+    if contact.free == 1:
+        g11 = one / wp.dot(contact.e1, contact.e1)
+    elif contact.free == 2:
+        a = wp.dot(contact.e1, contact.e1)
+        b = wp.dot(contact.e1, contact.e2)
+        c = wp.dot(contact.e2, contact.e2)
+        determinant = a * c - b * b
+        if determinant > wp.float64(1.0e-12) * a * c:
+            g11 = c / determinant
+            g12 = -b / determinant
+            g22 = a / determinant
+        else:
+            g11 = one / a
+    mollifier_slope = _mollifier_slope(contact)
+    mollifier_curvature = zero
+    if mollifier_slope != zero:
+        mollifier_curvature = -two / (contact.threshold * contact.threshold)
+    gu = _cross_gradient_u(contact)
+    gv = _cross_gradient_v(contact)
+    uu = wp.dot(contact.u, contact.u)
+    vv = wp.dot(contact.v, contact.v)
+    uv = wp.dot(contact.u, contact.v)
+
+    identity = wp.identity(n=3, dtype=wp.float64)
+    along = contact.mollifier * curvature
+    across = contact.mollifier * slope / d
+    base_a = first_unknown(contact.body_a, body_dof)
+    base_b = first_unknown(contact.body_b, body_dof)
+    for i in range(8):
+        row = pair_index(i, base_a, base_b)
+        if row < 0:
+            continue
+        f1i = contact.h1[i] * d * n + contact.coefficients[i] * contact.e1
+        f2i = contact.h2[i] * d * n + contact.coefficients[i] * contact.e2
+        for j in range(8):
+            column = pair_index(j, base_a, base_b)
+            if column < 0:
+                continue
+            f1j = contact.h1[j] * d * n + contact.coefficients[j] * contact.e1
+            f2j = contact.h2[j] * d * n + contact.coefficients[j] * contact.e2
+            cc = contact.coefficients[i] * contact.coefficients[j]
+            block = (along - across) * cc * wp.outer(n, n) + across * cc * identity
+            block -= across * (
+                g11 * wp.outer(f1i, f1j) + g12 * (wp.outer(f1i, f2j) + wp.outer(f2i, f1j)) + g22 * wp.outer(f2i, f2j)
+            )
+            if mollifier_slope != zero:
+                gi = gu
+                if i >= 4:
+                    gi = gv
+                gj = gu
+                if j >= 4:
+                    gj = gv
+                ri = _rest_edge(i, contact)
+                rj = _rest_edge(j, contact)
+                second = wp.mat33d()
+                if i < 4 and j < 4:
+                    second = two * (vv * identity - wp.outer(contact.v, contact.v))
+                elif i >= 4 and j >= 4:
+                    second = two * (uu * identity - wp.outer(contact.u, contact.u))
+                elif i < 4:
+                    second = two * (
+                        two * wp.outer(contact.u, contact.v) - uv * identity - wp.outer(contact.v, contact.u)
+                    )
+                else:
+                    second = two * (
+                        two * wp.outer(contact.v, contact.u) - uv * identity - wp.outer(contact.u, contact.v)
+                    )
+                block += value * ri * rj * (mollifier_curvature * wp.outer(gi, gj) + mollifier_slope * second)
+                block += mollifier_slope * slope * (
+                    ri * contact.coefficients[j] * wp.outer(gi, n) + rj * contact.coefficients[i] * wp.outer(n, gj)
+                )
+            for r in range(3):
+                for s in range(3):
+                    wp.atomic_add(hessian, world, row + r, column + s, block[r, s])

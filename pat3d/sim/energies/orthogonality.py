@@ -1,0 +1,132 @@
+"""Affine-body stiffness: the energy that keeps an affine map close to a rotation.
+
+Psi(A) = kappa V |A^T A - I|_F^2                                    (Lan et al. 2022, Eq. 8)
+dPsi/da_j = 4 kappa V sum_i E_ij a_i,   E = A^T A - I
+d2Psi/da_j da_l = 4 kappa V (E_jl I + a_l a_j^T + delta_jl sum_i a_i a_i^T)
+
+Without the first term the Hessian is positive semidefinite; E is of the order of the strain, 1e-6.
+"""
+
+from __future__ import annotations
+
+import warp as wp
+
+from pat3d.sim.model import Model
+
+wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+
+
+class Orthogonality:
+    """Stiff potential on the linear part of every body's affine map."""
+
+    def __init__(self, model: Model, stiffness: float = 1.0e8):
+        self.model = model
+        self.stiffness = stiffness
+        """kappa [Pa]; 100 MPa keeps strains under 1e-5 for household loads."""
+
+    def _inputs(self) -> list:
+        model = self.model
+        return [model.body_world, model.body_dof, model.body_volume, self.stiffness]
+
+    def add_value(self, q: wp.array, energy: wp.array) -> None:
+        """Add Psi [J] of every world to `energy`, shape (worlds,)."""
+        wp.launch(_value, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, energy])
+
+    def add_gradient(self, q: wp.array, gradient: wp.array) -> None:
+        """Add dPsi/dq to `gradient`, shape (bodies, 4), vec3d."""
+        wp.launch(_gradient, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, gradient])
+
+    def add_hessian(self, q: wp.array, hessian: wp.array, exact: bool) -> None:
+        """Add d2Psi/dq2, or its positive semidefinite part, to `hessian`, shape (worlds, unknowns, unknowns)."""
+        wp.launch(
+            _hessian, dim=self.model.bodies, device=self.model.device,
+            inputs=[*self._inputs(), int(exact), q, hessian],
+        )  # fmt: skip
+
+
+@wp.func
+def _strain(q: wp.array2d(dtype=wp.vec3d), body: int, i: int, j: int) -> wp.float64:
+    value = wp.dot(q[body, 1 + i], q[body, 1 + j])
+    if i == j:
+        value -= wp.float64(1.0)
+    return value
+
+
+@wp.kernel
+def _value(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    body_volume: wp.array(dtype=wp.float64),
+    stiffness: wp.float64,
+    # State in
+    q: wp.array2d(dtype=wp.vec3d),
+    # Out
+    energy: wp.array(dtype=wp.float64),
+):
+    body = wp.tid()
+    if body_dof[body] < 0:
+        return
+    total = wp.float64(0.0)
+    for i in range(3):
+        for j in range(3):
+            strain = _strain(q, body, i, j)
+            total += strain * strain
+    wp.atomic_add(energy, body_world[body], stiffness * body_volume[body] * total)
+
+
+@wp.kernel
+def _gradient(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    body_volume: wp.array(dtype=wp.float64),
+    stiffness: wp.float64,
+    # State in
+    q: wp.array2d(dtype=wp.vec3d),
+    # Out
+    gradient: wp.array2d(dtype=wp.vec3d),
+):
+    body = wp.tid()
+    if body_dof[body] < 0:
+        return
+    factor = wp.float64(4.0) * stiffness * body_volume[body]
+    for j in range(3):
+        force = wp.vec3d()
+        for i in range(3):
+            force += factor * _strain(q, body, i, j) * q[body, 1 + i]
+        gradient[body, 1 + j] = gradient[body, 1 + j] + force
+
+
+@wp.kernel
+def _hessian(
+    # Model
+    body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    body_volume: wp.array(dtype=wp.float64),
+    stiffness: wp.float64,
+    exact: int,
+    # State in
+    q: wp.array2d(dtype=wp.vec3d),
+    # Out
+    hessian: wp.array3d(dtype=wp.float64),
+):
+    body = wp.tid()
+    if body_dof[body] < 0:
+        return
+    world = body_world[body]
+    base = 12 * body_dof[body] + 3
+    factor = wp.float64(4.0) * stiffness * body_volume[body]
+    spread = wp.mat33d()
+    for i in range(3):
+        spread += wp.outer(q[body, 1 + i], q[body, 1 + i])
+    for j in range(3):
+        for m in range(3):
+            block = wp.outer(q[body, 1 + m], q[body, 1 + j])
+            if j == m:
+                block += spread
+            if exact != 0:
+                block += _strain(q, body, j, m) * wp.identity(n=3, dtype=wp.float64)
+            for r in range(3):
+                for s in range(3):
+                    hessian[world, base + 3 * j + r, base + 3 * m + s] += factor * block[r, s]

@@ -1,0 +1,188 @@
+"""From an intersection-free layout to rest.
+
+Three phases (DESIGN section 5a): bodies drop through artificial time steps until they stop; the barrier shrinks until
+gaps are a few hundredths of a millimetre; and a polish holds friction's reference state fixed while the inertia term
+fades, which ends at static equilibrium instead of creeping for ever.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from pat3d.errors import SimulationError
+from pat3d.sim.model import Model
+from pat3d.sim.potential import Potential
+from pat3d.sim.solvers.newton import Newton
+
+STILL_FRAMES = 3
+"""Consecutive steps without motion that end the drop."""
+
+EXACT_BELOW = 1e-2
+"""Residual over weight under which the polish uses exact Hessians."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SettleOptions:
+    """Settings of a settling run; the defaults suit household scenes."""
+
+    friction: float = 0.2
+    """Coefficient of every contact [-], well below what exports carry."""
+    time_step: float = 0.03
+    """[s]"""
+    max_frames: int = 300
+    """Artificial time steps of the drop."""
+    max_polish_steps: int = 200
+    """Steps of the polish before giving up."""
+    d_hat: float = 1.0e-3
+    """Barrier activation distance while dropping [m]."""
+    final_d_hat: float = 3.0e-5
+    """Barrier activation distance at rest [m]; gaps end between a third of it and it."""
+    friction_speed: float = 1.0e-3
+    """Speed below which friction is not fully mobilised [m/s]."""
+    residual: float = 1.0e-6
+    """Unbalanced force of any body at rest over its weight."""
+    move: float = 1.0e-8
+    """Motion of any vertex in the last step at rest [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Settled:
+    """How settling ended."""
+
+    q: NDArray[np.float64]
+    """Final state, shape (bodies, 4, 3)."""
+    trajectory: NDArray[np.float32]
+    """State after every step of the drop, starting with the first state, shape (frames, bodies, 4, 3)."""
+    at_rest: NDArray[np.bool_]
+    """Whether every world met the tolerances, shape (worlds,)."""
+    residual: NDArray[np.float64]
+    """Largest unbalanced force over weight, shape (worlds,)."""
+    frames: int
+    """Steps of the drop."""
+    polish_steps: int
+    newton_iterations: int
+    """Of all steps; of the slowest world in each."""
+
+
+Progress = Callable[[str, int, float], None]
+"""Called with the phase, its step number and the largest vertex motion of the step [m]."""
+
+
+class _Run:
+    """The state of one settling run; every quantity that decides something is kept per world."""
+
+    def __init__(self, model: Model, options: SettleOptions, progress: Progress):
+        self.model, self.options, self.progress = model, options, progress
+        self.q = wp.array(model.q0, dtype=wp.vec3d, device=model.device)
+        self.potential = Potential(model)
+        self.newton = Newton(self.potential)
+        self.frames = self.polish_steps = self.iterations = 0
+        self.trajectory = [model.q0.astype(np.float32)]
+        # At 100 times the heaviest body's weight, loads close gaps by a few per cent of d_hat.
+        self.potential.contact.stiffness.assign(np.maximum(100.0 * model.weight, 1.0))
+        self.potential.friction.coefficient.fill_(options.friction)
+        self._slip = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
+
+    def state(self) -> NDArray[np.float64]:
+        return self.q.numpy().reshape(-1, 4, 3).copy()
+
+    def set_reach(self, d_hat: float) -> None:
+        self.potential.contact.d_hat = d_hat
+        self.potential.candidates.invalidate()
+
+    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: float) -> NDArray[np.float64]:
+        """One time step with inertia scaled by `weight`, shape (worlds,); returns the largest vertex motions [m]."""
+        potential = self.potential
+        potential.inertia.start.assign(self.q)
+        potential.inertia.sigma.assign(weight / self.options.time_step**2)
+        result = self.newton.minimise(self.q, active, **tolerances)
+        self.iterations += int(result.iterations.max(initial=0))
+        return potential.motion(potential.inertia.start, self.q)
+
+    def anchor(self, worlds: NDArray[np.bool_]) -> None:
+        """Let the friction displacements of `worlds` count from the present state."""
+        reference = self.potential.friction.reference.numpy().reshape(-1, 4, 3)
+        moved = worlds[self.model.body_world.numpy()]
+        self.potential.friction.reference.assign(np.where(moved[:, None, None], self.state(), reference))
+
+    def slip(self) -> NDArray[np.float64]:
+        """Largest friction displacement of any contact [m], shape (worlds,)."""
+        self._slip.zero_()
+        self.potential.friction.largest_slip(self.q, self._slip)
+        return self._slip.numpy().copy()
+
+    def drop(self) -> None:
+        """Artificial time steps until nothing moves faster than friction creeps."""
+        options, potential = self.options, self.potential
+        potential.friction.epsilon = epsilon = options.friction_speed * options.time_step
+        still = np.zeros(self.model.worlds, dtype=np.int64)
+        while self.frames < options.max_frames and np.any(still < STILL_FRAMES):
+            active = still < STILL_FRAMES
+            self.anchor(active)
+            potential.record_friction(self.q)
+            move = self.step(
+                active, np.ones(self.model.worlds), move_tolerance=0.1 * options.d_hat, max_iterations=100
+            )  # fmt: skip
+            self.frames += 1
+            self.trajectory.append(self.state().astype(np.float32))
+            still = np.where(move < 2.0 * epsilon, still + 1, 0)
+            self.progress("settling", self.frames, float(move.max()))
+
+    def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Shrink the barrier and converge to static equilibrium; returns which worlds did and their residuals."""
+        options, potential, worlds = self.options, self.potential, self.model.worlds
+        # The first step closes gaps at the new reach, held by the friction of the old one.
+        potential.record_friction(self.q)
+        self.set_reach(options.final_d_hat)
+        potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, options.final_d_hat)
+        weight = np.ones(worlds)
+        active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
+        residual = np.full(worlds, np.inf)
+        while self.polish_steps < options.max_polish_steps and active.any():
+            self.anchor(active & ~anchored)
+            move = self.step(
+                active, weight, move_tolerance=np.inf, residual_tolerance=0.1 * options.residual,
+                exact_below=EXACT_BELOW, max_iterations=60,
+            )  # fmt: skip
+            self.polish_steps += 1
+            # The next step's friction acts with the normal forces of this state, so rest is judged with them.
+            potential.record_friction(self.q)
+            now = potential.residual(potential.gradient(self.q, inertia=False))
+            residual = np.where(active, now, residual)
+            active &= ~(anchored & (residual < options.residual) & (move < options.move))
+            # Once motion is as slow as friction's creep, its reference stays put; it follows while real slip goes on.
+            anchored = (move < 4.0 * epsilon) & (self.slip() < 20.0 * epsilon)
+            # Slow sliding gets longer steps.
+            weight = np.where(move < 1e-4, np.maximum(0.5 * weight, 1e-6), np.where(move > 1e-3, 1.0, weight))
+            self.progress("polishing", self.polish_steps, float(move.max()))
+        return ~active, residual
+
+
+def settle(model: Model, options: SettleOptions | None = None, progress: Progress = lambda *_: None) -> Settled:
+    """Let the bodies of every world of `model` come to rest from its initial state.
+
+    Raises:
+        SimulationError: the state is not finite.
+    """
+    options = options or SettleOptions()
+    run = _Run(model, options, progress)
+    run.set_reach(options.d_hat)
+    run.drop()
+    at_rest, residual = run.polish()
+    q = run.state()
+    if not np.all(np.isfinite(q)):
+        raise SimulationError("settling produced values that are not finite.")
+    return Settled(
+        q=q,
+        trajectory=np.stack(run.trajectory),
+        at_rest=at_rest,
+        residual=residual,
+        frames=run.frames,
+        polish_steps=run.polish_steps,
+        newton_iterations=run.iterations,
+    )

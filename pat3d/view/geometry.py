@@ -1,0 +1,202 @@
+"""The triangles of a picture: placed meshes, smooth normals and the ray tracer over them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.assets.asset import VisualMesh
+from pat3d.scene import Pose
+from pat3d.view.textures import TextureAtlas
+
+CREASE_ANGLE = 40.0
+"""Faces that meet at a larger angle [deg] keep a sharp edge."""
+_LARGEST_FAN = 256
+"""Corners of a vertex with more faces than this stay flat: pairs grow with the square."""
+
+
+def crease_normals(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float32]:
+    """Normals of every face corner: the mean over the faces at its vertex within the crease angle of its own face.
+
+    Faces count by area, so that the slivers of boolean operations, whose own normals are noise, do not show.
+
+    Args:
+        vertices: [m], shape (v, 3).
+        faces: vertex indices, shape (f, 3).
+
+    Returns:
+        Unit normals, shape (f, 3, 3).
+    """
+    corners = vertices[faces]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    flat = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
+    vertex_of = faces.reshape(-1)
+    order = np.argsort(vertex_of, kind="stable")
+    face_of = order // 3
+    fan = np.bincount(vertex_of, minlength=len(vertices))
+    start = np.cumsum(fan) - fan
+    limit = math.cos(math.radians(CREASE_ANGLE))
+    # Where every face is within half the crease angle of the mean, all pairs are within the whole.
+    weights = [np.bincount(vertex_of, area[:, axis].repeat(3), len(vertices)) for axis in range(3)]
+    mean = np.stack(weights, axis=1)
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
+    apart = np.einsum("ij,ij->i", flat.repeat(3, axis=0), mean[vertex_of]) < math.cos(math.radians(CREASE_ANGLE / 2))
+    creased = np.bincount(vertex_of, apart, len(vertices)) > 0
+    sums = np.where(creased[vertex_of][:, None], area.repeat(3, axis=0), mean[vertex_of])
+    # Corner i of its vertex's fan against the corner `shift` places further round, for all vertices at once.
+    rank = np.arange(len(order)) - start.repeat(fan)
+    valence, first = fan.repeat(fan), start.repeat(fan)
+    active = np.flatnonzero(creased.repeat(fan) & (valence <= _LARGEST_FAN))
+    for shift in range(1, _LARGEST_FAN):
+        active = active[valence[active] > shift]
+        if len(active) == 0:
+            break
+        theirs = face_of[first[active] + (rank[active] + shift) % valence[active]]
+        close = np.einsum("ij,ij->i", flat[face_of[active]], flat[theirs]) > limit
+        sums[order[active[close]]] += area[theirs[close]]
+    length = np.linalg.norm(sums, axis=1)
+    return (sums / np.maximum(length, 1e-300)[:, None]).reshape(-1, 3, 3).astype(np.float32)
+
+
+@dataclass(frozen=True, eq=False)
+class _Prepared:
+    """What a mesh needs for every picture, whatever its pose."""
+
+    normals: NDArray[np.float32]
+    """Corner normals, shape (faces, 3, 3)."""
+    density: NDArray[np.float32]
+    """Texels per metre of every face, shape (faces,)."""
+
+
+_PREPARED: WeakKeyDictionary[VisualMesh, _Prepared] = WeakKeyDictionary()
+
+
+def _prepared(mesh: VisualMesh) -> _Prepared:
+    """Normals and texel density of `mesh`, computed once: the frames of a video share them."""
+    found = _PREPARED.get(mesh)
+    if found is None:
+        corners = mesh.vertices[mesh.faces]
+        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        edge, other = mesh.uv[:, 1] - mesh.uv[:, 0], mesh.uv[:, 2] - mesh.uv[:, 0]
+        texels = np.abs(edge[:, 0] * other[:, 1] - edge[:, 1] * other[:, 0]) * mesh.texture[..., 0].size
+        density = np.sqrt(texels / np.maximum(area, 1e-18)).astype(np.float32)
+        found = _PREPARED[mesh] = _Prepared(crease_normals(mesh.vertices, mesh.faces), density)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """Where rays meet triangles; `which` lists the rays that do."""
+
+    which: NDArray[np.int64]
+    """Indices of the rays, shape (m,)."""
+    item: NDArray[np.int32]
+    """Which item was hit, shape (m,)."""
+    distance: NDArray[np.float32]
+    """[m], shape (m,)."""
+    point: NDArray[np.float32]
+    """[m], shape (m, 3)."""
+    outside: NDArray[np.float32]
+    """The point lifted onto the smooth surface that the normals suggest [m], shape (m, 3)."""
+    normal: NDArray[np.float32]
+    """Smooth unit normal on the viewer's side, shape (m, 3)."""
+    flat: NDArray[np.float32]
+    """Unit normal of the triangle on the viewer's side, shape (m, 3)."""
+    colour: NDArray[np.float32]
+    """Linear RGB of the surface, shape (m, 3)."""
+
+
+class Geometry:
+    """Placed meshes ready for rays, in a float32 frame whose origin is the middle of the picture's contents."""
+
+    def __init__(self, items: Sequence[tuple[VisualMesh, Pose]]) -> None:
+        from embreex.mesh_construction import TriangleMesh
+        from embreex.rtcore_scene import EmbreeScene
+
+        placed = [pose.apply(mesh.vertices) for mesh, pose in items]
+        self.low = np.min([points.min(axis=0) for points in placed], axis=0)
+        self.high = np.max([points.max(axis=0) for points in placed], axis=0)
+        self.origin: NDArray[np.float64] = (self.low + self.high) / 2.0
+        corners, normals = [], []
+        for (mesh, pose), points in zip(items, placed, strict=True):
+            corners.append((points - self.origin).astype(np.float32)[mesh.faces])
+            normals.append(_prepared(mesh).normals @ pose.rotation.T.astype(np.float32))
+        self.corners: NDArray[np.float32] = np.concatenate(corners)
+        self._normals: NDArray[np.float32] = np.concatenate(normals)
+        self._uv = np.concatenate([mesh.uv for mesh, _ in items]).astype(np.float32)
+        self._density = np.concatenate([_prepared(mesh).density for mesh, _ in items])
+        counts = [len(mesh.faces) for mesh, _ in items]
+        self._item = np.repeat(np.arange(len(items), dtype=np.int32), counts)
+        self._atlas = TextureAtlas([mesh.texture for mesh, _ in items])
+        area = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
+        length = np.linalg.norm(area, axis=1)
+        self.face_normals: NDArray[np.float32] = area / np.maximum(length, 1e-30)[:, None]
+        centre = self._uv.mean(axis=1)
+        edge = np.sqrt(length) * self._density
+        self.face_colours: NDArray[np.float32] = self._atlas.colour(self._item, centre, edge)
+        # The scene keeps no reference to what it was built from; the mesh object must live as long.
+        self._scene: Any = EmbreeScene()
+        self._mesh = TriangleMesh(self._scene, self.corners)
+
+    @property
+    def radius(self) -> float:
+        """Half the diagonal of the bounding box [m]."""
+        return float(np.linalg.norm(self.high - self.low) / 2.0)
+
+    def occluded(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.bool_]:
+        """Whether each ray, shape (n, 3), meets any triangle."""
+        return self._scene.run(origins, directions, query="OCCLUDED") >= 0
+
+    def first_faces(
+        self, origins: NDArray[np.float32], directions: NDArray[np.float32]
+    ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+        """Face index (-1 for none) and distance [m] of each ray's first hit, shapes (n,)."""
+        found = self._scene.run(origins, directions, output=1)
+        return found["primID"], found["tfar"]
+
+    def trace(self, origin: NDArray[np.float32], directions: NDArray[np.float32], pixel: float) -> Hits:
+        """First hits of rays from one point.
+
+        Args:
+            origin: [m], shape (3,).
+            directions: unit vectors, shape (n, 3).
+            pixel: angle between neighbouring rays [rad], which chooses the texture's resolution.
+        """
+        found = self._scene.run(np.tile(origin, (len(directions), 1)), directions, output=1)
+        which = np.flatnonzero(found["primID"] >= 0)
+        face, distance = found["primID"][which], found["tfar"][which]
+        u, v = found["u"][which], found["v"][which]
+        ray = directions[which]
+        point = origin + distance[:, None] * ray
+        weights = np.stack([1.0 - u - v, u, v], axis=1)
+        corner_normals, corners, uv = self._normals[face], self.corners[face], self._uv[face]
+        normal = np.einsum("ij,ijk->ik", weights, corner_normals)
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-20)[:, None]
+        flat = self.face_normals[face]
+        inside = np.einsum("ij,ij->i", flat, ray) > 0.0
+        side = np.where(inside, -1.0, 1.0).astype(np.float32)[:, None]
+        # Rays from flat facets to the light would see the facets' own horizon and draw it as a staircase;
+        # starting from the tangent planes of the corners hides it.
+        lift = np.zeros_like(point)
+        for k in range(3):
+            depth = np.einsum("ij,ij->i", point - corners[:, k], corner_normals[:, k])[:, None]
+            lift -= weights[:, k, None] * np.minimum(depth * side, 0.0) * side * corner_normals[:, k]
+        coordinates = np.einsum("ij,ijk->ik", weights, uv)
+        slope = np.maximum(np.abs(np.einsum("ij,ij->i", flat, ray)), 0.1)
+        footprint = self._density[face] * distance * np.float32(pixel) / np.sqrt(slope)
+        return Hits(
+            which=which,
+            item=self._item[face],
+            distance=distance,
+            point=point,
+            outside=point + lift,
+            normal=normal * side,
+            flat=flat * side,
+            colour=self._atlas.colour(self._item[face], coordinates, footprint),
+        )
