@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.assets.catalogue.common import DARK, STEEL, WHITE, cavity, disc, height, length, rectangle
+from pat3d.assets.catalogue.common import DARK, STEEL, WHITE, cavity, disc, height, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.rounded import curve, hollow, lathe, ring_of, slab, tube, unseen
-from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box, tray
+from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box
 
 
 def _band(low: float, high: float) -> Shape:
@@ -182,24 +182,6 @@ def basket(style: Style) -> Build:
         parts=((Shape(rippled, body.hulls), style.colour()), (unseen(rim), dark)),
         regions=(cavity(inner, 12),),
         paint=((unseen(join(*blocks)), dark),),
-    )
-
-
-@entry("crate", family="kitchen", synonyms=("wooden crate", "fruit crate"), material="wood",
-       colours=("wood", "white"))  # fmt: skip
-def crate(style: Style) -> Build:
-    """An open wooden crate with slatted walls."""
-    x, y, h = length(style, 0.4), style.vary(0.3), height(style, 0.18)
-    wall, floor = 0.012, 0.012
-    body = tray(x, y, h, wall, floor)
-    gaps = join(*(box(1, y - 0.08, 0.014).moved(z=part * h) for part in (0.33, 0.66)),
-                *(box(x - 0.08, 1, 0.014).moved(z=part * h) for part in (0.33, 0.66)))  # fmt: skip
-    ends = join(*(box(0.04, 0.04, 2).moved(x=i * x / 2, y=j * y / 2, z=-1) for i in (-1, 1) for j in (-1, 1)))
-    free = (x - 2 * wall, y - 2 * wall)
-    return Build(
-        parts=((Shape(body.solid - gaps.solid, body.hulls), style.colour()),),
-        regions=(rectangle("in", floor, *free, h - floor),),
-        paint=((unseen(ends), style.shade(style.colour(), 0.85)),),
     )
 
 
