@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import CREAM, DARK, GOLDEN_CRUST, LEAF, WHITE, disc, height, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import arc, covered, extruded, lathe, lobed, ring_of, tube, unseen
+from pat3d.assets.rounded import arc, covered, extruded, lathe, lobed, ring_of, spot, tube, unseen
 from pat3d.assets.shapes import Shape, box, cylinder, ellipsoid, frustum, join, prism
 
 CRUMB = (244, 222, 176)
@@ -186,7 +186,7 @@ def cookie(style: Style) -> Build:
     chips = []
     for k in range(13):
         out, at = r * 0.86 * np.sqrt((k + 0.4) / 13), 2.4 * k + float(style.rng.uniform(-0.2, 0.2))
-        chips.append(ellipsoid(0.0035).moved(out * np.cos(at), out * np.sin(at), 0.9 * h))
+        chips.append(spot(0.0035).moved(out * np.cos(at), out * np.sin(at), 0.9 * h))
     return Build(parts=((body, style.colour()),), paint=((unseen(join(*chips)), DARK),))
 
 
@@ -216,9 +216,7 @@ def pizza(style: Style) -> Build:
         out, at = (r - 0.03) * (0.78 if k % 3 else 0.36), 2.3 * k + float(style.rng.uniform(-0.2, 0.2))
         discs.append(cylinder(0.017, 0.1).moved(out * np.cos(at), out * np.sin(at), 0.005))
         herbs.append(
-            ellipsoid(0.009, 0.005, 0.02)
-            .turned("z", 80.0 * k)
-            .moved(out * np.cos(at + 0.6), out * np.sin(at + 0.6), 0.01)
+            spot(0.009, 0.005, 0.02).turned("z", 80.0 * k).moved(out * np.cos(at + 0.6), out * np.sin(at + 0.6), 0.01)
         )
     return Build(
         parts=((body, style.colour()),),
@@ -284,7 +282,7 @@ def burger(style: Style) -> Build:
     for k in range(1, 22):
         out, at = 0.8 * r * np.sqrt(k / 22), 2.4 * k
         z = 0.046 + 0.62 * np.sqrt(r**2 - out**2)
-        seeds.append(ellipsoid(0.0026, 0.0016, 0.0022).turned("z", 67 * k).moved(out * np.cos(at), out * np.sin(at), z))
+        seeds.append(spot(0.0026, 0.0016, 0.0022).turned("z", 67 * k).moved(out * np.cos(at), out * np.sin(at), z))
     colours = (style.colour(), MEAT, CHEESE, (126, 176, 72), TOMATO, style.colour())
     return Build(parts=tuple(zip(pieces, colours, strict=True)), paint=((unseen(join(*seeds)), CREAM),), mass=0.22)
 
