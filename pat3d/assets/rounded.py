@@ -26,6 +26,12 @@ def unseen(shape: Shape) -> Shape:
     return Shape(shape.solid, ())
 
 
+def spot(rx: float, ry: float | None = None, rz: float | None = None, segments: int = 12) -> Shape:
+    """A coarse ellipsoid [m] at the origin without a convex part: seeds, petals, paint."""
+    ry, rz = rx if ry is None else ry, rx if rz is None else rz
+    return Shape(manifold3d.Manifold.sphere(1.0, segments).scale((rx, ry, rz)), ())
+
+
 def curve(points: ArrayLike, count: int = 24) -> NDArray[np.float64]:
     """`count` points on a smooth curve through `points` [m], shape (n, d), evenly spread in its parameter."""
     array = np.asarray(points, dtype=np.float64)

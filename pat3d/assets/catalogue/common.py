@@ -6,8 +6,12 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
+import numpy as np
+from scipy.optimize import brentq
+
 from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import Style
+from pat3d.assets.shapes import Shape
 
 CREAM = (244, 236, 214)
 LEAF = (86, 134, 62)
@@ -52,3 +56,13 @@ def disc(kind: Literal["on", "in"], z: float, radius: float, height: float = mat
 def rectangle(kind: Literal["on", "in"], z: float, x: float, y: float, height: float = math.inf) -> Region:
     """A rectangular floor [m] of full sizes x and y centred on the object."""
     return Region(kind=kind, shape="rectangle", floor=(0.0, 0.0, z), half_size=(x / 2, y / 2), height=height)
+
+
+def level_lean(first: Shape, second: Shape) -> float:
+    """Angle about y [degrees, 45 to 135] that lays two shapes on an axis along z with equal lowest points."""
+
+    def gap(degrees: float) -> float:
+        low = [np.concatenate(shape.turned("y", degrees).hulls)[:, 2].min() for shape in (first, second)]
+        return float(low[0] - low[1])
+
+    return float(brentq(gap, 45.0, 135.0, xtol=1e-13))

@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import CREAM, LEAF, STALK, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import arc, covered, curve, lathe, lobed, lump, ring_of, tube, unseen
+from pat3d.assets.rounded import arc, covered, curve, lathe, lobed, lump, ring_of, spot, tube, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, rod
 
 
@@ -126,7 +126,7 @@ def strawberry(style: Style) -> Build:
     points = [(0.006, 0.0), (0.0165, 0.004), (0.0175, 0.012), (0.012, 0.027), (0.005, 0.036), (0.0, 0.038)]
     body = lathe(curve(points, 24), angles=(-50, lean, 60)).scaled(s)
     rows = [(0.0178, 0.01, 9), (0.0167, 0.017, 9), (0.0138, 0.0235, 8), (0.0098, 0.03, 6), (0.005, 0.0355, 3)]
-    seeds = [ring_of(unseen(ellipsoid(0.0012)).moved(z=z), r, n, 20 + 27 * k) for k, (r, z, n) in enumerate(rows)]
+    seeds = [ring_of(spot(0.0012).moved(z=z), r, n, 20 + 27 * k) for k, (r, z, n) in enumerate(rows)]
     collar = join(ring_of(ellipsoid(0.009, 0.0042, 0.0075), 0.0125, 6), cylinder(0.012, 0.0035).moved(z=-0.001))
     stalk = rod((0, 0, 0.004), (0.002, 0, -0.007), 0.0014, sides=4)
     down = -float(body.turned("y", 90 + lean).hulls[0][:, 2].min())
@@ -194,7 +194,7 @@ def potato(style: Style) -> Build:
     points = np.stack([x * swell * np.cos(u) * np.cos(v), y * swell * np.sin(u) * np.cos(v), z * np.sin(v)], axis=-1)
     body = lump(points.reshape(-1, 3))
     at = [(0.5, 0.8), (1.9, 0.5), (3.0, 0.9), (4.4, 0.4), (5.4, 0.8), (4.9, 1.2)]
-    eyes = [ellipsoid(0.0035).moved(x * np.cos(a) * np.cos(b), y * np.sin(a) * np.cos(b), z * np.sin(b)) for a, b in at]
+    eyes = [spot(0.0035).moved(x * np.cos(a) * np.cos(b), y * np.sin(a) * np.cos(b), z * np.sin(b)) for a, b in at]
     return Build(parts=((body, style.colour()),), paint=((unseen(join(*eyes)), style.shade(style.colour(), 0.7)),))
 
 
@@ -207,10 +207,10 @@ def carrot(style: Style) -> Build:
     root = lathe(profile, angles=(-45.0, -lean, 45.0))
     stems = [rod((0, 0, n), (0.0085 * np.cos(a), 0.0085 * np.sin(a), n + 0.05), 0.002, sides=4) for a in range(0, 6)]
     greens = covered(stems, lathe([(0.003, n), (0.011, n + 0.051)], angles=(-8.0,), sides=8))
-    down = -float(root.turned("y", 90 + lean).hulls[0][:, 2].min())
+    down = -float(root.turned("y", 90 - lean).hulls[0][:, 2].min())
 
     def laid(shape: Shape) -> Shape:
-        return shape.turned("y", 90 + lean).moved(z=down)
+        return shape.turned("y", 90 - lean).moved(z=down)
 
     rings = [cylinder(0.1, 0.0012).moved(z=part * n) for part in (0.3, 0.45, 0.62, 0.74, 0.9)]
     return Build(
@@ -325,7 +325,9 @@ def grapes(style: Style) -> Build:
             for k in range(count - layer):
                 y = (k - (count - layer - 1) / 2) * 1.75 * r
                 shift = 0.5 * r * float(style.rng.uniform(-1, 1))
-                berries.append(ellipsoid(r).moved(x * r * 1.05 + shift + 0.6 * r * layer, y, r * (1 + 1.5 * layer)))
+                berries.append(
+                    spot(r, segments=20).moved(x * r * 1.05 + shift + 0.6 * r * layer, y, r * (1 + 1.5 * layer))
+                )
     cluster = join(*berries)
     stalk = rod((0, 0, 2.2 * r), (-3.2 * r, 0, 2.6 * r), 0.002, sides=4)
     points = np.asarray(cluster.solid.to_mesh64().vert_properties)[:, :3]
