@@ -104,7 +104,8 @@ def elephant(style: Style) -> Build:
 
 @entry("rabbit", family="plush",
        synonyms=("bunny", "plush rabbit", "plush bunny", "toy rabbit", "stuffed rabbit", "stuffed bunny",
-                 "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit", "hare"), plurals=("bunnies",), material="plush",
+                 "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit", "hare"),
+       plurals=("bunnies",), material="plush",
        colours=("white", "tan", "gray"))  # fmt: skip
 def rabbit(style: Style) -> Build:
     """A crouching rabbit with upright ears, 26 cm tall (a baby one 15 cm)."""
