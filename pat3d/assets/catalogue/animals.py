@@ -44,8 +44,18 @@ class _Frame:
         return [(join(self.body, self.legs, self.neck, self.head, self.snout), coat)]
 
 
-def _standing(*, long: float, deep: float, high: float, leg: float, head: float, reach: float, rise: float, snout: float,
-              wide: float = 1.0) -> _Frame:  # fmt: skip
+def _standing(
+    *,
+    long: float,
+    deep: float,
+    high: float,
+    leg: float,
+    head: float,
+    reach: float,
+    rise: float,
+    snout: float,
+    wide: float = 1.0,
+) -> _Frame:
     """A body `long` and 2 `deep` [m] with its axis at height `high`, its head `reach` before and `rise` above it."""
     half = long / 2
     body = limb((0.0, half - deep, high), (0.0, deep - half, high), deep, 0.95 * deep).scaled(wide, 1.0, 1.0)
@@ -79,8 +89,8 @@ def _sitting(style: Style, coat: RGB, *, head: Shape, high: float, ruff: float) 
     ]
 
 
-@entry("dog", family="animals", synonyms=("puppy", "small dog", "pup", "little dog"), plurals=("puppies",), material="wool",
-       colours=("tan", "brown", "golden", "white"))  # fmt: skip
+@entry("dog", family="animals", synonyms=("puppy", "small dog", "pup", "little dog"), plurals=("puppies",),
+       material="wool", colours=("tan", "brown", "golden", "white"))  # fmt: skip
 def dog(style: Style) -> Build:
     """A small sitting dog with drooping ears, 36 cm tall."""
     coat = style.colour()
@@ -120,8 +130,10 @@ def cat(style: Style) -> Build:
     ear = cone(0.021, 0.044, sides=6).scaled(1.0, 0.6, 1.0).turned("y", 14).moved(0.029, -0.062, 0.312)
     inner = ellipsoid(0.009, 0.008, 0.022).turned("y", 14).moved(0.033, -0.076, 0.328)
     side = 1.0 if style.rng.random() < 0.5 else -1.0
-    tail = join(limb((side * 0.03, 0.125, 0.020), (side * 0.105, 0.075, 0.017), 0.015),
-                limb((side * 0.105, 0.075, 0.017), (side * 0.100, style.vary(-0.03, 0.5), 0.015), 0.015, 0.012))  # fmt: skip
+    tail = join(
+        limb((side * 0.03, 0.125, 0.020), (side * 0.105, 0.075, 0.017), 0.015),
+        limb((side * 0.105, 0.075, 0.017), (side * 0.100, style.vary(-0.03, 0.5), 0.015), 0.015, 0.012),
+    )
     stripes = [cylinder(0.3, 0.011).turned("x", 90 - 40 * k / 4).moved(0.0, 0.05 + 0.035 * k, 0.20) for k in range(4)]
     back = egg((0.1, 0.10, 0.10), (0.0, 0.115, 0.16))
     bands = join(*stripes)
@@ -147,8 +159,8 @@ def cat(style: Style) -> Build:
     )
 
 
-@entry("cow", family="animals", synonyms=("cow figurine", "toy cow", "cow figure", "cattle", "bull", "small cow figurine"),
-       colours=("white", "brown"), accents=("black",))  # fmt: skip
+@entry("cow", family="animals", synonyms=("cow figurine", "toy cow", "cow figure", "cattle", "bull",
+       "small cow figurine"), colours=("white", "brown"), accents=("black",))  # fmt: skip
 def cow(style: Style) -> Build:
     """A patched toy cow with horns and an udder, 13 cm long."""
     coat, patch = style.colour(), style.colour(1)
@@ -158,8 +170,12 @@ def cow(style: Style) -> Build:
     ear = ellipsoid(0.009, 0.0035, 0.005).turned("y", 18).moved(0.0185, y + 0.002, z + 0.003)
     tail = limb((0.0, 0.050, 0.064), (0.0, 0.059, 0.030), 0.0028, 0.004)
     udder = egg((0.0115, 0.014, 0.010), (0.0, 0.022, 0.031))
-    spots = [ellipsoid(*(style.vary(0.013, 0.35) for _ in range(3))).moved(
-        side * 0.021, style.rng.uniform(-0.045, 0.045), 0.056 + style.rng.uniform(-0.012, 0.014)) for side in (-1, 1, -1, 1, -1)]  # fmt: skip
+    spots = [
+        ellipsoid(*(style.vary(0.013, 0.35) for _ in range(3))).moved(
+            side * 0.021, style.rng.uniform(-0.045, 0.045), 0.056 + style.rng.uniform(-0.012, 0.014)
+        )
+        for side in (-1, 1, -1, 1, -1)
+    ]
     return finish(
         style,
         [*frame.coloured(coat), (join(pair(ear), tail), coat), (pair(horn), tint((200, 170, 120), 0.4)), (udder, PINK)],
@@ -195,7 +211,9 @@ def pig(style: Style) -> Build:
     )
 
 
-@entry("sheep", family="animals", synonyms=("lamb", "toy sheep", "sheep figurine"), colours=("cream",), accents=("black",))
+@entry(
+    "sheep", family="animals", synonyms=("lamb", "toy sheep", "sheep figurine"), colours=("cream",), accents=("black",)
+)
 def sheep(style: Style) -> Build:
     """A woolly toy sheep with a dark face, 10 cm long."""
     coat, face = style.colour(), style.colour(1)
@@ -221,8 +239,8 @@ def sheep(style: Style) -> Build:
     )
 
 
-@entry("horse", family="animals", synonyms=("pony", "toy horse", "horse figurine"), plurals=("ponies",), colours=("brown", "chocolate"),
-       accents=("black",))  # fmt: skip
+@entry("horse", family="animals", synonyms=("pony", "toy horse", "horse figurine"), plurals=("ponies",),
+       colours=("brown", "chocolate"), accents=("black",))  # fmt: skip
 def horse(style: Style) -> Build:
     """A standing toy horse with mane and tail, 16 cm long."""
     coat, mane = style.colour(), style.colour(1)
@@ -258,28 +276,48 @@ def lion(style: Style) -> Build:
         style,
         [*frame.coloured(coat), (join(pair(ear), tail), coat), (join(ruff, tuft), mane)],
         paint=[
-            (ellipsoid(0.0075, 0.005, 0.007).moved(0.0, frame.muzzle[1] - 0.008, frame.muzzle[2] - 0.002), tint(coat, 0.6)),
+            (
+                ellipsoid(0.0075, 0.005, 0.007).moved(0.0, frame.muzzle[1] - 0.008, frame.muzzle[2] - 0.002),
+                tint(coat, 0.6),
+            ),
             (ellipsoid(0.004, 0.006, 0.003).moved(0.0, frame.muzzle[1] - 0.008, frame.muzzle[2] + 0.004), DARK),
             (eyes(frame.size, frame.at, 0.007, z + 0.005, 0.0025), DARK),
         ],
         regions=[on_top(frame.body, 0.012)],
         mass=0.09,
-    )  # fmt: skip
+    )
 
 
-@entry("dinosaur", family="animals", synonyms=("toy dinosaur", "dino", "dinosaur figurine"), colours=("green", "olive", "teal"))
+@entry(
+    "dinosaur",
+    family="animals",
+    synonyms=("toy dinosaur", "dino", "dinosaur figurine"),
+    colours=("green", "olive", "teal"),
+)
 def dinosaur(style: Style) -> Build:
     """A long-necked toy dinosaur with a row of back plates, 22 cm long."""
     coat = style.colour()
     body = egg((0.030, 0.052, 0.030), (0.0, 0.0, 0.055))
     lift = style.vary(0.140, 0.08)
-    neck = join(limb((0.0, -0.030, 0.064), (0.0, -0.066, 0.105), 0.020, 0.014),
-                limb((0.0, -0.066, 0.105), (0.0, -0.074, lift), 0.014, 0.011))  # fmt: skip
+    neck = join(
+        limb((0.0, -0.030, 0.064), (0.0, -0.066, 0.105), 0.020, 0.014),
+        limb((0.0, -0.066, 0.105), (0.0, -0.074, lift), 0.014, 0.011),
+    )
     size, at = (0.0135, 0.022, 0.013), (0.0, -0.086, lift + 0.006)
-    tail = join(limb((0.0, 0.030, 0.054), (0.0, 0.080, 0.034), 0.022, 0.012),
-                limb((0.0, 0.080, 0.034), (0.0, 0.128, 0.026), 0.012, 0.004))  # fmt: skip
-    plates = [cone(r, 2.2 * r, sides=6).scaled(0.35, 1.0, 1.0).moved(0.0, y, z) for r, y, z in
-              ((0.008, -0.056, 0.102), (0.010, -0.022, 0.080), (0.011, 0.006, 0.083), (0.010, 0.034, 0.074), (0.008, 0.062, 0.054))]  # fmt: skip
+    tail = join(
+        limb((0.0, 0.030, 0.054), (0.0, 0.080, 0.034), 0.022, 0.012),
+        limb((0.0, 0.080, 0.034), (0.0, 0.128, 0.026), 0.012, 0.004),
+    )
+    plates = [
+        cone(r, 2.2 * r, sides=6).scaled(0.35, 1.0, 1.0).moved(0.0, y, z)
+        for r, y, z in (
+            (0.008, -0.056, 0.102),
+            (0.010, -0.022, 0.080),
+            (0.011, 0.006, 0.083),
+            (0.010, 0.034, 0.074),
+            (0.008, 0.062, 0.054),
+        )
+    ]
     return finish(
         style,
         [

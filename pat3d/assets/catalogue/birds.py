@@ -13,7 +13,12 @@ BEAK: RGB = (232, 140, 44)
 
 def _foot(x: float, y: float, wide: float, long: float, thick: float) -> Shape:
     """A flat three-toed foot [m]: a wedge that widens to the front."""
-    outline = [(x - wide * 0.3, y + long * 0.5), (x + wide * 0.3, y + long * 0.5), (x + wide, y - long * 0.5), (x - wide, y - long * 0.5)]
+    outline = [
+        (x - wide * 0.3, y + long * 0.5),
+        (x + wide * 0.3, y + long * 0.5),
+        (x + wide, y - long * 0.5),
+        (x - wide, y - long * 0.5),
+    ]
     return convex([(px, py, z) for px, py in outline for z in (0.0, thick)])
 
 
@@ -25,7 +30,11 @@ def _perched(style: Style, *, coat: RGB, belly: RGB, wing: RGB, beak: RGB, crest
     bill = cone(0.0075, 0.024, sides=6).turned("x", 96).moved(0.0, at[1] - 0.020, at[2] - 0.001)
     plume = cone(0.012, 0.034, sides=6).turned("x", -48).moved(0.0, at[1] + 0.004, at[2] + 0.015)
     feather = egg((0.007, 0.046, 0.021), (0.0285, 0.020, 0.064), pitch - 2).turned("z", -3)
-    tail = box(0.028, 0.085, 0.006).turned("x", pitch * 0.8).moved(0.0, 0.082, 0.024 + 0.052 * math.sin(math.radians(-pitch)) * 0.2)
+    tail = (
+        box(0.028, 0.085, 0.006)
+        .turned("x", pitch * 0.8)
+        .moved(0.0, 0.082, 0.024 + 0.052 * math.sin(math.radians(-pitch)) * 0.2)
+    )
     shanks = pair(limb((0.013, 0.002, 0.006), (0.012, 0.008, 0.040), 0.004, 0.006))
     feet = pair(_foot(0.014, -0.004, 0.011, 0.044, 0.005))
     front = egg((0.026, 0.045, 0.030), (0.0, -0.022, 0.056), -50)
@@ -36,25 +45,37 @@ def _perched(style: Style, *, coat: RGB, belly: RGB, wing: RGB, beak: RGB, crest
         paint.append((Shape(join(*stripes).solid ^ side.solid, ()), WHITE))
         paint.append((Shape(cylinder(0.05, 0.006).turned("x", 40).moved(0.0, -0.026, 0.082).solid, ()), DARK))
     paint.append((eyes(size, at, 0.012, at[2] + 0.006, 0.0038), DARK))
-    parts = [(join(body, egg(size, at)), coat), (pair(feather), wing), (tail, wing), (bill, beak), (join(shanks, feet), (92, 84, 80))]
+    parts = [
+        (join(body, egg(size, at)), coat),
+        (pair(feather), wing),
+        (tail, wing),
+        (bill, beak),
+        (join(shanks, feet), (92, 84, 80)),
+    ]
     if crest:
         parts.append((plume, coat))
     return finish(style, parts, paint=paint, regions=[on_top(egg(size, at), 0.01)], mass=0.085)
 
 
-@entry("blue jay", family="animals", synonyms=("bluejay", "jay"), material="wool", colours=("blue",), accents=("white",))
+@entry(
+    "blue jay", family="animals", synonyms=("bluejay", "jay"), material="wool", colours=("blue",), accents=("white",)
+)
 def blue_jay(style: Style) -> Build:
     """A crested blue bird with a white breast, barred wings and a dark collar."""
     coat = style.colour()
-    return _perched(style, coat=coat, belly=style.colour(1), wing=style.shade(coat, 0.75), beak=DARK, crest=True, bars=True)
+    return _perched(
+        style, coat=coat, belly=style.colour(1), wing=style.shade(coat, 0.75), beak=DARK, crest=True, bars=True
+    )
 
 
-@entry("bird", family="animals", synonyms=("songbird", "small bird", "robin", "sparrow", "canary", "toy bird", "parrot"), material="wool",
-       colours=("yellow", "red", "teal", "brown"))  # fmt: skip
+@entry("bird", family="animals", synonyms=("songbird", "small bird", "robin", "sparrow", "canary", "toy bird",
+       "parrot"), material="wool", colours=("yellow", "red", "teal", "brown"))  # fmt: skip
 def bird(style: Style) -> Build:
     """A small songbird with a light breast."""
     coat = style.colour()
-    return _perched(style, coat=coat, belly=tint(coat, 0.6), wing=style.shade(coat, 0.72), beak=BEAK, crest=False, bars=False)
+    return _perched(
+        style, coat=coat, belly=tint(coat, 0.6), wing=style.shade(coat, 0.72), beak=BEAK, crest=False, bars=False
+    )
 
 
 def _duck_body(style: Style, coat: RGB, wing: RGB, head: RGB) -> tuple[list, Shape, tuple, tuple]:
@@ -63,12 +84,17 @@ def _duck_body(style: Style, coat: RGB, wing: RGB, head: RGB) -> tuple[list, Sha
     bill = egg((0.0145, 0.017, 0.0055), (0.0, -0.060, 0.076), 6)
     feather = egg((0.008, 0.028, 0.017), (0.0355, 0.010, 0.044), -14)
     tail = limb((0.0, 0.036, 0.040), (0.0, style.vary(0.062, 0.05), 0.060), 0.017, 0.006)
-    parts = [(join(egg((0.039, 0.052, 0.034), (0.0, 0.004, 0.030)), tail), coat), (skull, head), (pair(feather), wing), (bill, BEAK)]
+    parts = [
+        (join(egg((0.039, 0.052, 0.034), (0.0, 0.004, 0.030)), tail), coat),
+        (skull, head),
+        (pair(feather), wing),
+        (bill, BEAK),
+    ]
     return parts, skull, size, at
 
 
-@entry("rubber duck", family="toys", synonyms=("rubber ducky", "bath duck", "rubber duckie", "toy duck", "yellow duck"), material="rubber",
-       colours=("yellow",))  # fmt: skip
+@entry("rubber duck", family="toys", synonyms=("rubber ducky", "bath duck", "rubber duckie", "toy duck",
+       "yellow duck"), material="rubber", colours=("yellow",))  # fmt: skip
 def rubber_duck(style: Style) -> Build:
     """A hollow bath duck, 11 cm long."""
     coat = style.colour()
@@ -80,11 +106,11 @@ def rubber_duck(style: Style) -> Build:
         paint=[(whites, WHITE), (eyes((0.029, 0.030, 0.029), at, 0.0115, at[2] + 0.0095, 0.0044), DARK)],
         regions=[on_top(skull, 0.012)],
         mass=0.055,
-    )  # fmt: skip
+    )
 
 
-@entry("duck", family="animals", synonyms=("mallard", "duckling", "goose"), plurals=("geese",), material="wool", colours=("brown", "white"),
-       accents=("green",))  # fmt: skip
+@entry("duck", family="animals", synonyms=("mallard", "duckling", "goose"), plurals=("geese",), material="wool",
+       colours=("brown", "white"), accents=("green",))  # fmt: skip
 def duck(style: Style) -> Build:
     """A resting mallard with a green head, 40 cm long (a baby one 12 cm)."""
     coat = style.colour()
@@ -102,8 +128,8 @@ def duck(style: Style) -> Build:
     )
 
 
-@entry("penguin", family="animals", synonyms=("plush penguin", "toy penguin", "stuffed penguin"), material="plush", colours=("black", "navy"),
-       accents=("orange",))  # fmt: skip
+@entry("penguin", family="animals", synonyms=("plush penguin", "toy penguin", "stuffed penguin"), material="plush",
+       colours=("black", "navy"), accents=("orange",))  # fmt: skip
 def penguin(style: Style) -> Build:
     """An upright plush penguin with a white front, 28 cm tall."""
     coat, beak = style.colour(), style.colour(1)
@@ -115,13 +141,27 @@ def penguin(style: Style) -> Build:
     face = pair(egg((0.023, 0.025, 0.026), (0.020, -0.056, 0.226)))
     return finish(
         style,
-        [(join(egg((0.080, 0.074, 0.115), (0.0, 0.005, 0.105)), egg(size, at)), coat), (pair(flipper), coat), (join(bill, pair(feet)), beak)],
-        paint=[(egg((0.055, 0.05, 0.085), (0.0, -0.055, 0.105)), WHITE), (face, WHITE), (eyes(size, at, 0.021, 0.232, 0.0085), DARK)],
+        [
+            (join(egg((0.080, 0.074, 0.115), (0.0, 0.005, 0.105)), egg(size, at)), coat),
+            (pair(flipper), coat),
+            (join(bill, pair(feet)), beak),
+        ],
+        paint=[
+            (egg((0.055, 0.05, 0.085), (0.0, -0.055, 0.105)), WHITE),
+            (face, WHITE),
+            (eyes(size, at, 0.021, 0.232, 0.0085), DARK),
+        ],
         regions=[on_top(egg(size, at), 0.03)],
-    )  # fmt: skip
+    )
 
 
-@entry("owl", family="animals", synonyms=("toy owl", "owl figurine", "plush owl"), material="plush", colours=("brown", "tan", "gray"))
+@entry(
+    "owl",
+    family="animals",
+    synonyms=("toy owl", "owl figurine", "plush owl"),
+    material="plush",
+    colours=("brown", "tan", "gray"),
+)
 def owl(style: Style) -> Build:
     """An upright owl with large eyes and ear tufts, 20 cm tall."""
     coat = style.colour()
@@ -131,13 +171,31 @@ def owl(style: Style) -> Build:
     bill = cone(0.009, 0.026, sides=6).turned("x", 150).moved(0.0, -0.048, 0.146)
     feet = egg((0.018, 0.022, 0.011), (0.024, -0.046, 0.005))
     rings, ring = eyes(size, at, 0.022, 0.152, 0.0185), eyes((0.058, 0.052, 0.052), at, 0.022, 0.152, 0.010)
-    rows = [ellipsoid(0.0065, 0.01, 0.0045).moved(x, -0.052, z) for z, xs in ((0.092, (-0.018, 0.0, 0.018)), (0.074, (-0.009, 0.009, 0.027, -0.027)), (0.056, (-0.018, 0.0, 0.018))) for x in xs]
+    rows = [
+        ellipsoid(0.0065, 0.01, 0.0045).moved(x, -0.052, z)
+        for z, xs in (
+            (0.092, (-0.018, 0.0, 0.018)),
+            (0.074, (-0.009, 0.009, 0.027, -0.027)),
+            (0.056, (-0.018, 0.0, 0.018)),
+        )
+        for x in xs
+    ]
     return finish(
         style,
-        [(join(egg((0.060, 0.055, 0.085), (0.0, 0.0, 0.080)), egg(size, at)), coat), (pair(tuft), coat), (pair(wing), style.shade(coat, 0.7)), (join(bill, pair(feet)), BEAK)],
-        paint=[(egg((0.038, 0.04, 0.055), (0.0, -0.042, 0.076)), tint(coat, 0.5)), (join(*rows), style.shade(coat, 0.8)), (rings, tint(coat, 0.85)), (ring, DARK)],
+        [
+            (join(egg((0.060, 0.055, 0.085), (0.0, 0.0, 0.080)), egg(size, at)), coat),
+            (pair(tuft), coat),
+            (pair(wing), style.shade(coat, 0.7)),
+            (join(bill, pair(feet)), BEAK),
+        ],
+        paint=[
+            (egg((0.038, 0.04, 0.055), (0.0, -0.042, 0.076)), tint(coat, 0.5)),
+            (join(*rows), style.shade(coat, 0.8)),
+            (rings, tint(coat, 0.85)),
+            (ring, DARK),
+        ],
         regions=[on_top(egg(size, at), 0.025)],
-    )  # fmt: skip
+    )
 
 
 @entry("frog", family="animals", synonyms=("toad", "toy frog", "frog figurine"), material="rubber", colours=("green",))
@@ -154,14 +212,25 @@ def frog(style: Style) -> Build:
     pupils = pair(ellipsoid(0.0055).moved(0.0195, -0.0335, 0.0525))
     return finish(
         style,
-        [(join(body, pair(bulge)), coat), (join(pair(thigh), pair(arm)), coat), (join(pair(hind), pair(fore)), style.shade(coat, 0.85))],
-        paint=[(egg((0.03, 0.03, 0.014), (0.0, -0.035, 0.013)), tint(coat, 0.55)), (Shape(mouth.solid ^ box(0.05, 0.03, 0.1).moved(y=-0.045).solid, ()), style.shade(coat, 0.4)), (pair(ellipsoid(0.0075).moved(0.0185, -0.0315, 0.052)), (242, 220, 120)), (pupils, DARK)],
+        [
+            (join(body, pair(bulge)), coat),
+            (join(pair(thigh), pair(arm)), coat),
+            (join(pair(hind), pair(fore)), style.shade(coat, 0.85)),
+        ],
+        paint=[
+            (egg((0.03, 0.03, 0.014), (0.0, -0.035, 0.013)), tint(coat, 0.55)),
+            (Shape(mouth.solid ^ box(0.05, 0.03, 0.1).moved(y=-0.045).solid, ()), style.shade(coat, 0.4)),
+            (pair(ellipsoid(0.0075).moved(0.0185, -0.0315, 0.052)), (242, 220, 120)),
+            (pupils, DARK),
+        ],
         regions=[on_top(body, 0.012)],
         mass=0.06,
-    )  # fmt: skip
+    )
 
 
-@entry("turtle", family="animals", synonyms=("tortoise", "toy turtle", "sea turtle", "turtle figurine"), colours=("green",))
+@entry(
+    "turtle", family="animals", synonyms=("tortoise", "toy turtle", "sea turtle", "turtle figurine"), colours=("green",)
+)
 def turtle(style: Style) -> Build:
     """A toy turtle with a domed, patterned shell, 15 cm long."""
     coat = style.colour()
@@ -172,18 +241,39 @@ def turtle(style: Style) -> Build:
     fore = ellipsoid(0.030, 0.017, 0.010).turned("z", style.vary(32.0, 0.3)).moved(0.052, -0.032, 0.008)
     hind = ellipsoid(0.022, 0.015, 0.010).turned("z", -38).moved(0.042, 0.054, 0.008)
     tail = cone(0.009, 0.024, sides=6).turned("x", -92).moved(0.0, 0.058, 0.010)
-    rims = [(0.0, 0.008), *((0.033 * math.cos(a), 0.008 + 0.038 * math.sin(a)) for a in (math.radians(60 * k + 30) for k in range(6)))]
+    rims = [
+        (0.0, 0.008),
+        *((0.033 * math.cos(a), 0.008 + 0.038 * math.sin(a)) for a in (math.radians(60 * k + 30) for k in range(6))),
+    ]
     plates = join(*(cylinder(0.0135, 0.1, 6).moved(x, y, 0.02) for x, y in rims))
     return finish(
         style,
-        [(shell, shell_colour), (join(egg(size, at), neck, tail), coat), (join(pair(fore), pair(hind)), coat), (egg((0.044, 0.052, 0.02), (0.0, 0.008, 0.010)), tint(coat, 0.4))],
-        paint=[(Shape(plates.solid ^ egg((0.0505, 0.0585, 0.0385), (0.0, 0.008, 0.014)).solid, ()), style.shade(coat, 1.18)), (eyes(size, at, 0.0115, at[2] + 0.006, 0.0034), DARK)],
+        [
+            (shell, shell_colour),
+            (join(egg(size, at), neck, tail), coat),
+            (join(pair(fore), pair(hind)), coat),
+            (egg((0.044, 0.052, 0.02), (0.0, 0.008, 0.010)), tint(coat, 0.4)),
+        ],
+        paint=[
+            (
+                Shape(plates.solid ^ egg((0.0505, 0.0585, 0.0385), (0.0, 0.008, 0.014)).solid, ()),
+                style.shade(coat, 1.18),
+            ),
+            (eyes(size, at, 0.0115, at[2] + 0.006, 0.0034), DARK),
+        ],
         regions=[on_top(shell, 0.02)],
         mass=0.075,
-    )  # fmt: skip
+    )
 
 
-@entry("starfish", family="animals", synonyms=("sea star", "toy starfish"), plurals=("starfishes",), material="rubber", colours=("orange",))
+@entry(
+    "starfish",
+    family="animals",
+    synonyms=("sea star", "toy starfish"),
+    plurals=("starfishes",),
+    material="rubber",
+    colours=("orange",),
+)
 def starfish(style: Style) -> Build:
     """A five-armed starfish with light bumps, 14 cm across."""
     coat = style.colour()
@@ -193,32 +283,64 @@ def starfish(style: Style) -> Build:
         angle, long = math.radians(start + 72 * k), style.vary(0.058, 0.10)
         c, s = math.cos(angle), math.sin(angle)
         arms.append(limb((0.008 * c, 0.008 * s, 0.0), (long * c, long * s, 0.0), 0.020, 0.008).scaled(1.0, 1.0, 0.85))
-        bumps += [ellipsoid(r).moved(d * c, d * s, z) for d, r, z in ((0.018, 0.0045, 0.0165), (0.032, 0.0038, 0.0135), (0.045, 0.003, 0.0105))]
-    return finish(style, [(join(*arms), coat)], paint=[(join(ellipsoid(0.006).moved(z=0.017), *bumps), tint(coat, 0.6))], mass=0.05)
+        bumps += [
+            ellipsoid(r).moved(d * c, d * s, z)
+            for d, r, z in ((0.018, 0.0045, 0.0165), (0.032, 0.0038, 0.0135), (0.045, 0.003, 0.0105))
+        ]
+    return finish(
+        style,
+        [(join(*arms), coat)],
+        paint=[(join(ellipsoid(0.006).moved(z=0.017), *bumps), tint(coat, 0.6))],
+        mass=0.05,
+    )
 
 
-@entry("fish", family="animals", synonyms=("goldfish", "toy fish", "fish toy"), plurals=("fishes",), material="rubber",
-       colours=("orange", "blue", "red"))  # fmt: skip
+@entry("fish", family="animals", synonyms=("goldfish", "toy fish", "fish toy"), plurals=("fishes",),
+       material="rubber", colours=("orange", "blue", "red"))  # fmt: skip
 def fish(style: Style) -> Build:
     """A fish lying on its side, 15 cm long."""
     coat = style.colour()
     body = ellipsoid(0.052, 0.030, 0.016).moved(z=0.011)
     spread = style.vary(0.030, 0.12)
-    tail = convex([(x, y, z) for x, y, h in ((0.038, -0.007, 0.006), (0.038, 0.007, 0.006), (0.092, -spread, 0.004), (0.080, 0.0, 0.004), (0.092, spread, 0.004)) for z in (0.010 - h, 0.010 + h)])
-    fins = join(convex([(x, y, z) for x, y in ((-0.018, 0.022), (0.024, 0.020), (0.034, 0.044), (0.006, 0.046)) for z in (0.007, 0.014)]),
-                convex([(x, y, z) for x, y in ((-0.004, -0.024), (0.020, -0.020), (0.028, -0.040)) for z in (0.007, 0.014)]))  # fmt: skip
+    tail = convex(
+        [
+            (x, y, z)
+            for x, y, h in (
+                (0.038, -0.007, 0.006),
+                (0.038, 0.007, 0.006),
+                (0.092, -spread, 0.004),
+                (0.080, 0.0, 0.004),
+                (0.092, spread, 0.004),
+            )
+            for z in (0.010 - h, 0.010 + h)
+        ]
+    )
+    fins = join(
+        convex(
+            [
+                (x, y, z)
+                for x, y in ((-0.018, 0.022), (0.024, 0.020), (0.034, 0.044), (0.006, 0.046))
+                for z in (0.007, 0.014)
+            ]
+        ),
+        convex([(x, y, z) for x, y in ((-0.004, -0.024), (0.020, -0.020), (0.028, -0.040)) for z in (0.007, 0.014)]),
+    )
     gill = cylinder(0.020, 0.1).solid - cylinder(0.0175, 0.3).moved(z=-0.05).solid
     gill = gill.trim_by_plane((1.0, 0.0, 0.0), 0.008).translate((-0.042, 0.0, 0.0))
     return finish(
         style,
         [(body, coat), (join(tail, fins), style.shade(coat, 0.8))],
-        paint=[(Shape(gill.translate((0, 0, 0.01)), ()), style.shade(coat, 0.6)), (ellipsoid(0.0065).moved(-0.034, 0.006, 0.0225), WHITE), (ellipsoid(0.004).moved(-0.0345, 0.006, 0.0245), DARK)],
+        paint=[
+            (Shape(gill.translate((0, 0, 0.01)), ()), style.shade(coat, 0.6)),
+            (ellipsoid(0.0065).moved(-0.034, 0.006, 0.0225), WHITE),
+            (ellipsoid(0.004).moved(-0.0345, 0.006, 0.0245), DARK),
+        ],
         mass=0.09,
-    )  # fmt: skip
+    )
 
 
-@entry("octopus", family="animals", synonyms=("plush octopus", "toy octopus"), plurals=("octopuses", "octopi"), material="plush",
-       colours=("purple", "pink", "teal"))  # fmt: skip
+@entry("octopus", family="animals", synonyms=("plush octopus", "toy octopus"), plurals=("octopuses", "octopi"),
+       material="plush", colours=("purple", "pink", "teal"))  # fmt: skip
 def octopus(style: Style) -> Build:
     """A plush octopus on eight arms, 20 cm tall."""
     coat = style.colour()
@@ -233,12 +355,23 @@ def octopus(style: Style) -> Build:
     return finish(
         style,
         [(egg(size, at), coat), (join(*arms), style.shade(coat, 0.88))],
-        paint=[(Shape(smile, ()), DARK), (eyes(size, at, 0.028, 0.130, 0.015), WHITE), (eyes((0.073, 0.071, 0.075), at, 0.028, 0.131, 0.0095), DARK)],
+        paint=[
+            (Shape(smile, ()), DARK),
+            (eyes(size, at, 0.028, 0.130, 0.015), WHITE),
+            (eyes((0.073, 0.071, 0.075), at, 0.028, 0.131, 0.0095), DARK),
+        ],
         regions=[on_top(egg(size, at), 0.03)],
-    )  # fmt: skip
+    )
 
 
-@entry("mouse", family="animals", synonyms=("toy mouse", "rat", "plush mouse"), plurals=("mice",), material="plush", colours=("gray", "white"))
+@entry(
+    "mouse",
+    family="animals",
+    synonyms=("toy mouse", "rat", "plush mouse"),
+    plurals=("mice",),
+    material="plush",
+    colours=("gray", "white"),
+)
 def mouse(style: Style) -> Build:
     """A toy mouse with round ears and a long tail, 10 cm long."""
     coat = style.colour()
@@ -250,6 +383,10 @@ def mouse(style: Style) -> Build:
     return finish(
         style,
         [(body, coat), (pair(ear), coat), (join(tail, feet), (230, 160, 156))],
-        paint=[(pair(inner), (230, 160, 156)), (ellipsoid(0.004).moved(0.0, -0.0475, 0.016), DARK), (pair(ellipsoid(0.003).moved(0.0095, -0.0335, 0.0215)), DARK)],
+        paint=[
+            (pair(inner), (230, 160, 156)),
+            (ellipsoid(0.004).moved(0.0, -0.0475, 0.016), DARK),
+            (pair(ellipsoid(0.003).moved(0.0095, -0.0335, 0.0215)), DARK),
+        ],
         mass=0.02,
-    )  # fmt: skip
+    )

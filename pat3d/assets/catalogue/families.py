@@ -4,8 +4,11 @@ from pat3d.assets.catalogue import (
     animals,
     basics,
     birds,
+    figures,
     outdoor,
     plush,
+    sports,
+    toys,
     wear,
 )
 
@@ -13,7 +16,10 @@ __all__ = [
     "animals",
     "basics",
     "birds",
+    "figures",
     "outdoor",
     "plush",
+    "sports",
+    "toys",
     "wear",
 ]
