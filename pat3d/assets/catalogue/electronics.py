@@ -16,6 +16,7 @@ from pat3d.assets.catalogue.joinery import (
     padded,
     shelf_top,
     span,
+    spot,
     together,
     trimmed,
 )
@@ -127,17 +128,20 @@ def keyboard(style: Style) -> Build:
     )
 
 
-@entry("mouse", family="electronics", material="electronics", colours=("black", "white", "gray"),
-       plurals=("computer mice",), synonyms=("computer mouse", "wireless mouse"))  # fmt: skip
+@entry("computer mouse", family="electronics", material="electronics", colours=("black", "white", "gray"),
+       plurals=("computer mice",), synonyms=("wireless mouse", "optical mouse", "pc mouse"))  # fmt: skip
 def mouse(style: Style) -> Build:
-    """A computer mouse: two buttons and a wheel, its front pointing away."""
+    """A computer mouse: two buttons and a wheel."""
     k, colour = style.vary(1.0), style.colour()
-    body = trimmed(ellipsoid(0.032 * k, 0.056 * k, 0.034 * k)).moved()
-    split = box(0.0012, 0.1, 0.1).moved(y=0.06 * k)
-    seam = box(0.1, 0.0012, 0.1).moved(y=0.01 * k, z=0.012 * k)
-    wheel = span((-0.0035, 0.0035), (0.018 * k, 0.034 * k), (0.02 * k, 0.1))
-    light = style.shade(colour, 2.2) if sum(colour) < 200 else style.shade(colour, 0.6)
-    return Build(parts=((body, colour),), paint=((join(split, seam), light), (wheel, GRAY)), mass=style.vary(0.09))
+    body = trimmed(ellipsoid(0.032 * k, 0.056 * k, 0.034 * k))
+    split = box(0.002, 0.1, 0.1).moved(y=-0.058 * k)
+    seam = box(0.1, 0.002, 0.1).moved(y=-0.008 * k, z=0.012 * k)
+    wheel = span((-0.005, 0.005), (-0.036 * k, -0.016 * k), (0.02 * k, 0.1))
+    edge = box(1.0, 1.0, 0.005)
+    light = GRAY if sum(colour) < 200 else style.shade(colour, 0.6)
+    return Build(
+        parts=((body, colour),), paint=((join(split, seam, edge), light), (wheel, STEEL)), mass=style.vary(0.09)
+    )
 
 
 def _slab(style: Style, x: float, y: float, z: float, border: float, mass: float) -> Build:
@@ -146,8 +150,10 @@ def _slab(style: Style, x: float, y: float, z: float, border: float, mass: float
     colour, top = style.colour(), (z - 0.001, z + 0.01)
     face = span((-x / 2 + border, x / 2 - border), (-y / 2 + 1.5 * border, y / 2 - 1.5 * border), top)
     step = 0.22 * (x - 2 * border)
-    icons = [box(0.65 * step, 0.65 * step, 0.02).moved((i - 1.5) * step, y / 2 - 2.6 * border - (j + 0.5) * step, z - 0.001)
-             for i in range(4) for j in range(int((0.55 * y) / step))]  # fmt: skip
+    cells = [(i, j) for i in range(4) for j in range(int((0.55 * y) / step))]
+    first = y / 2 - 2.6 * border - 0.5 * step
+    icon = box(0.65 * step, 0.65 * step, 0.02).moved(-1.5 * step, first, z - 0.001)
+    icons = [icon.moved(i * step, -j * step) for i, j in cells]
     tints = ("white", "yellow", "mint", "coral")
     paint = [(together(icons[n::4]), COLOURS[tint]) for n, tint in enumerate(tints)]
     return Build(
@@ -260,26 +266,17 @@ def camera(style: Style) -> Build:
     colour = style.colour()
     body = padded(x, y, z, 0.007)
     grip = padded(0.24 * x, 0.02 + y, 0.92 * z, 0.008).moved(-0.38 * x, -0.01)
-    hump = convex(
-        [
-            (a * w * x, b, h)
-            for a in (-1, 1)
-            for w, b, h in (
-                (0.2, -0.5 * y, z - 0.004),
-                (0.2, 0.4 * y, z - 0.004),
-                (0.12, -0.5 * y, z + 0.02),
-                (0.12, 0.3 * y, z + 0.02),
-            )
-        ]
-    )
+    ends = ((0.2, -0.5, -0.004), (0.2, 0.4, -0.004), (0.12, -0.5, 0.02), (0.12, 0.3, 0.02))
+    hump = convex([(a * w * x, b * y, z + h) for a in (-1, 1) for w, b, h in ends])
     lens = dial(0.4 * z, 0.04, 16).moved(0.08 * x, -y / 2 + 0.004, 0.47 * z)
     button = cylinder(0.007, 0.006, 8).moved(-0.36 * x, -0.004, z - 0.001)
     rings = [(dial(t * z, 0.02).moved(0.08 * x, -y / 2 - 0.034, 0.47 * z), tint)
              for t, tint in ((0.34, BLACK), (0.26, (54, 66, 104)), (0.1, (150, 170, 220)))]  # fmt: skip
     band = span((-x, x), (-1.0, 1.0), (0.2 * z, 0.72 * z))
+    ring = dial(0.42 * z, 2.0).moved(0.08 * x, 0.0, 0.47 * z)
     return Build(
         parts=((join(body, grip), colour), (hump, colour), (lens, style.colour(1)), (button, STEEL)),
-        paint=((Shape(band.solid - lens.solid, ()), style.shade(colour, 0.7)), *rings),
+        paint=((Shape(band.solid - ring.solid, ()), style.shade(colour, 0.7)), *rings),
         mass=style.vary(0.6),
     )
 
@@ -290,11 +287,8 @@ def remote_control(style: Style) -> Build:
     """A remote control lying, its buttons up."""
     x, y, z = style.vary(0.048), style.vary(0.17), 0.018
     colour, top = style.colour(), z - 0.0015
-    dots = [
-        cylinder(0.0042, 0.01, 12).moved((i - 1) * 0.28 * x, (0.05 - 0.09 * j) * y, top)
-        for i in range(3)
-        for j in range(5)
-    ]
+    cells = [((i - 1) * 0.28 * x, (0.05 - 0.09 * j) * y) for i in range(3) for j in range(5)]
+    dots = [spot(0.0042, 0.01).moved(*cell, top) for cell in cells]
     power = cylinder(0.005, 0.01).moved(-0.28 * x, 0.42 * y, top)
     pad = cylinder(0.013, 0.01).moved(0.0, 0.24 * y, top)
     middle = cylinder(0.006, 0.01).moved(0.0, 0.24 * y, top)
@@ -318,7 +312,7 @@ def game_controller(style: Style) -> Build:
     cross = join(box(0.02 * k, 0.006 * k, 0.02).moved(-0.04 * k, 0.012 * k, top),
                  box(0.006 * k, 0.02 * k, 0.02).moved(-0.04 * k, 0.012 * k, top))  # fmt: skip
     spots = [(1, 0, "red"), (-1, 0, "blue"), (0, 1, "yellow"), (0, -1, "green")]
-    buttons = [(cylinder(0.004 * k, 0.02).moved((0.04 + 0.0085 * a) * k, (0.012 + 0.0085 * b) * k, top), COLOURS[tint])
+    buttons = [(spot(0.004 * k, 0.02).moved((0.04 + 0.0085 * a) * k, (0.012 + 0.0085 * b) * k, top), COLOURS[tint])
                for a, b, tint in spots]  # fmt: skip
     return Build(
         parts=((join(body, *grips), colour), (join(*sticks), GRAY)),
@@ -359,7 +353,7 @@ def typewriter(style: Style) -> Build:
                    ((-0.15, 0.03), (-0.15, 0.042), (0.02, 0.075), (0.02, 0.03))])  # fmt: skip
     roller = cylinder(0.02 * k, 1.2 * x, 12).turned("z", 15).turned("y", 90).moved(-0.6 * x, 0.1 * k, 0.122 * k)
     sheet = box(0.21 * k, 0.003, 0.13 * k).turned("x", -10).moved(0.0, 0.1 * k, 0.12 * k)
-    keys = [cylinder(0.0085 * k, 0.05, 10).moved((i - 4.5) * 0.026 * k + 0.006 * j * k, (-0.125 + 0.032 * j) * k, 0.03)
+    keys = [spot(0.0085 * k, 0.05).moved((i - 4.5) * 0.026 * k + 0.006 * j * k, (-0.125 + 0.032 * j) * k, 0.03)
             for j in range(4) for i in range(10)]  # fmt: skip
     return Build(
         parts=((join(base, rear, ramp), colour), (roller, BLACK), (sheet, WHITE)),

@@ -1,25 +1,11 @@
-"""Imports every module of recipes; importing one registers its entries."""
+"""Imports every module of recipes in this package; importing one registers its entries."""
 
-from pat3d.assets.catalogue import (
-    basics,
-    desk,
-    electronics,
-    furniture,
-    ornaments,
-    room,
-    stationery,
-    storage,
-    tools,
-)
+from __future__ import annotations
 
-__all__ = [
-    "basics",
-    "desk",
-    "electronics",
-    "furniture",
-    "ornaments",
-    "room",
-    "stationery",
-    "storage",
-    "tools",
-]
+import importlib
+import pkgutil
+
+from pat3d.assets import catalogue
+
+for _module in sorted(module.name for module in pkgutil.iter_modules(catalogue.__path__)):
+    importlib.import_module(f"{catalogue.__name__}.{_module}")

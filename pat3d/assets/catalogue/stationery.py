@@ -116,7 +116,7 @@ def crayon(style: Style) -> Build:
 def paintbrush(style: Style) -> Build:
     """An artist's brush: handle, ferrule, bristles."""
     r, n, colour = style.vary(0.006), style.vary(0.2), style.colour()
-    body = _stick([(0.45 * r, -n / 2), (r, 0.12 * n), (r, 0.33 * n), (0.3 * r, n / 2)], r)
+    body = _stick([(0.5 * r, -n / 2), (r, -0.15 * n), (r, 0.33 * n), (0.3 * r, n / 2)], r)
     ferrule = span((0.16 * n, 0.34 * n), (-0.1, 0.1), (-0.1, 0.1))
     bristles = span((0.34 * n, n), (-0.1, 0.1), (-0.1, 0.1))
     return Build(

@@ -81,9 +81,9 @@ def pliers(style: Style) -> Build:
     """Pliers lying a little open, grips in the main colour."""
     n, thick = style.vary(0.18), 0.012
     jaws, grips = [], []
+    beak = ((0.12, -0.004), (0.12, 0.013), (0.3, 0.012), (0.5, 0.004), (0.5, 0.0008))
     for s in (-1, 1):
-        jaws.append(convex([(x * n, s * y, z) for x, y in ((0.12, -0.004), (0.12, 0.013), (0.3, 0.012), (0.5, 0.004), (0.5, 0.0008))
-                            for z in (0.0, thick)]))  # fmt: skip
+        jaws.append(convex([(x * n, s * y, z) for x, y in beak for z in (0.0, thick)]))
         line = [(0.1, 0.004), (-0.12, 0.023), (-0.5, 0.026)]
         for (x0, y0), (x1, y1) in zip(line, line[1:], strict=False):
             grips.append(convex([(x * n, s * y + w, z) for x, y in ((x0, y0), (x1, y1)) for w in (-0.0065, 0.0065)
@@ -104,10 +104,11 @@ def saw(style: Style) -> Build:
     thick = 0.022
     blade = convex([(x, y, z) for x, y in ((-0.2 * n, -0.055), (-0.2 * n, 0.05), (0.72 * n, 0.05), (0.72 * n, 0.015))
                     for z in (0.0, 0.002)])  # fmt: skip
-    teeth = [box(0.005, 0.005, 0.05).turned("z", 45).moved(-0.2 * n + 0.009 * k, -0.056 + 0.0685 * 0.009 * k / (0.92 * n) * 1.02)
-             for k in range(1, int(0.9 * n / 0.009))]  # fmt: skip
-    handle = convex([(x, y, z) for x, y in ((-0.28 * n, -0.062), (-0.12 * n, -0.05), (-0.12 * n, 0.045), (-0.2 * n, 0.062),
-                     (-0.3 * n, 0.055), (-0.33 * n, -0.03)) for z in (0.0, thick)])  # fmt: skip
+    rise = 0.07 / (0.92 * n)
+    notch = box(0.005, 0.005, 0.05).turned("z", 45).moved(-0.2 * n, -0.056, -0.01)
+    teeth = [notch.moved(0.009 * k, rise * 0.009 * k) for k in range(1, int(0.9 * n / 0.009))]
+    edge = ((-0.28, -0.062), (-0.12, -0.05), (-0.12, 0.045), (-0.2, 0.062), (-0.3, 0.055), (-0.33, -0.03))
+    handle = convex([(x * n, y, z) for x, y in edge for z in (0.0, thick)])
     hole = cylinder(0.5, 1.0).scaled(0.05, 0.066, 1.0).turned("z", 12).moved(-0.235 * n, 0.0, -0.5)
     inner = Shape(blade.solid - together(teeth).solid, blade.hulls)
     return Build(parts=((inner, STEEL), (cut(handle, hole), style.colour())), mass=style.vary(0.5))
@@ -162,14 +163,8 @@ def toolbox(style: Style) -> Build:
     """A closed toolbox with a sloping lid, two latches and a handle."""
     x, y, z = style.vary(0.42), style.vary(0.2), style.vary(0.13)
     colour = style.colour()
-    lid = convex(
-        [
-            (s * a * x, t * b * y, h)
-            for s in (-1, 1)
-            for t in (-1, 1)
-            for a, b, h in ((0.5, 0.5, z), (0.46, 0.25, z + 0.06))
-        ]
-    )
+    slope = ((0.5, 0.5, z), (0.46, 0.25, z + 0.06))
+    lid = convex([(s * a * x, t * b * y, h) for s in (-1, 1) for t in (-1, 1) for a, b, h in slope])
     top = z + 0.06
     posts = [box(0.014, 0.018, 0.035).moved(s * 0.17 * x, 0.0, top - 0.002) for s in (-1, 1)]
     bar = padded(0.34 * x + 0.02, 0.024, 0.02, 0.008).moved(z=top + 0.025)
@@ -222,8 +217,8 @@ def paint_can(style: Style) -> Build:
     )
 
 
-@entry("spray can", family="tools", material="aluminium", colours=("red", "blue", "green", "orange"), accents=("white",),
-       synonyms=("spray paint", "aerosol can", "spray paint can", "aerosol"))  # fmt: skip
+@entry("spray can", family="tools", material="aluminium", colours=("red", "blue", "green", "orange"),
+       accents=("white",), synonyms=("spray paint", "aerosol can", "spray paint can", "aerosol"))  # fmt: skip
 def spray_can(style: Style) -> Build:
     """A spray can with a domed shoulder and a cap in the main colour."""
     r, z, colour = style.vary(0.033), style.vary(0.14), style.colour()
@@ -258,9 +253,10 @@ def ladder(style: Style) -> Build:
     """A folding step ladder of four treads."""
     x, z, colour = style.vary(0.44), style.vary(1.1), style.colour()
     lean = 0.42
-    rails = [convex([(s * x / 2 + a, -lean + t * (lean - 0.06) + b, t * z) for a in (-0.012, 0.012) for t in (0.0, 1.0)
+    levels = (0.0, 1.0)
+    rails = [convex([(s * x / 2 + a, -lean + t * (lean - 0.06) + b, t * z) for a in (-0.012, 0.012) for t in levels
                      for b in (-0.03, 0.03)]) for s in (-1, 1)]  # fmt: skip
-    rear = [convex([(s * (x / 2 - 0.03) + a, 0.3 - t * 0.28 + b, t * 0.96 * z) for a in (-0.01, 0.01) for t in (0.0, 1.0)
+    rear = [convex([(s * (x / 2 - 0.03) + a, 0.3 - t * 0.28 + b, t * 0.96 * z) for a in (-0.01, 0.01) for t in levels
                     for b in (-0.015, 0.015)]) for s in (-1, 1)]  # fmt: skip
     treads = [box(x, 0.09, 0.02).moved(0.0, -lean + t * (lean - 0.06), t * z) for t in (0.2, 0.44, 0.68)]
     top = box(x + 0.04, 0.2, 0.03).moved(0.0, -0.02, z - 0.01)
