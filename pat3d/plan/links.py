@@ -7,7 +7,9 @@ from typing import Literal
 
 from pat3d.scene import RelationKind
 
-Manner = Literal["place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"]
+Manner = Literal[
+    "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +56,14 @@ def _table() -> dict[tuple[str, ...], Link]:
         add(Link(kind=kind), f"to the {side} of", f"left of" if side == "left" else "right of", f"at the {side} of",
             f"to the immediate {side} of", f"just to the {side} of")  # fmt: skip
         half = Link(manner="half", side=side, kind=kind)
-        add(half, *(f"{word} the {where} of" for word in ("on", "at") for where in (side, f"{side} side", f"{side}-hand side")))
+        add(
+            half,
+            *(
+                f"{word} the {where} of"
+                for word in ("on", "at")
+                for where in (side, f"{side} side", f"{side}-hand side")
+            ),
+        )
         add(half, f"to the {side} side of", f"on {side} of")
     centre = Link(manner="half", side="centre", kind="on")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
