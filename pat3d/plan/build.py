@@ -22,6 +22,10 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
     for edge in gone:
         del draft.supports[id(edge.child)]
     draft.laterals = [edge for edge in draft.laterals if not (edge.parent.replaced or edge.child.replaced)]
+    draft.sided = [(one, side, of) for one, side, of in draft.sided if not (one.replaced or (of and of.replaced))]
+    draft.flanks = [flank for flank in draft.flanks if not flank.parent.replaced]
+    for flank in draft.flanks:
+        flank.members = [group for group in flank.members if not group.replaced and group is not flank.parent]
     if not draft.groups:
         aside = f" Set aside: {'; '.join(draft.set_aside)}." if draft.set_aside else ""
         raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
@@ -67,7 +71,7 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
                     scale=words.scale,
                     adjectives=words.adjectives,
                     proxy=group.proxy,
-                )  # fmt: skip
+                )
             )
         bare.append((group, objects))
     total = Counter(obj.name for _, objects in bare for obj in objects)
@@ -141,7 +145,7 @@ def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
     for group in draft.groups:
         if group.row:
             names = [obj.name for obj in members[id(group)]]
-            relations += [Relation(child=left, kind="left_of", parent=right) for left, right in zip(names, names[1:])]
+            relations += [Relation(child=left, kind="left_of", parent=right) for left, right in zip(names, names[1:], strict=False)]
     return relations
 
 

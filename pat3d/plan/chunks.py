@@ -154,7 +154,7 @@ class _Chunker:
             or follower in lexicon.ADVERBS
             or follower.endswith("ly")
         )
-        if word in lexicon.PARTICIPLES or word in lexicon.COMMANDS and after_phrase and moving:
+        if word in lexicon.PARTICIPLES or (word in lexicon.COMMANDS and after_phrase and moving):
             return moving or after_phrase
         if word in lexicon.ADVERBS or (word.endswith("ly") and moving):
             return True
@@ -207,20 +207,20 @@ class _Chunker:
         self._add("aside", size)
 
     def _absence(self) -> None:
-        """ "without a lid", "no people": set aside with the phrase."""
+        """Read "without a lid", "no people": set aside with the phrase."""
         start = self._at
         read = self._phrases.read(self._at + 1)
         self._add("aside", (read[1] if read else self._at + 1) - start)
 
     def _owned_part(self) -> None:
-        """ "the dog's head": the part places nothing, its owner has been read."""
+        """Read "the dog's head": the part places nothing, its owner has been read."""
         read = self._phrases.read(self._at + 1)
         self._at += 1
         if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
             self._at = read[1]
 
     def _quality(self) -> None:
-        """ "(is) plain white": modifiers without a noun."""
+        """Read "(is) plain white": modifiers without a noun."""
         start = self._at
         while self._tokens[self._at].text in lexicon.ADVERBS:
             self._at += 1

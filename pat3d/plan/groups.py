@@ -22,7 +22,6 @@ class GroupMaker:
         self._draft = draft
         self._allow_proxies = allow_proxies
         self._inherited: Group | None = None
-        self._heirs_from = 0
 
     def refer(self, phrase: Phrase) -> Group | None:
         """The group already read that `phrase` speaks of, or None."""
@@ -47,7 +46,7 @@ class GroupMaker:
         modifiers = phrase.modifiers
         if phrase.kind == "unknown":
             noun, said, proxy = self._proxy(phrase)
-        count, height, chains = self._count(phrase, filling)
+        count, height, _chains = self._count(phrase, filling)
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None, plural=phrase.plural,
             modifiers=modifiers, cycle=phrase.cycle, height=height, row=phrase.row, proxy=proxy,
@@ -138,6 +137,10 @@ class GroupMaker:
         """What is made from now on in this sentence is of the kind of `generic` ("plush toys, including ...")."""
         self._inherited = generic
         generic.replaced = True
+        self._forget_note(generic)
+
+    def _forget_note(self, group: Group) -> None:
+        self._draft.notes = [note for note in self._draft.notes if not note.startswith(f'"{group.phrase}": ')]
 
     def end_sentence(self) -> None:
         """Nothing is inherited past the end of a list."""
@@ -150,13 +153,14 @@ class GroupMaker:
             group.modifiers = replace(group.modifiers, material=material)
 
     def settle_generic(self, group: Group, parent: Group) -> None:
-        """ "a basket of fruit" with "five fruits" in it is five fruits: the counted mention wins."""
+        """ "a basket of fruit" with "five fruits" in it holds five."""
         if not group.cycle:
             return
         for other in self._draft.groups:
             if other is not group and other.cycle == group.cycle and not other.replaced:
                 if self._draft.support(other) is parent and not other.counted:
                     other.replaced = True
+                    self._forget_note(other)
 
     def tell_apart(self, group: Group, phrase: Phrase) -> None:
         """ "two bars - one white and one beige", "blocks, featuring red, blue and green pieces"."""
@@ -182,23 +186,28 @@ class GroupMaker:
                 tall = group.height == group.count
                 group.count = max(len(shared), group.count if palette else len(shared))
                 group.height = group.count if tall else group.height
-                self._draft.notes = [note for note in self._draft.notes if not note.startswith(f'"{group.phrase}": ')]
+                self._forget_note(group)
                 self._check_total()
             group.member_colours = [(shared[index % len(shared)],) for index in range(group.count)]
         else:
             group.modifiers = replace(group.modifiers, colours=(*group.modifiers.colours, *shared))
 
 
-def recolour(group: Group, modifiers: Modifiers) -> None:
-    """Give `group` what a later remark says of it: "with red covers", "is wooden"."""
+def recolour(group: Group, modifiers: Modifiers, part: str = "") -> None:
+    """Give `group` what a later remark says of it: "is wooden", or of its `part`: "with red covers".
+
+    The colour of a part that shows little ("a mug with a blue handle") is not the object's main colour.
+    """
     own = group.modifiers
+    colours = (*modifiers.colours, *modifiers.palette[: 1 if group.count > 1 else None])
+    adjectives = modifiers.adjectives
+    if part and not own.colours and part not in lexicon.MAIN_PARTS:
+        adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()
     group.modifiers = replace(
         own,
-        colours=tuple(
-            dict.fromkeys((*own.colours, *modifiers.colours, *modifiers.palette[: 1 if group.count > 1 else None]))
-        ),
-        material=own.material or (modifiers.material if not modifiers.colours else None),
-        adjectives=(*own.adjectives, *modifiers.adjectives),
+        colours=tuple(dict.fromkeys((*own.colours, *colours))),
+        material=own.material or (modifiers.material if not part else None),
+        adjectives=(*own.adjectives, *adjectives),
     )
 
 

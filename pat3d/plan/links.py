@@ -53,7 +53,7 @@ def _table() -> dict[tuple[str, ...], Link]:
         "close by", "with its side to", "across from", "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
     for side, kind in (("left", "left_of"), ("right", "right_of")):
-        add(Link(kind=kind), f"to the {side} of", f"left of" if side == "left" else "right of", f"at the {side} of",
+        add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",
             f"to the immediate {side} of", f"just to the {side} of")  # fmt: skip
         half = Link(manner="half", side=side, kind=kind)
         add(

@@ -221,7 +221,7 @@ class PhraseReader:
 
     def _coordination(self, run: list[Token], at: int) -> int | None:
         """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run or not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
+        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
             return None
         colours = is_colour_word(run[-1].text)
         if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
@@ -311,10 +311,9 @@ class PhraseReader:
             chains = count if count is not None else (2 if plural else 1)
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
-            height = stated or max(len(inner.modifiers.palette), len(inner.modifiers.colours), 1) * 0
-            return replace(inner, height=height, chains=chains, count=None if not stated else chains * stated,
+            return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
-        if head in lexicon.ROWS or head in lexicon.COLLECTIVES and not self._nouns.match([head]):
+        if head in lexicon.ROWS or (head in lexicon.COLLECTIVES and not self._nouns.match([head])):
             taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
             taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
             taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
@@ -323,7 +322,7 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
-            return replace(inner, count=amount, row=head in ROWS_ or inner.row, vague=inner.vague,
+            return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
         if known is None and any(word in lexicon.PARTS for word in singular) and (inner.definite or not plural):
@@ -355,9 +354,6 @@ class PhraseReader:
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in names if self._nouns.resolve(name))
-
-
-ROWS_ = lexicon.ROWS
 
 
 def _one_pair(match: Match) -> bool:
