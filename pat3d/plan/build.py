@@ -6,7 +6,7 @@ from collections import Counter
 
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
-from pat3d.plan.draft import Draft, Edge, Group
+from pat3d.plan.draft import Draft, Group
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene import GROUND, LateralKind, Relation
 
@@ -145,7 +145,8 @@ def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
     for group in draft.groups:
         if group.row:
             names = [obj.name for obj in members[id(group)]]
-            relations += [Relation(child=left, kind="left_of", parent=right) for left, right in zip(names, names[1:], strict=False)]
+            pairs = zip(names, names[1:], strict=False)
+            relations += [Relation(child=left, kind="left_of", parent=right) for left, right in pairs]
     return relations
 
 
@@ -207,23 +208,28 @@ def _pair_sides(draft: Draft) -> None:
 
 def _share_supports(draft: Draft) -> None:
     """What stands beside something on a table stands on that table, unless it belongs on the floor."""
-    pairs = [*draft.laterals]
-    pairs += [
-        Edge(child=member, kind="next_to", parent=flank.parent) for flank in draft.flanks for member in flank.members
-    ]
+    pairs = [(edge.child, edge.parent) for edge in draft.laterals]
+    pairs += [(member, flank.parent) for flank in draft.flanks for member in flank.members]
     for _ in range(len(pairs)):
-        changed = False
-        for edge in pairs:
-            for one, other in ((edge.child, edge.parent), (edge.parent, edge.child)):
-                support = draft.supports.get(id(one))
-                if support is None or id(other) in draft.supports or other in draft.ancestors(one):
+        known = len(draft.supports)
+        for pair in pairs:
+            for one, other in (pair, pair[::-1]):
+                lowest = [other, *draft.ancestors(other)][-1]
+                surface = _surface_below(draft, one)
+                if surface is None or draft.on_floor(lowest) or lowest in (one, surface, *draft.ancestors(one)):
                     continue
-                if one in draft.ancestors(other) or draft.on_floor(other) or support.kind != "on":
-                    continue
-                level = draft.is_a(support.parent, lexicon.LEVEL)
-                seat = draft.is_a(support.parent, lexicon.SEATS) and not draft.is_a(other, lexicon.BY_A_SEAT)
-                if (level or seat) and one.height >= 1 and support.parent is not other and support.parent.height == 1:
-                    draft.place(other, "on", support.parent)
-                    changed = True
-        if not changed:
+                if draft.is_a(surface, lexicon.LEVEL) or not draft.is_a(lowest, lexicon.BY_A_SEAT):
+                    draft.place(lowest, "on", surface)
+        if len(draft.supports) == known:
             break
+
+
+def _surface_below(draft: Draft, group: Group) -> Group | None:
+    """The table, shelf or seat that `group` stands on, directly or in a vessel; None where there is none."""
+    for carrier in (group, *draft.ancestors(group)):
+        edge = draft.supports.get(id(carrier))
+        if edge is None or edge.kind == "hangs_from":
+            return None
+        if edge.kind == "on" and draft.is_a(edge.parent, lexicon.LEVEL + lexicon.SEATS) and edge.parent.height == 1:
+            return edge.parent
+    return None

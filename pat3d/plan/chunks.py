@@ -9,12 +9,13 @@ from typing import Literal
 from pat3d.plan import lexicon
 from pat3d.plan.lexing import Token, normalise, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.modifiers import Modifiers, is_modifier, read_modifiers
+from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
 from pat3d.plan.phrases import Phrase, PhraseReader, link_at
 from pat3d.plan.vocabulary import Nouns
 
 ChunkKind = Literal[
-    "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality", "aside"
+    "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality",
+    "aside",
 ]  # fmt: skip
 
 
@@ -26,7 +27,7 @@ class Chunk:
     text: str = ""
     phrase: Phrase | None = None
     link: Link | None = None
-    modifiers: Modifiers = Modifiers()
+    modifiers: Modifiers = NO_MODIFIERS
     """For kind "quality": what "is red" says."""
 
 

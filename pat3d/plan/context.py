@@ -45,13 +45,17 @@ class Context:
     """The list that a group is a member of, by id of the group."""
     carried: dict[int, list[Group]] = field(default_factory=dict)
     """What was last put on a group, by id of the group."""
+    related: list[Group] = field(default_factory=list)
+    """What the last relation was said of."""
+    landmark: Group | None = None
+    """What "the left side" was last said of."""
     mark: str = "start"
     """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
 
     def close(self) -> None:
         """Forget the clause; keep its subject for pronouns."""
         self.before = self.subject or self.before
-        self.subject, self.last, self.top, self.frames = [], [], [], []
+        self.subject, self.last, self.top, self.frames, self.related = [], [], [], [], []
 
     def wait_for_child(self) -> None:
         """Keep only the list opened by a relation in front ("On a table, there is ...")."""
@@ -211,6 +215,7 @@ class Context:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         for child in children:
             level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
+            self.landmark = parent or self.landmark
             if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
                 self.draft.place(child, self.draft.containment(parent), parent)
                 self.draft.sided.append((child, side, None))

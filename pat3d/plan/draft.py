@@ -113,22 +113,22 @@ class Draft:
             if weak or parent is old.parent or parent in self.ancestors(child):
                 return
             if old.parent not in self.ancestors(parent):
-                self.notes.append(
-                    f'"{child.phrase}" is {old.kind} "{old.parent.phrase}"; also being {kind} "{parent.phrase}" is left out.'
-                )
+                known = f'"{child.phrase}" is {old.kind} "{old.parent.phrase}"'
+                self.notes.append(f'{known}; also being {kind} "{parent.phrase}" is left out.')
                 return
         self.supports[id(child)] = Edge(child=child, kind=kind, parent=parent, weak=weak)
         if not weak:
             self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]
-            newest = self.groups and parent is self.groups[-1]
-            if old is not None and old.weak and newest and self.support(parent) is None and old.parent is not parent:
-                # "a desk with a lamp on two books": the books now stand where the lamp was to stand.
-                if (
-                    not self.on_floor(parent)
-                    and child not in self.ancestors(old.parent)
-                    and parent not in self.ancestors(old.parent)
-                ):
-                    self.place(parent, old.kind, old.parent, weak=True)
+            if old is not None and old.weak:
+                self._pass_on(old, child, parent)
+
+    def _pass_on(self, old: Edge, child: Group, parent: Group) -> None:
+        """Where "a desk with a lamp" goes on "on two books", the books stand where the lamp was to stand."""
+        newest = bool(self.groups) and parent is self.groups[-1] and old.parent is not parent
+        above = self.ancestors(old.parent)
+        free = self.support(parent) is None and not self.on_floor(parent)
+        if newest and free and child not in above and parent not in above:
+            self.place(parent, old.kind, old.parent, weak=True)
 
     def _flat(self, group: Group) -> bool:
         if self.is_a(group, lexicon.HOLLOW):

@@ -16,10 +16,13 @@ MAX_CHARACTERS = 2000
 
 
 class GrammarPlanner:
-    """Plans a prompt with word tables and a shallow grammar: no model, no network, the same plan every time."""
+    """Plans a prompt with word tables and a shallow grammar: no model, no network, the same plan every time.
+
+    With `allow_proxies` an unknown noun becomes a plain box, said so in the plan's notes, instead of an error.
+    """
 
     def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
-        """Plan with the nouns of `vocabulary` (default: the catalogue); unknown ones become boxes if `allow_proxies`."""
+        """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`."""
         if vocabulary is None:
             from pat3d.assets.catalogue import registry
 

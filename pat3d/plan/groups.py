@@ -43,13 +43,12 @@ class GroupMaker:
             PromptError: the noun is unknown and proxies are not allowed, or the count is impossible.
         """
         noun, said, proxy = phrase.noun, phrase.said, False
-        modifiers = phrase.modifiers
         if phrase.kind == "unknown":
             noun, said, proxy = self._proxy(phrase)
-        count, height, _chains = self._count(phrase, filling)
+        count, height = self._count(phrase, filling)
         group = Group(
-            noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None, plural=phrase.plural,
-            modifiers=modifiers, cycle=phrase.cycle, height=height, row=phrase.row, proxy=proxy,
+            noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
+            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, row=phrase.row, proxy=proxy,
         )  # fmt: skip
         self._share_colours(group)
         if self._inherited is not None:
@@ -71,8 +70,8 @@ class GroupMaker:
             "plan with --planner openai, or accept a plain box with --allow-proxies."
         )
 
-    def _count(self, phrase: Phrase, filling: bool) -> tuple[int, int, int]:
-        """Objects, objects in a stack, and stacks."""
+    def _count(self, phrase: Phrase, filling: bool) -> tuple[int, int]:
+        """Objects, and objects in a stack."""
         modifiers = phrase.modifiers
         count = phrase.count
         plural = phrase.plural or (phrase.kind == "unknown" and phrase.head.endswith("s") and not phrase.determined)
@@ -96,7 +95,8 @@ class GroupMaker:
             noted = phrase.vague
         if not 1 <= count <= MAX_OBJECTS:
             raise PromptError(
-                f'"{phrase.words[:60]}" (word {phrase.number}) asks for {count} objects; a scene holds 1 to {MAX_OBJECTS}.'
+                f'"{phrase.words[:60]}" (word {phrase.number}) asks for {count} objects; '
+                f"a scene holds 1 to {MAX_OBJECTS}."
             )
         height = 1
         if phrase.height is not None:
@@ -106,7 +106,7 @@ class GroupMaker:
             height = count
         if noted:
             self._draft.notes.append(f'"{phrase.words}": {count} assumed.')
-        return count, height, phrase.chains
+        return count, height
 
     def _share_colours(self, group: Group) -> None:
         """As many colours as objects, or three and more, are shared out among the objects."""
@@ -153,25 +153,20 @@ class GroupMaker:
             group.modifiers = replace(group.modifiers, material=material)
 
     def settle_generic(self, group: Group, parent: Group) -> None:
-        """ "a basket of fruit" with "five fruits" in it holds five."""
+        """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""
         if not group.cycle:
             return
         for other in self._draft.groups:
-            if other is not group and other.cycle == group.cycle and not other.replaced:
-                if self._draft.support(other) is parent and not other.counted:
-                    other.replaced = True
-                    self._forget_note(other)
+            same = other is not group and other.cycle == group.cycle and not other.replaced
+            if same and self._draft.support(other) is parent and not other.counted:
+                other.replaced = True
+                self._forget_note(other)
 
     def tell_apart(self, group: Group, phrase: Phrase) -> None:
-        """ "two bars - one white and one beige", "blocks, featuring red, blue and green pieces"."""
+        """Read "two bars - one white and one beige", "blocks, featuring red, blue and green pieces"."""
         colours, palette = phrase.modifiers.colours, phrase.modifiers.palette
         if phrase.determined and not phrase.plural and phrase.count is not None and group.count > 1:
-            told = (
-                len([colour for colour in group.member_colours if colour])
-                if group.counted or group.member_colours
-                else 0
-            )
-            told = 0 if told >= group.count else told
+            told = len(group.member_colours) % group.count
             listed = [*group.member_colours[:told], *[colours] * phrase.count]
             group.member_colours = [*listed, *[()] * (group.count - len(listed))][: group.count]
             group.member_colours = [colour or group.modifiers.colours for colour in group.member_colours]

@@ -15,6 +15,8 @@ _MANY = frozenset(
 )
 _MIXED = {**MIXED, "multicoloured": MIXED["multicolored"], "multi-colored": MIXED["multicolored"],
           "multi-coloured": MIXED["multicolored"], "rainbow-colored": MIXED["rainbow"]}  # fmt: skip
+_NO_ADJECTIVE = frozenset({"fruit", "cake", "food", "soap", "electronics", "foliage", "bread", "upholstery"})
+"""Materials whose name before a noun means a purpose ("fruit bowl", "soap dish")."""
 _COLOUR_FIRST = frozenset({"golden", "bronze", "copper", "gold", "silver"})
 _ADJECTIVES = frozenset({
     "soft", "simple", "bright", "modern", "old", "new", "cute", "round", "square", "tall", "short", "long", "wide",
@@ -52,6 +54,9 @@ class Modifiers:
         )
 
 
+NO_MODIFIERS = Modifiers()
+
+
 def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifiers:
     """Sort modifier `words`; `hidden` are words of the noun's own name, read for colour and material only."""
     colours: list[str] = []
@@ -70,19 +75,19 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifier
             palette_word = word
         elif word in ("stacked", "piled"):
             stacked = True
-        elif word in lexicon.SHADE_WORDS and (find_colour(follower) or find_material(follower)):
+        elif word in lexicon.SHADE_WORDS and (find_colour(follower) or _material(follower)):
             adjectives.append(word)
         elif word in lexicon.SIZES:
             scale *= lexicon.SIZES[word]
             size_word = size_word or word
-        elif (found := find_material(word)) and word not in _COLOUR_FIRST:
+        elif (found := _material(word)) and word not in _COLOUR_FIRST:
             material, material_word = found, word
         elif colour := find_colour(word):
             colours.append(lexicon.SHADES.get((before, word), colour))
         else:
             adjectives.append(word)
     for word in hidden:
-        if (found := find_material(word)) and not material:
+        if (found := _material(word)) and not material:
             material = found
         elif (colour := find_colour(word)) and not colours:
             colours.append(colour)
@@ -104,11 +109,15 @@ def _spread(words: Sequence[str]) -> list[str]:
             spread += ["colorful"] if parts[0] in _MANY else parts
         elif any(find_colour(part) for part in parts):
             spread += [part for part in parts if find_colour(part) or part in lexicon.SHADE_WORDS]
-        elif find_material(parts[0]) and parts[-1].endswith("ed"):
+        elif _material(parts[0]) and parts[-1].endswith("ed"):
             spread.append(word)
         else:
             spread.append(word)
     return spread
+
+
+def _material(word: str) -> str | None:
+    return None if word in _NO_ADJECTIVE else find_material(word)
 
 
 def is_colour_word(word: str) -> bool:
@@ -120,7 +129,7 @@ def is_modifier(word: str) -> bool:
     """Whether `word` is known to describe rather than name."""
     return (
         is_colour_word(word) or word in _MIXED or word in _COLOURED or word in lexicon.SIZES or word in _ADJECTIVES
-        or find_material(word) is not None or word in lexicon.SHADE_WORDS
+        or _material(word) is not None or word in lexicon.SHADE_WORDS
     )  # fmt: skip
 
 

@@ -9,8 +9,15 @@ from typing import Literal
 from pat3d.plan import lexicon
 from pat3d.plan.lexing import Token, singulars
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
-from pat3d.plan.modifiers import Modifiers, is_colour_word, is_modifier, looks_like_adjective, read_modifiers
-from pat3d.plan.vocabulary import Match, Nouns
+from pat3d.plan.modifiers import (
+    NO_MODIFIERS,
+    Modifiers,
+    is_colour_word,
+    is_modifier,
+    looks_like_adjective,
+    read_modifiers,
+)
+from pat3d.plan.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
 JOINERS = frozenset({
@@ -46,7 +53,7 @@ class Phrase:
     possessive: bool = False
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
-    modifiers: Modifiers = Modifiers()
+    modifiers: Modifiers = NO_MODIFIERS
     height: int | None = None
     """Objects in one stack; 0 for a stack of unstated height."""
     chains: int = 1
@@ -277,8 +284,9 @@ class PhraseReader:
             match, used = found
             rest = [word for index, word in enumerate(words) if index not in used]
             hidden = [word for word in match.said.split()[:-1] if word not in match.noun.split()]
-            return replace(base, kind="object", noun=match.noun, said=match.said, plural=match.plural and not _one_pair(match),
-                           modifiers=read_modifiers(rest, hidden))  # fmt: skip
+            plural = match.plural and match.said not in lexicon.PLURAL_ONLY
+            own = read_modifiers(rest, hidden)
+            return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
         two = " ".join(words[-2:])
         if any(word in lexicon.STACK_NOUNS for word in singular):
             return replace(base, kind="pieces", said="stack")
@@ -325,9 +333,9 @@ class PhraseReader:
             return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
-        if known is None and any(word in lexicon.PARTS for word in singular) and (inner.definite or not plural):
-            if inner.kind in ("object", "pronoun", "background", "pieces", "items"):
-                return replace(inner, count=inner.count if inner.kind == "object" else None), after
+        part = known is None and any(word in lexicon.PARTS for word in singular) and (inner.definite or not plural)
+        if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
+            return replace(inner, count=inner.count if inner.kind == "object" else None), after
         if inner.kind == "background" and inner.substance:
             whole = self._simple(run, count)
             compound = self._nouns.match([inner.head, singular[-1]])
@@ -354,10 +362,6 @@ class PhraseReader:
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in names if self._nouns.resolve(name))
-
-
-def _one_pair(match: Match) -> bool:
-    return match.said in lexicon.PLURAL_ONLY
 
 
 def link_at(tokens: Sequence[Token], at: int) -> int:

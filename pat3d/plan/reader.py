@@ -183,6 +183,9 @@ class Reader:
             self._now.draft.set_aside.append(phrase.words)
             return
         owner = owners[-1]
+        if phrase.kind == "pieces" and phrase.count is not None and owner.count == 1:
+            plural = [*self._now.carried.get(id(owner), ()), *self._now.subject]
+            owner = next((group for group in plural if group.count > 1), owner)
         if phrase.kind == "pieces" and not phrase.said:
             self._now.maker.tell_apart(owner, phrase)
         elif phrase.modifiers.colours or phrase.modifiers.palette:
@@ -212,6 +215,8 @@ class Reader:
         near = self._now.subject if apart else self._now.last or self._now.subject
         if link.manner == "include":
             near = self._now.last or self._now.subject
+        elif self._now.mark in ("and", "comma and") and not link.inverse and not self._verb:
+            near = self._now.related or near
         if link.inverse:
             self._open(link, near)
             self._verb, self._now.mark = False, ""
@@ -302,6 +307,7 @@ class Reader:
             return
         if not apart:
             children = self._now.climb(children, link, parent)
+        self._now.related = children
         for child in children:
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
@@ -349,7 +355,12 @@ class Reader:
         if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
             if self._now.mark != "start":
                 self._end_clause()
-            self._side = side
+            landmark = self._now.landmark
+            if landmark is not None and side in ("left", "right", "centre"):
+                half = Link(manner="half", kind="on", side=side)
+                self._now.frames = [Frame(link=half, parents=[landmark])]
+            else:
+                self._side = side
             return
         groups = self._now.subject if self._verb else self._now.last
         for group in groups[-1:]:
