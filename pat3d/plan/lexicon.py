@@ -108,6 +108,11 @@ PARTS = frozenset({
     "end", "half", "tip", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
 })  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
+MAIN_PARTS = frozenset({
+    "cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal", "surface", "top",
+    "icing", "frosting", "print", "leaf", "spine", "tabletop", "mattress", "head",
+})  # fmt: skip
+"""Parts whose colour is the colour of the whole."""
 
 STACK_NOUNS = frozenset({"stack", "pile", "tower", "column"})
 COLLECTIVES = frozenset({

@@ -76,7 +76,7 @@ class Nouns:
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not whole)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
-        return known and Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
+        return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
 
     def _singular(self, words: Sequence[str]) -> Iterable[str]:
         for guess in singulars(words[-1]):
@@ -99,7 +99,7 @@ class Nouns:
             if found := self.match([words[position], words[-1]]):
                 return found, frozenset({position, last})
         found = self.match(words[-1:])
-        return found and (found, frozenset({last}))
+        return None if found is None else (found, frozenset({last}))
 
     def of_class(self, noun: str, table: tuple[str, ...]) -> bool:
         """Whether catalogue noun `noun` is what one of the names in `table` means."""
@@ -111,7 +111,7 @@ class Nouns:
     def resolve(self, name: str) -> str | None:
         """Catalogue noun that `name` means, or None."""
         known = self._vocabulary.find(name)
-        return known and known.noun
+        return None if known is None else known.noun
 
     def nearest(self, word: str) -> tuple[str, ...]:
         """Known names most like `word`."""
