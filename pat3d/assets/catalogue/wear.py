@@ -387,7 +387,7 @@ def _lens(colour: RGB) -> RGB:
 @entry(
     "sunglasses",
     family="wear",
-    synonyms=("glasses", "eyeglasses", "spectacles", "shades"),
+    synonyms=("eyeglasses", "spectacles", "shades"),
     colours=("black", "red", "brown"),
 )
 def sunglasses(style: Style) -> Build:
