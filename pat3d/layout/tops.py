@@ -162,7 +162,7 @@ def _alone(
 ) -> Group | None:
     """One group in the middle of a region, or at the nearest place where it does not tip."""
     base = _base_centre(group)
-    middle = region.centre[:2] - base
+    middle = _middle(top.root, region) - base
     size = float(group.size[:2].max())
     straight = _set_down(top, region, group, middle, obstacles)
     shaken = _set_down(top, region, group, middle + JITTER * size * rng.uniform(-1, 1, 2), obstacles)
@@ -198,6 +198,14 @@ def _set_down(top: Top, region: FlatRegion, group: Group, xy: Array, obstacles: 
     if found is None or (region.enclosed and found.high[2] > region.centre[2] + region.height):
         return None
     return found
+
+
+def _middle(root: Placed, region: FlatRegion) -> Array:
+    """Middle of the region [m], shape (2,); of the rim where it is the top of a box around handle and all."""
+    if region.centre[2] < root.high[2] - 1e-6:
+        return region.centre[:2]
+    rim = root.vertices[root.vertices[:, 2] > root.high[2] - 0.002, :2]
+    return (rim.min(axis=0) + rim.max(axis=0)) / 2
 
 
 def _base_centre(group: Group) -> Array:
