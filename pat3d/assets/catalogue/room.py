@@ -257,7 +257,7 @@ def succulent(style: Style) -> Build:
             petal = convex([(0, 0, 0), (0, 0.012, 0.6 * length), (0, -0.012, 0.6 * length), (0.004, 0, 0.6 * length),
                             (-0.006, 0, 0.55 * length), (0, 0, length)])  # fmt: skip
             petal = petal.turned("y", lean).turned("z", 360 * k / count + 25 * ring).moved(z=0.93 * height)
-            parts.append((petal, style.shade(style.colour(), 0.85 + 0.12 * ring)))
+            parts.append((petal, style.shade(style.colour(), (0.85, 1.0, 1.15)[ring])))
     return Build(parts=tuple(parts), mass=style.vary(0.25))
 
 
