@@ -158,7 +158,7 @@ SIZES = {
     "desk": (1.25, 0.62, 0.74, 34), "chair": (0.45, 0.44, 0.88, 5.5), "stool": (0.34, 0.34, 0.46, 3.5),
     "sofa": (2.29, 0.86, 0.85, 45), "armchair": (0.96, 0.86, 0.85, 22), "bed": (1.51, 2.05, 0.98, 50),
     "bedside table": (0.48, 0.43, 0.52, 14), "bookshelf": (0.85, 0.32, 1.7, 30), "shelf": (0.95, 0.42, 1.5, 16),
-    "cabinet": (0.87, 0.44, 0.85, 32), "wardrobe": (1.02, 0.57, 1.9, 70), "cart": (0.88, 0.5, 0.89, 14),
+    "cabinet": (0.87, 0.44, 0.85, 32), "wardrobe": (1.02, 0.57, 1.9, 70), "cart": (0.95, 0.5, 0.89, 14),
     "crate": (0.46, 0.32, 0.24, 2.8), "bin": (0.29, 0.29, 0.32, 1.1), "rug": (1.7, 1.15, 0.008, 5),
     "pillow": (0.42, 0.42, 0.13, 0.6), "floor cushion": (0.5, 0.5, 0.13, 1.6), "lamp": (0.3, 0.3, 0.44, 1.6),
     "book": (0.155, 0.22, 0.03, 0.67), "pen": (0.142, 0.011, 0.01, 0.012), "pencil": (0.172, 0.0088, 0.0076, 0.006),
@@ -166,7 +166,7 @@ SIZES = {
     "scissors": (0.16, 0.07, 0.0075, 0.06),
     "laptop": (0.33, 0.3, 0.22, 1.5), "phone": (0.073, 0.15, 0.009, 0.18), "radio": (0.3, 0.15, 0.19, 2.2),
     "crystal ball": (0.15, 0.15, 0.175, 3.0), "hammer": (0.3, 0.13, 0.028, 0.55), "brick": (0.215, 0.1, 0.065, 2.3),
-    "cardboard sheet": (0.6, 0.51, 0.8, 0.5), "plant": (0.34, 0.34, 0.34, 1.5), "toolbox": (0.42, 0.21, 0.24, 4),
+    "cardboard sheet": (0.6, 0.51, 0.8, 0.5), "plant": (0.27, 0.27, 0.36, 1.5), "toolbox": (0.42, 0.21, 0.24, 4),
     "block": (0.07, 0.05, 0.05, 0.1), "box": (0.24, 0.17, 0.15, 0.4),
 }  # fmt: skip
 
@@ -286,3 +286,10 @@ def test_resting_ball_has_a_face_on_the_ground_and_contains_the_ball():
     (hull,) = resting_ball(0.05).hulls
     assert np.count_nonzero(np.abs(hull[:, 2]) < 1e-12) == 3
     assert -ConvexHull(hull - (0, 0, 0.05)).equations[:, 3].max() > 0.05 - 1e-9
+
+
+def test_a_cart_takes_three_potted_plants_in_a_row():
+    for seed in range(4):
+        deck = made("cart", seed).region("on")
+        assert deck is not None
+        assert sum(made("plant", seed + k).size[0] for k in range(3)) < 2 * deck.half_size[0]

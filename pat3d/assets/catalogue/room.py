@@ -198,7 +198,7 @@ def plant(style: Style) -> Build:
     pot, soil = _pot(style, radius, height)
     green = style.colour()
     parts = [(pot, style.colour(1)), (soil, COLOURS["chocolate"])]
-    for count, lean, length in ((4, 0.35, 0.23), (6, 0.95, 0.19)):
+    for count, lean, length in ((4, 0.3, 0.24), (6, 0.72, 0.17)):
         offset = style.rng.uniform(0, 360)
         for k in range(count):
             leaf = _leaf(style.vary(length) * tall, style.vary(0.085, 0.15), style.vary(lean, 0.15))
