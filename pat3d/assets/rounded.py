@@ -112,6 +112,15 @@ def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segment
     return Shape(solid, tuple(hulls))
 
 
+def clear_radius(inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> float:
+    """Radius [m] of the widest upright cylinder inside the cavity of `hollow`, from its floor to its rim."""
+    heights = [inner[0][1], *levels, inner[-1][1]]
+    fine = _sampled(_radius_of(inner), inner, heights[0], heights[-1])
+    bands = zip(heights, heights[1:], strict=False)
+    narrowest = min(float(_chord(_between(fine, *band), outward=False).min()) for band in bands)
+    return narrowest * math.cos(math.pi / segments)
+
+
 def tube(
     path: ArrayLike,
     radius: float | ArrayLike,

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 
 from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import Style
+from pat3d.assets.rounded import clear_radius
 from pat3d.assets.shapes import Shape
 
 CREAM = (244, 236, 214)
@@ -36,13 +37,13 @@ def length(style: Style, value: float, spread: float = 0.06) -> float:
     return style.vary(value * factor, spread)
 
 
-def cavity(inner: Sequence[tuple[float, float]], segments: int, lift: float = 0.0) -> Region:
-    """The free cylinder inside a vessel whose cavity has the (radius, z) points `inner` [m]."""
-    radius = min(r for r, _ in inner) * math.cos(math.pi / segments)
+def cavity(inner: Sequence[tuple[float, float]], segments: int, levels: Sequence[float] = ()) -> Region:
+    """The free cylinder inside a vessel made by `hollow` with the same arguments."""
+    radius = clear_radius(inner, levels, segments)
     return Region(
         kind="in",
         shape="disc",
-        floor=(0.0, 0.0, inner[0][1] + lift),
+        floor=(0.0, 0.0, inner[0][1]),
         half_size=(radius, radius),
         height=inner[-1][1] - inner[0][1],
     )

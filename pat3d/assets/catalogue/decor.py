@@ -23,7 +23,7 @@ def vase(style: Style) -> Build:
     bands = join(*(cylinder(0.3, 0.012 * h / 0.22).moved(z=part * h) for part in (0.24, 0.48)))
     return Build(
         parts=((body, style.colour()),),
-        regions=(cavity(inner, 8),),
+        regions=(cavity(inner, 8, (0.36 * h, 0.8 * h)),),
         paint=((unseen(bands), style.colour(1)),) if style.colour(1) != style.colour() else (),
     )
 
@@ -40,10 +40,13 @@ def _daisy(r: float, colour: RGB, heart: RGB) -> tuple[tuple[Shape, RGB], ...]:
        colours=("pink", "yellow", "red", "purple"))  # fmt: skip
 def bouquet(style: Style) -> Build:
     """Blossoms and leaves above a tied bunch of stems that goes into a vase."""
-    n, r = style.vary(0.2, 0.02), style.vary(0.085, 0.04)
+    n, r = style.vary(0.228, 0.02), style.vary(0.085, 0.04)
     stems = [rod((0, 0, 0), (0.0, 0.0, n + 0.03), 0.0035)]
     for a in np.arange(7) * 2 * np.pi / 7:
-        foot, head = (0.009 * np.cos(a), 0.009 * np.sin(a), 0.0), (0.009 * np.cos(a + 0.4), 0.009 * np.sin(a + 0.4), n)
+        foot, head = (
+            (0.009 * np.cos(a), 0.009 * np.sin(a), 0.0004),
+            (0.009 * np.cos(a + 0.4), 0.009 * np.sin(a + 0.4), n),
+        )
         stems.append(rod(foot, head, 0.0035))
     bunch = covered(stems, cylinder(0.0145, n + 0.03, sides=12))
     tie = unseen(cylinder(0.0138, 0.016).moved(z=0.72 * n))

@@ -276,7 +276,9 @@ def burger(style: Style) -> Build:
     tomato = cylinder(0.93 * r, 0.006).moved(z=0.0405)
     dome = np.array([0, 0.046]) + np.concatenate([[(0.96 * r, 0)], arc(r, 8, 85, 16) * (1, 0.62)])
     bun = lathe(dome)
-    cover = lathe([(0.9 * r, 0), (1.1 * r, 0.03), (1.1 * r, 0.041), *map(tuple, dome)], angles=(-40, 20, 55))
+    cover = lathe(
+        [(0.9 * r, 0), (r, 0.006), (1.1 * r, 0.03), (1.1 * r, 0.041), *map(tuple, dome)], angles=(-40, 20, 55)
+    )
     pieces = covered([bottom, patty, slice_, lettuce, tomato, bun], cover)
     seeds = []
     for k in range(1, 22):

@@ -53,7 +53,7 @@ def jar(style: Style) -> Build:
     outer = [(r - 0.003, 0), (r, 0.005), (r, 0.76 * h), (0.87 * r, 0.87 * h), (0.87 * r, h)]
     body = hollow(outer, inner, levels=(0.78 * h,))
     label = (unseen(box(0.6 * r * 2, r, 0.34 * h).moved(y=-r, z=0.22 * h)), style.colour(1))
-    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12),), paint=(label,))
+    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.78 * h,)),), paint=(label,))
 
 
 @entry("cookie jar", family="kitchen", synonyms=("jam jar", "honey jar", "jar of jam", "spice jar"), material="glass",
@@ -116,7 +116,7 @@ def pitcher(style: Style) -> Build:
                   (-1.22 * r, -0.006, h), (-0.8 * r, 0, 0.84 * h), (-0.785 * r, 0.3 * r, h - 0.006),
                   (-0.785 * r, -0.3 * r, h - 0.006))])  # fmt: skip
     handle = ear(0.76 * r, 0.3 * h, 0.92 * h, 0.75 * r, 0.012)
-    free = cavity(inner, 8)
+    free = cavity(inner, 8, (0.5 * h,))
     return Build(parts=((body, style.colour()), (lip, style.colour()), (handle, style.colour())), regions=(free,))
 
 

@@ -174,9 +174,9 @@ def basket(style: Style) -> Build:
     for k in range(rows):
         block = box(0.1, 0.086 * r, h / rows - 0.0006).moved(z=k * h / rows + 0.0003)
         blocks.append(ring_of(unseen(block), r, 24, 7.5 * (k % 2)))
-    rim_path = np.column_stack([(r - wall / 2) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
-                                (r - wall / 2) * np.sin(t), np.full(48, h - 0.004)])  # fmt: skip
-    rim = tube(rim_path, wall / 2 - 0.0002, 12, closed=True)
+    rim_path = np.column_stack([(r - wall / 2 - 0.0008) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
+                                (r - wall / 2 - 0.0008) * np.sin(t), np.full(48, h - 0.004)])  # fmt: skip
+    rim = tube(rim_path, wall / 2 - 0.0010, 12, closed=True)
     dark = style.shade(style.colour(), 0.72)
     return Build(
         parts=((Shape(rippled, body.hulls), style.colour()), (unseen(rim), dark)),
@@ -206,6 +206,6 @@ def colander(style: Style) -> Build:
     solid = body.solid - join(*holes).solid
     return Build(
         parts=((Shape(solid, body.hulls), style.colour()), (join(*grips), style.colour())),
-        regions=(cavity(inner, 8),),
+        regions=(cavity(inner, 8, (0.5 * h,)),),
         mass=0.42,
     )
