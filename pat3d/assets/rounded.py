@@ -82,6 +82,14 @@ def lathe(
     return Shape(_revolved(outline), tuple(hulls))
 
 
+def envelope(points: ArrayLike, angles: Sequence[float] = (-45.0, 0.0, 45.0)) -> NDArray[np.float64]:
+    """Corners of a convex part of revolution about z around `points` [m], shape (n, 3), as in `lathe`."""
+    array = np.asarray(points, dtype=np.float64)
+    reach = np.column_stack([np.hypot(array[:, 0], array[:, 1]), array[:, 2]])
+    low, high = float(reach[:, 1].min()), float(reach[:, 1].max())
+    return _rings(_tangent_polygon(reach, low, high, angles), 32 // (len(angles) + 1))
+
+
 def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> Shape:
     """An open vessel of revolution about z, smooth to see: bowls, plates, mugs, vases.
 

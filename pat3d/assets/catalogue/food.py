@@ -113,7 +113,7 @@ def cake_slice(style: Style) -> Build:
     """A wedge of layer cake, its layers showing."""
     r, h = style.vary(0.1), height(style, 0.075)
     outline = np.concatenate([[(0, 0)], arc(r, -20, 20, 9)])
-    wedge = Shape(prism(outline, h).solid, (_prism_corners(outline, h),))
+    wedge = Shape(prism([(float(x), float(y)) for x, y in outline], h).solid, (_prism_corners(outline, h),))
     creams = join(*(box(0.4, 0.4, 0.006).moved(z=part * h) for part in (0.27, 0.56)))
     coat = box(0.4, 0.4, 0.1).moved(z=0.86 * h)
     back = ring_of(box(0.05, 0.2, 0.3).moved(z=-0.1), r + 0.018, 1)
