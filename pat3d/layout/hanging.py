@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pat3d.errors import LayoutError
+from pat3d.layout.bodies import distance
 from pat3d.layout.drop import clear, fall
 from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
@@ -34,8 +35,12 @@ def hang(group: Group, carrier: Group, *, gap: float) -> Group:
     spots = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     middle = (root.low + root.high)[:2] / 2
     allowed = np.isfinite(heights) & (heights + group.low[2] > root.low[2] + CLEARANCE)
-    # High up, near the trunk, and rather at the front where it is seen.
-    cost = -heights + 0.3 * np.linalg.norm(spots - middle, axis=-1) + 0.1 * (spots[..., 1] - middle[1])
+    # The whole upper edge wants something level above it (a branch along it), halfway out, rather in front.
+    edge = np.argwhere(upper > group.high[2] - 0.01)
+    rows, columns = heights.shape
+    over = np.mean([under[i : i + rows, j : j + columns] for i, j in edge], axis=0)
+    out = np.abs(np.linalg.norm(spots - middle, axis=-1) - 0.25 * float((root.high - root.low)[:2].max()))
+    cost = over - np.where(allowed, heights, 0.0) + 0.1 * out + 0.03 * (spots[..., 1] - middle[1])
     cost = np.where(allowed, cost, np.inf)
     for index in np.argsort(cost, axis=None)[:24]:
         i, j = np.unravel_index(index, cost.shape)
@@ -46,7 +51,9 @@ def hang(group: Group, carrier: Group, *, gap: float) -> Group:
             rise = min(
                 fall(member, [root], floor=float(root.high[2]), gap=gap, upwards=True) for member in start.members
             )
-            return start.shifted(np.array([0.0, 0.0, rise]))
+            hung = start.shifted(np.array([0.0, 0.0, rise]))
+            if any(distance(member, root, 2 * gap) for member in hung.members):
+                return hung
     raise LayoutError(
         f'"{group.name}" ({group.size[2]:.2f} m high) cannot hang from "{carrier.name}": nothing of it is that high '
         "above the ground with free air below. Nothing was written."

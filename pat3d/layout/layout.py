@@ -154,8 +154,6 @@ class _Arranger:
             return group
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         groups = [self._build(kid, 0.0) for kid in names if kid not in self.fixed]
-        # Long things first while the bottom is free, then large before small.
-        groups.sort(key=lambda kid: -float(np.prod(np.sort(kid.size)[1:])))
         obstacles = [member for other in given for member in other.members]
         packed = pack(
             root, column, groups, obstacles=obstacles, rng=self._rng(group.name, "pack"), gap=self.gap

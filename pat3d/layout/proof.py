@@ -51,9 +51,7 @@ def measure(bodies: list[Placed], *, cutoff: float = 0.05) -> tuple[PairDistance
     for i, j in near_pairs(bodies, cutoff):
         closest = distance(bodies[i], bodies[j], cutoff)
         if closest is not None:
-            found.append(
-                PairDistance(first=bodies[i].body.name, second=bodies[j].body.name, distance=closest.distance)
-            )
+            found.append(PairDistance(first=bodies[i].body.name, second=bodies[j].body.name, distance=closest.distance))
     return tuple(sorted(found, key=lambda pair: pair.distance))
 
 

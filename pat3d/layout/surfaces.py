@@ -12,12 +12,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
 
 BRANCHES = 4
 """Places tried for each thing before backing up."""
-BUDGET = 400
+CHECKED = 30
+"""Cheapest places of each thing that are checked exactly against the edge of the surface."""
+BUDGET = 150
 """Places tried in all before a strategy is given up."""
 
 
@@ -40,6 +43,8 @@ class Item:
     """What it is; things alike keep closer together."""
     turnable: bool = True
     """Whether it may be turned by a quarter to fit."""
+    walled: bool = False
+    """Whether it is furniture that stands with its back to a wall."""
 
     @property
     def size(self) -> Array:
@@ -53,6 +58,7 @@ class Item:
         return Item(
             name=self.name, low=corners.min(axis=0), high=corners.max(axis=0), outline=self.outline @ turn.T,
             centre_of_mass=turn @ self.centre_of_mass, tall=self.tall, alike=self.alike, turnable=False,
+            walled=self.walled,
         )  # fmt: skip
 
 
@@ -68,6 +74,11 @@ class Surface:
     def limited(self) -> bool:
         """Whether it has an edge."""
         return math.isfinite(self.half_size[0])
+
+    @property
+    def area(self) -> float:
+        """Area [m^2], infinite without an edge."""
+        return (math.pi if self.disc else 4.0) * self.half_size[0] * self.half_size[1]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,9 +115,11 @@ class _Strategy:
 _STRATEGIES = (
     _Strategy(spacing=1.0, least=0.02),
     _Strategy(spacing=0.5, least=0.01),
+    _Strategy(spacing=0.0, least=0.01),
+    _Strategy(spacing=0.0, least=0.004, largest_first=True),
     _Strategy(spacing=0.0, least=0.01, quarters=True),
     _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True),
-    _Strategy(spacing=0.0, least=0.004, quarters=True, overhang=0.15),
+    _Strategy(spacing=0.0, least=0.004, overhang=0.15, largest_first=True),
     _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True, overhang=0.3),
 )
 
@@ -123,6 +136,8 @@ def arrange_flat(
         pinned: items already at a position [m], shape (2,).
     """
     fixed = dict(pinned or {})
+    if surface.limited and sum(float(np.prod(item.size)) for item in items) > 2.0 * surface.area:
+        return None
     for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
         found = _Search(items, laterals, surface, fixed, strategy).run()
         if found is not None:
@@ -136,7 +151,7 @@ def natural_gap(first: Array, second: Array) -> float:
     return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))
 
 
-def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> Array:
+def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:
     """Whether rectangles `low`..`high`, shape (n, 2), stand `kind` of one rectangle, clear of it along that axis."""
     axis, sign = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}[kind]
     clear = (low_p[axis] - high[:, axis]) if sign < 0 else (low[:, axis] - high_p[axis])
@@ -214,10 +229,12 @@ class _Search:
         options: list[tuple[float, int, Item, Array, bool]] = []
         for variant, quarter in variants:
             spots, cost = self._candidates(variant)
-            for index in np.argsort(cost, kind="stable"):
-                if not np.isfinite(cost[index]) or len(options) >= 2 * BRANCHES:
+            found = 0
+            for index in np.argsort(cost, kind="stable")[:CHECKED]:
+                if not np.isfinite(cost[index]) or found >= BRANCHES:
                     break
                 if self._fits(variant, spots[index]):
+                    found += 1
                     options.append((float(cost[index]), len(options), variant, spots[index], quarter))
         for _, _, variant, spot, quarter in sorted(options, key=lambda option: option[:2])[:BRANCHES]:
             self.budget -= 1
@@ -237,7 +254,7 @@ class _Search:
         boxes = [(spot + other.low, spot + other.high, other) for other, spot, _ in self.placed.values()]
         gaps = np.array([self._gap(item, other) for _, _, other in boxes])
         low, high = np.stack([box[0] for box in boxes]), np.stack([box[1] for box in boxes])
-        ring = [spot for spot in self._ring_spots(item)]
+        ring = self._ring_spots(item)
         values = []
         for axis in range(2):
             # Beside, centred on, and flush with every placed rectangle.
@@ -247,17 +264,19 @@ class _Search:
         centres = np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, 2)
         if ring:
             centres = np.concatenate([np.array(ring), centres])
-        apart = np.maximum(
-            low[None] - (centres + half)[:, None], (centres - half)[:, None] - high[None]
-        ).max(axis=-1)
+        apart = np.maximum(low[None] - (centres + half)[:, None], (centres - half)[:, None] - high[None]).max(axis=-1)
         cost = np.where(np.all(apart >= 0.999 * gaps, axis=1), 0.0, np.inf)
+        if self.surface.limited:
+            span = np.maximum(high.max(axis=0), centres + half) - np.minimum(low.min(axis=0), centres - half)
+            largest = np.max([other.size for _, _, other in boxes] + [item.size], axis=0)
+            room = 2 * np.array(self.surface.half_size) + 2 * self.strategy.overhang * largest
+            cost[np.any(span > room + 1e-9, axis=1)] = np.inf
         cost += self._lateral_cost(item, centres)
         cost += self._taste(item, centres, low, high)
         return centres - (item.low + item.high) / 2, cost
 
     def _gap(self, item: Item, other: Item) -> float:
-        gap = max(self.strategy.least, self.strategy.spacing * natural_gap(item.size, other.size))
-        return gap
+        return max(self.strategy.least, self.strategy.spacing * natural_gap(item.size, other.size))
 
     def _lateral_cost(self, item: Item, centres: Array) -> Array:
         cost = np.zeros(len(centres))
@@ -272,6 +291,9 @@ class _Search:
             low, high = spot + other.low, spot + other.high
             middle = (low + high) / 2
             kind = lat.kind if lat.child == item.name else _OPPOSITE[lat.kind]
+            in_line = np.abs(centres - middle)
+            if item.walled and other.walled:
+                in_line[:, 1] = np.abs(centres[:, 1] + half[1] - high[1])
             separation = np.maximum(0.0, np.maximum(low - (centres + half), centres - half - high))
             distance = np.linalg.norm(separation, axis=1)
             if kind in ("next_to", "around"):
@@ -280,15 +302,15 @@ class _Search:
                 cost += 3.0 * distance
                 if kind == "next_to":
                     # Beside means left or right of it, in line, unless there is no room.
-                    cost += 1.5 * np.abs(centres[:, 1] - middle[1]) + np.where(separation[:, 0] > 0, 0.0, 0.5 * half[1])
+                    cost += 1.5 * in_line[:, 1] + np.where(separation[:, 0] > 0, 0.0, 0.5 * half[1])
                 elif lat.child == item.name:
                     angle = np.arctan2(centres[:, 1] - middle[1], centres[:, 0] - middle[0])
                     turn = np.abs((angle - self.rings[item.name] + math.pi) % (2 * math.pi) - math.pi)
                     cost += 3.0 * turn * float(np.linalg.norm(half + other.size / 2))
             else:
-                cost[~side_holds(kind, centres - half, centres + half, low, high)] = np.inf
+                cost[np.logical_not(side_holds(kind, centres - half, centres + half, low, high))] = np.inf
                 across = 1 if kind in ("left_of", "right_of") else 0
-                cost += 2.0 * distance + 1.0 * np.abs(centres[:, across] - middle[across])
+                cost += 2.0 * distance + 1.5 * in_line[:, across]
         return cost
 
     def _taste(self, item: Item, centres: Array, low: Array, high: Array) -> Array:

@@ -20,6 +20,12 @@ from pat3d.layout.surfaces import Item, Lateral, arrange_flat
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
 
+_WALLED = frozenset(
+    {"bed", "sofa", "couch", "bookshelf", "bookcase", "shelf", "wardrobe", "dresser", "cabinet", "desk", "piano"}
+    | {"bedside table", "nightstand", "armchair", "filing cabinet", "floor lamp", "mirror"}
+)
+"""Nouns that stand with their backs in one line."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Top:
@@ -75,6 +81,7 @@ def item_of(group: Group, *, turnable: bool) -> Item:
     origin = group.root.position[:2]
     low, high = group.low, group.high
     points = np.concatenate([member.vertices[:, :2] for member in group.members])
+    noun = group.root.body.asset.noun
     return Item(
         name=group.name,
         low=low[:2] - origin,
@@ -82,8 +89,9 @@ def item_of(group: Group, *, turnable: bool) -> Item:
         outline=outline(points) - origin,
         centre_of_mass=group.centre_of_mass[:2] - origin,
         tall=float(high[2] - low[2]),
-        alike=group.root.body.asset.noun,
+        alike=noun,
         turnable=turnable,
+        walled=not _WALLED.isdisjoint({noun, *noun.split()}),
     )
 
 
@@ -154,7 +162,7 @@ def _alone(
 ) -> Group | None:
     """One group in the middle of a region, or at the nearest place where it does not tip."""
     base = _base_centre(group)
-    middle = region.centre[:2] - base
+    middle = _middle(top.root, region) - base
     size = float(group.size[:2].max())
     straight = _set_down(top, region, group, middle, obstacles)
     shaken = _set_down(top, region, group, middle + JITTER * size * rng.uniform(-1, 1, 2), obstacles)
@@ -190,6 +198,14 @@ def _set_down(top: Top, region: FlatRegion, group: Group, xy: Array, obstacles: 
     if found is None or (region.enclosed and found.high[2] > region.centre[2] + region.height):
         return None
     return found
+
+
+def _middle(root: Placed, region: FlatRegion) -> Array:
+    """Middle of the region [m], shape (2,); of the rim where it is the top of a box around handle and all."""
+    if region.centre[2] < root.high[2] - 1e-6:
+        return region.centre[:2]
+    rim = root.vertices[root.vertices[:, 2] > root.high[2] - 0.002, :2]
+    return (rim.min(axis=0) + rim.max(axis=0)) / 2
 
 
 def _base_centre(group: Group) -> Array:

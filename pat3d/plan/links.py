@@ -7,7 +7,11 @@ from typing import Literal
 
 from pat3d.scene import RelationKind
 
-Manner = Literal["place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"]
+Manner = Literal[
+    "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"
+]
+
+Side = Literal["left", "right", "centre"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +26,7 @@ class Link:
     """A verb of the clause: its subject is the clause's."""
     filling: bool = False
     """"filled with": a bare plural means many."""
-    side: Literal["left", "right", "centre"] | None = None
+    side: Side | None = None
     """For manner "half": which part of the parent."""
 
     @property
@@ -50,11 +54,19 @@ def _table() -> dict[tuple[str, ...], Link]:
         "at", "against", "right next to", "to the side of", "on the side of", "at the side of", "off to the side of",
         "close by", "with its side to", "across from", "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
-    for side, kind in (("left", "left_of"), ("right", "right_of")):
-        add(Link(kind=kind), f"to the {side} of", f"left of" if side == "left" else "right of", f"at the {side} of",
+    sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
+    for side, kind in sides:
+        add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",
             f"to the immediate {side} of", f"just to the {side} of")  # fmt: skip
         half = Link(manner="half", side=side, kind=kind)
-        add(half, *(f"{word} the {where} of" for word in ("on", "at") for where in (side, f"{side} side", f"{side}-hand side")))
+        add(
+            half,
+            *(
+                f"{word} the {where} of"
+                for word in ("on", "at")
+                for where in (side, f"{side} side", f"{side}-hand side")
+            ),
+        )
         add(half, f"to the {side} side of", f"on {side} of")
     centre = Link(manner="half", side="centre", kind="on")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
@@ -62,8 +74,8 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
-    add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off", "hung on",
-        "hanging on", "hung off", "hanging down from")  # fmt: skip
+    add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
+        "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
     add(Link(manner="between", kind="right_of"), "between", "in between")
     add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
@@ -85,8 +97,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
-    add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports", "bears",
-        "houses", "support", "hosts")  # fmt: skip
+    add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
+        "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
         "stuffed with", "overflowing with")  # fmt: skip
     add(Link(manner="include"), "including", "such as", "namely", "for example", "e.g", "consisting of", "composed of",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from pat3d.plan.lexing import singulars
+from pat3d.plan.modifiers import is_modifier
 
 
 class Known(Protocol):
@@ -76,7 +77,7 @@ class Nouns:
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not whole)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
-        return known and Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
+        return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
 
     def _singular(self, words: Sequence[str]) -> Iterable[str]:
         for guess in singulars(words[-1]):
@@ -94,12 +95,17 @@ class Nouns:
         last = len(words) - 1
         for size in range(min(4, len(words)), 1, -1):
             if found := self.match(words[-size:]):
+                # "small dog" is a dog that is small even where the vocabulary lists it as a name.
+                while size > 1 and is_modifier(words[-size]) and (plain := self.match(words[1 - size :])):
+                    if plain.noun != found.noun:
+                        break
+                    found, size = plain, size - 1
                 return found, frozenset(range(len(words) - size, len(words)))
         for position in range(last - 1):
             if found := self.match([words[position], words[-1]]):
                 return found, frozenset({position, last})
         found = self.match(words[-1:])
-        return found and (found, frozenset({last}))
+        return None if found is None else (found, frozenset({last}))
 
     def of_class(self, noun: str, table: tuple[str, ...]) -> bool:
         """Whether catalogue noun `noun` is what one of the names in `table` means."""
@@ -111,7 +117,7 @@ class Nouns:
     def resolve(self, name: str) -> str | None:
         """Catalogue noun that `name` means, or None."""
         known = self._vocabulary.find(name)
-        return known and known.noun
+        return None if known is None else known.noun
 
     def nearest(self, word: str) -> tuple[str, ...]:
         """Known names most like `word`."""

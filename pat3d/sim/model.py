@@ -64,6 +64,8 @@ class Model:
     """Largest distance of a body's vertices from its centre of mass [m], shape (bodies,)."""
     q0: NDArray[np.float64]
     """Initial states, shape (bodies, 4, 3)."""
+    labels: tuple[str, ...]
+    """What error messages call the bodies."""
     centres: NDArray[np.float64]
     """Centres of mass in the frames the bodies were given in [m], shape (bodies, 3)."""
 
@@ -96,7 +98,7 @@ class ModelBuilder:
         if self._bodies and self._bodies[-1]["world"] == self._world:
             self._world += 1
 
-    def add_asset(self, asset: Asset, pose: Pose, *, fixed: bool = False) -> int:
+    def add_asset(self, asset: Asset, pose: Pose, *, fixed: bool = False, label: str | None = None) -> int:
         """Add an asset at a pose of its frame; returns the body's index."""
         properties = asset.mass_properties
         return self.add_body(
@@ -107,7 +109,7 @@ class ModelBuilder:
             second_moment=properties.second_moment,
             pose=pose,
             fixed=fixed,
-            label=asset.noun,
+            label=label or asset.noun,
         )
 
     def add_body(
@@ -154,7 +156,7 @@ class ModelBuilder:
             {
                 "world": self._world, "parts": tuple(parts), "mass": mass, "volume": volume,
                 "centre": np.asarray(centre, dtype=np.float64), "moment": np.asarray(second_moment, dtype=np.float64),
-                "pose": pose, "fixed": fixed,
+                "pose": pose, "fixed": fixed, "label": label,
             }
         )  # fmt: skip
         return len(self._bodies) - 1
@@ -228,6 +230,7 @@ class ModelBuilder:
             weight=weight,
             body_radius=radius,
             q0=q0,
+            labels=tuple(body["label"] for body in bodies),
             centres=np.stack([body["centre"] for body in bodies]),
         )
 

@@ -1,6 +1,6 @@
 """The energy of one artificial time step: the sum of its terms.
 
-E(q) = inertia and gravity + affine stiffness + barrier contact + lagged friction      (DESIGN: Eq. of section 5, over dt^2)
+E(q) = inertia and gravity + affine stiffness + barrier contact + lagged friction, all over dt^2
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.errors import SimulationError
+from pat3d.sim.contact.intersection import intersecting_bodies
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.solvers.newton import Newton
@@ -40,7 +41,7 @@ class SettleOptions:
     """Steps of the polish before giving up."""
     d_hat: float = 1.0e-3
     """Barrier activation distance while dropping [m]."""
-    final_d_hat: float = 3.0e-5
+    final_d_hat: float = 1.5e-5
     """Barrier activation distance at rest [m]; gaps end between a third of it and it."""
     friction_speed: float = 1.0e-3
     """Speed below which friction is not fully mobilised [m/s]."""
@@ -87,6 +88,17 @@ class _Run:
         self.potential.contact.stiffness.assign(np.maximum(100.0 * model.weight, 1.0))
         self.potential.friction.coefficient.fill_(options.friction)
         self._slip = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
+
+    def refuse_intersections(self) -> None:
+        pairs = intersecting_bodies(self.model, self.potential.positions(self.q, self.potential._start))
+        if len(pairs):
+            names = [*self.model.labels, "the ground"]
+            listed = "; ".join(
+                f'"{names[a]}" and {names[b] if b < 0 else chr(34) + names[b] + chr(34)}' for a, b in pairs[:5]
+            )
+            raise SimulationError(
+                f"{len(pairs)} pairs intersect at the start, where no simulation can begin: {listed}."
+            )
 
     def state(self) -> NDArray[np.float64]:
         return self.q.numpy().reshape(-1, 4, 3).copy()
@@ -167,10 +179,11 @@ def settle(model: Model, options: SettleOptions | None = None, progress: Progres
     """Let the bodies of every world of `model` come to rest from its initial state.
 
     Raises:
-        SimulationError: the state is not finite.
+        SimulationError: bodies intersect at the start, or the state is not finite.
     """
     options = options or SettleOptions()
     run = _Run(model, options, progress)
+    run.refuse_intersections()
     run.set_reach(options.d_hat)
     run.drop()
     at_rest, residual = run.polish()

@@ -1,8 +1,8 @@
 """The studio of every picture: a soft key light, a fill, a bright sky with one bounce, a seamless ground.
 
 Light is measured so that a white diffuse surface in 1.0 appears white. Sky and bounce light are
-gathered with a few rays a pixel. The rays come from one low-discrepancy set dealt to tiles of 4 x 4 pixels, so that
-averaging over a tile along the surface uses all of the set and leaves no grain.
+gathered with a few rays a pixel. The rays come from one low-discrepancy set dealt to tiles of 8 x 8 pixels (the key
+light: 4 x 4), so that averaging over a tile along the surface uses all of the set and leaves no grain.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from pat3d.view.geometry import Geometry
 from pat3d.view.tone import decode
 
-TILE = 4
-"""Side [pixel] of the tile that shares one sample set."""
+TILE_PLACES = 64
+"""Pixels of the tile that shares one sample set."""
 SKY_RAYS = 4
 """Rays towards sky and neighbours per pixel."""
-KEY_RAYS = 4
+KEY_RAYS = 8
 """Rays towards the key light per pixel."""
 
 Array = NDArray[np.float32]
@@ -91,13 +91,23 @@ def backdrop(distance: Array) -> Array:
     return (GROUND_COLOUR + blend * (BACKDROP_COLOUR - GROUND_COLOUR)).astype(np.float32)
 
 
-@cache
-def sample_set(rays: int, seed: int) -> Array:
-    """A (0, 2)-sequence dealt to the pixels of a tile; shape (TILE * TILE, rays, 2), values in [0, 1).
+def tile_places(row: NDArray[np.int32], column: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Place of pixels in their tile of 8 x 8, 0 to 63; modulo 16 the place in a tile of 4 x 4.
 
-    Every pixel gets a consecutive block, which is itself evenly spread when `rays` is a power of two.
+    Neighbours are far apart in the count (the order of a 4 x 4 dither matrix), as they are in what they sample.
     """
-    count = TILE * TILE * rays
+    dither = np.array([0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5], dtype=np.int32)
+    quarter = (row // 4 % 2) * 2 + column // 4 % 2
+    return (quarter * 16 + dither[(row % 4) * 4 + column % 4]).astype(np.int32)
+
+
+@cache
+def sample_set(places: int, rays: int, seed: int) -> Array:
+    """A scrambled (0, 2)-sequence dealt to the places of a tile; shape (places, rays, 2), values in [0, 1).
+
+    Every place gets a consecutive block, which is itself evenly spread when `rays` is a power of two.
+    """
+    count = places * rays
     index = np.arange(count, dtype=np.uint64)
     first, second = np.zeros(count, dtype=np.uint64), np.zeros(count, dtype=np.uint64)
     direction = np.uint64(1 << 31)
@@ -108,9 +118,7 @@ def sample_set(rays: int, seed: int) -> Array:
         direction ^= direction >> np.uint64(1)
     scramble = np.random.default_rng(seed).integers(0, 1 << 32, size=2, dtype=np.uint64)
     points = (np.stack([first ^ scramble[0], second ^ scramble[1]], axis=1) + 0.5) / 2.0**32
-    # Neighbouring pixels get distant blocks (the order of a 4 x 4 dither matrix).
-    order = np.array([0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5])
-    return points.reshape(TILE * TILE, rays, 2)[order].astype(np.float32)
+    return points.reshape(places, rays, 2).astype(np.float32)
 
 
 def around(direction: Array, local: Array) -> Array:
@@ -140,12 +148,12 @@ def key_visibility(
         studio: where the light is.
         points: just off the surface [m], shape (n, 3).
         normals: surface normals, shape (n, 3).
-        tile: place of each pixel in its tile, shape (n,).
+        tile: `tile_places` of each pixel, shape (n,).
         seed: of the sample set.
     """
     seen = np.zeros(len(points), dtype=np.float32)
     facing = np.flatnonzero(normals @ studio.key_direction > -0.05)
-    samples = sample_set(KEY_RAYS, seed)
+    samples = sample_set(TILE_PLACES // 4, KEY_RAYS, seed)
     lamp = np.broadcast_to(studio.key_direction, (len(samples), 3))
     for k in range(KEY_RAYS):
         radius = np.sqrt(samples[:, k, 0]) * studio.key_spread
@@ -153,7 +161,7 @@ def key_visibility(
         local = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.ones_like(radius)], axis=1)
         rays = around(lamp.astype(np.float32), local.astype(np.float32))
         rays /= np.linalg.norm(rays, axis=1)[:, None]
-        seen[facing] += ~geometry.occluded(points[facing], rays[tile[facing]])
+        seen[facing] += ~geometry.occluded(points[facing], rays[tile[facing] % len(rays)])
     return seen / np.float32(KEY_RAYS)
 
 
@@ -176,14 +184,14 @@ def sky_light(
         ground: height of the ground plane [m] in the geometry's frame, or None.
         points: just off the surface [m], shape (n, 3).
         normals: unit normals, shape (n, 3).
-        tile: place of each pixel in its tile, shape (n,).
+        tile: `tile_places` of each pixel, shape (n,).
         seed: of the sample set.
 
     Returns:
         RGB, shape (n, 3).
     """
     total = np.zeros((len(points), 3), dtype=np.float32)
-    samples = sample_set(SKY_RAYS, seed + 1)
+    samples = sample_set(TILE_PLACES, SKY_RAYS, seed + 1)
     near = np.float32(max(0.35 * geometry.radius, 1e-6))
     floor_light = GROUND_COLOUR * studio.open_sky * 1.6
     for k in range(SKY_RAYS):

@@ -32,8 +32,7 @@ _BACKGROUND, _GROUND = -1, 0
 
 def frame_items(items: Sequence[Item], *, aspect: float = 4.0 / 3.0, **options: float) -> Camera:
     """The automatic camera for `items`; `options` are those of `pat3d.view.camera.frame`."""
-    if not items:
-        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    _check(items)
     return frame(np.concatenate([pose.apply(mesh.vertices) for mesh, pose in items]), aspect=aspect, **options)
 
 
@@ -64,8 +63,7 @@ def render(
     Raises:
         SpecError: there is nothing to draw or a size is out of range.
     """
-    if not items:
-        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    _check(items)
     if not (8 <= width <= LARGEST_PICTURE and 8 <= height <= LARGEST_PICTURE and 1 <= samples <= 64):
         raise SpecError(
             f"a picture is 8 to {LARGEST_PICTURE} pixels wide and high with 1 to 64 samples; "
@@ -74,12 +72,20 @@ def render(
     view = _View(items, camera or frame_items(items, aspect=width / height), width, height, ground)
     row, column = np.divmod(np.arange(width * height, dtype=np.int32), np.int32(width))
     surfaces = view.surfaces(column + np.float32(0.5), row + np.float32(0.5))
-    lit = view.lighting(surfaces, (row % light.TILE) * light.TILE + column % light.TILE, seed)
+    lit = view.lighting(surfaces, light.tile_places(row, column), seed)
     picture = compress(view.colours(surfaces, lit))
     edge = np.flatnonzero(_edges(surfaces, picture, width, height, view.pixel))
     if samples > 1 and len(edge):
         picture[edge] = _refined(view, surfaces, lit, edge, samples)
     return quantise(picture, row, column).reshape(height, width, 3)
+
+
+def _check(items: Sequence[Item]) -> None:
+    if not items:
+        raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
+    for index, (mesh, _) in enumerate(items):
+        if len(mesh.faces) == 0 or not np.all(np.isfinite(mesh.vertices)):
+            raise SpecError(f"mesh {index} of the picture has no triangles or vertices that are not finite.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +191,9 @@ class _View:
         colour = surfaces.colour.copy()
         ground = np.flatnonzero(surfaces.what == _GROUND)
         key_up = studio.key * studio.key_direction[2]
-        arriving = lit[ground, :3] + key_up * lit[ground, 3:]
+        # More than the sky that is hidden is taken away: contacts must read on a ground this bright.
+        openness = np.clip(lit[ground, :3] / studio.open_sky, 0.0, 1.1) ** 1.7
+        arriving = openness * studio.open_sky + key_up * lit[ground, 3:]
         colour[ground] *= np.minimum(arriving / (studio.open_sky + key_up), 1.05)
         mesh = np.flatnonzero(surfaces.what > 0)
         normal, ray, sky = surfaces.normal[mesh], surfaces.ray[mesh], lit[mesh, :3]
@@ -193,9 +201,11 @@ class _View:
         fill = np.maximum(0.25 + 0.75 * (normal @ studio.fill_direction), 0.0)
         openness = np.minimum(sky.mean(axis=1) / studio.open_sky.mean(), 1.0)
         diffuse = sky + key[:, None] * studio.key + (fill * openness)[:, None] * studio.fill
-        # A faint varnish: Schlick's reflectance of sky at grazing angles and a broad highlight of the key light.
-        facing = np.clip(-np.einsum("ij,ij->i", normal, ray), 0.0, 1.0)
-        mirror = 0.02 + 0.14 * (1.0 - facing) ** 5
+        # A faint varnish: Schlick's reflectance of a sky that is brightest overhead, and a broad highlight of the
+        # key light. It gives black things their shape.
+        towards = np.einsum("ij,ij->i", normal, ray)
+        overhead = ray[:, 2] - 2.0 * towards * normal[:, 2]
+        mirror = (0.035 + 0.14 * (1.0 - np.clip(-towards, 0.0, 1.0)) ** 5) * (1.0 + 0.6 * overhead)
         half = studio.key_direction - ray
         half /= np.linalg.norm(half, axis=1)[:, None]
         glint = 0.16 * np.maximum(np.einsum("ij,ij->i", normal, half), 0.0) ** 48 * lit[mesh, 3]

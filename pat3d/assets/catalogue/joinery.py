@@ -124,6 +124,11 @@ def dial(radius: float, length: float, sides: int = 12) -> Shape:
     return cylinder(radius, length, sides).turned("z", 180 / sides).turned("x", 90)
 
 
+def spot(radius: float, height: float) -> Shape:
+    """A coarse upright cylinder [m] to paint small round keys with."""
+    return Shape(manifold3d.Manifold.cylinder(height, radius, radius, 16), ())
+
+
 def leaning(shape: Shape, slope: float) -> Shape:
     """The shape sheared backwards: y grows by `slope` times z."""
     return shape.transformed(np.array([[1.0, 0.0, 0.0], [0.0, 1.0, slope], [0.0, 0.0, 1.0]]))

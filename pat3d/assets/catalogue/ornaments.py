@@ -2,6 +2,8 @@
 
 import math
 
+from manifold3d import CrossSection, Manifold
+
 from pat3d.assets.catalogue.joinery import BLACK, GOLD, cut, dial, drawn, dressed, together
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.colours import COLOURS
@@ -32,7 +34,13 @@ def sculpture(style: Style) -> Build:
     k = style.vary(1.0, 0.1)
     plinth = box(0.12 * k, 0.1 * k, 0.05)
     if style.rng.random() < 0.5:
-        ring = _ring(0.085 * k, 0.018 * k, 14).turned("z", style.rng.uniform(-25, 25)).moved(z=0.05 + 0.1 * k)
+        # The 14 bars lie up to 2 mm inside the circle through their ends.
+        hoop = Manifold.revolve(CrossSection.circle(0.016 * k, 24).translate((0.084 * k, 0.0)), 64)
+        ring = (
+            Shape(hoop.rotate((90.0, 0.0, 0.0)), _ring(0.085 * k, 0.0185 * k, 14).hulls)
+            .turned("z", style.rng.uniform(-25, 25))
+            .moved(z=0.05 + 0.1 * k)
+        )
         body = join(ring, cylinder(0.02 * k, 0.03, 8).moved(z=0.045))
     else:
         sizes = ((0.05, 0.032, 0.045), (0.038, 0.03, 0.055), (0.045, 0.028, 0.03))

@@ -57,25 +57,23 @@ def _seated_bear(style: Style, coat: RGB, limbs: RGB, ears: RGB, patches: RGB | 
     )
 
 
-@entry("teddy bear", family="plush",
-       synonyms=("bear", "plush bear", "teddy", "stuffed bear", "toy bear", "bear plush", "bear toy"),
-       plurals=("teddies",), material="plush", colours=("brown", "tan", "golden"))  # fmt: skip
+@entry("teddy bear", family="plush", synonyms=("bear", "plush bear", "teddy", "stuffed bear", "toy bear",
+       "bear plush", "bear toy"), plurals=("teddies",), material="plush", colours=("brown", "tan", "golden"))  # fmt: skip
 def teddy_bear(style: Style) -> Build:
     """A seated bear with a light muzzle."""
     coat = style.colour()
     return _seated_bear(style, coat, coat, coat, None)
 
 
-@entry("panda", family="plush", synonyms=("plush panda", "panda bear", "toy panda", "stuffed panda"), material="plush",
-       colours=("white",), accents=("black",))  # fmt: skip
+@entry("panda", family="plush", synonyms=("plush panda", "panda bear", "toy panda", "stuffed panda"),
+       material="plush", colours=("white",), accents=("black",))  # fmt: skip
 def panda(style: Style) -> Build:
     """A seated panda with dark limbs, ears and eye patches."""
     return _seated_bear(style, style.colour(), style.colour(1), style.colour(1), style.colour(1))
 
 
-@entry("elephant", family="plush",
-       synonyms=("plush elephant", "toy elephant", "stuffed elephant", "elephant plush", "elephant toy"),
-       material="plush", colours=("gray",))  # fmt: skip
+@entry("elephant", family="plush", synonyms=("plush elephant", "toy elephant", "stuffed elephant", "elephant plush",
+       "elephant toy"), material="plush", colours=("gray",))  # fmt: skip
 def elephant(style: Style) -> Build:
     """A standing elephant with large ears and a hanging trunk, 28 cm tall."""
     coat = style.colour()
@@ -84,8 +82,10 @@ def elephant(style: Style) -> Build:
     swing, flap = style.vary(0.03, 0.6), style.vary(24.0, 0.3)
     ear = ellipsoid(0.056, 0.014, 0.066).turned("z", flap).moved(0.104, -0.085, 0.205)
     inner = ellipsoid(0.040, 0.008, 0.050).turned("z", flap).moved(0.106, -0.099, 0.205)
-    trunk = [limb((0.0, -0.168, 0.190), (0.0, -0.205, 0.115), 0.032, 0.024),
-             limb((0.0, -0.205, 0.115), (0.0, -0.215 - swing, 0.062), 0.024, 0.019)]  # fmt: skip
+    trunk = [
+        limb((0.0, -0.168, 0.190), (0.0, -0.205, 0.115), 0.032, 0.024),
+        limb((0.0, -0.205, 0.115), (0.0, -0.215 - swing, 0.062), 0.024, 0.019),
+    ]
     tail = limb((0.0, 0.135, 0.17), (0.0, 0.160, 0.10), 0.009, 0.007)
     return finish(
         style,
@@ -102,10 +102,9 @@ def elephant(style: Style) -> Build:
     )
 
 
-@entry("rabbit", family="plush",
-       synonyms=("bunny", "plush rabbit", "plush bunny", "toy rabbit", "stuffed rabbit", "stuffed bunny",
-                 "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit", "hare"), plurals=("bunnies",), material="plush",
-       colours=("white", "tan", "gray"))  # fmt: skip
+@entry("rabbit", family="plush", synonyms=("bunny", "plush rabbit", "plush bunny", "toy rabbit", "stuffed rabbit",
+       "stuffed bunny", "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit", "hare"), plurals=("bunnies",),
+       material="plush", colours=("white", "tan", "gray"))  # fmt: skip
 def rabbit(style: Style) -> Build:
     """A crouching rabbit with upright ears, 26 cm tall (a baby one 15 cm)."""
     coat, grow = style.colour(), 1.18 if young(style) else 1.0
@@ -140,9 +139,8 @@ def rabbit(style: Style) -> Build:
     )
 
 
-@entry("giraffe", family="plush",
-       synonyms=("plush giraffe", "toy giraffe", "stuffed giraffe", "giraffe plush", "giraffe toy"),
-       material="plush", colours=("yellow",), accents=("brown",))  # fmt: skip
+@entry("giraffe", family="plush", synonyms=("plush giraffe", "toy giraffe", "stuffed giraffe", "giraffe plush",
+       "giraffe toy"), material="plush", colours=("yellow",), accents=("brown",))  # fmt: skip
 def giraffe(style: Style) -> Build:
     """A standing giraffe with a long neck and brown patches, 50 cm tall."""
     coat, patch = style.colour(), style.colour(1)
@@ -191,9 +189,8 @@ def _side_eyes(size, at):
     return pair(ellipsoid(0.007).moved(0.93 * size[0], at[1] - 0.25 * size[1], at[2] + 0.30 * size[2]))
 
 
-@entry("plush dog", family="plush",
-       synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush", "dog toy", "plush puppy", "plushie"),
-       plurals=("plush puppies",), material="plush", colours=("tan", "brown", "cream"))  # fmt: skip
+@entry("plush dog", family="plush", synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush", "dog toy",
+       "plush puppy", "plushie"), plurals=("plush puppies",), material="plush", colours=("tan", "brown", "cream"))  # fmt: skip
 def plush_dog(style: Style) -> Build:
     """A seated floppy-eared dog, 34 cm tall, whose broad flat crown carries hats."""
     coat = style.colour()

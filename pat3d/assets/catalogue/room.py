@@ -137,18 +137,8 @@ def lamp(style: Style) -> Build:
     """A table lamp: a turned base and a fabric shade in the main colour."""
     k = style.vary(1.0)
     foot, belly, z = 0.075 * k, style.vary(0.065), style.vary(0.44) * stretch(style)[2]
-    base = turned_solid(
-        [
-            (foot, 0.0),
-            (foot, 0.015),
-            (0.35 * belly, 0.03),
-            (0.9 * belly, 0.2 * z),
-            (belly, 0.28 * z),
-            (0.8 * belly, 0.38 * z),
-            (0.3 * belly, 0.5 * z),
-        ],
-        12,
-    )
+    turned = [(0.35, 0.07), (0.9, 0.2), (1.0, 0.28), (0.8, 0.38), (0.3, 0.5)]
+    base = turned_solid([(foot, 0.0), (foot, 0.015), *((r * belly, t * z) for r, t in turned)], 12)
     stem = cylinder(0.012, 0.2 * z, 8).moved(z=0.48 * z)
     shade = frustum(style.vary(0.15), style.vary(0.105), 0.4 * z).moved(z=0.6 * z)
     trim = box(2.0, 2.0, 0.008)

@@ -61,21 +61,8 @@ class Candidates:
         if self._built and not self._left_boxes(start, end):
             return
         model = self.model
-        wp.launch(
-            _vertex_boxes, dim=len(model.vertex_rest), device=model.device,
-            inputs=[start, end, 0.5 * reach + skin], outputs=[self._low, self._high],
-        )  # fmt: skip
+        close = self._prune(start, end, 0.5 * reach + skin)
         self._inner = 0.5 * reach
-        wp.launch(
-            _part_boxes, dim=len(model.part_body), device=model.device,
-            inputs=[model.part_ranges, self._low, self._high], outputs=[self._part_low, self._part_high],
-        )  # fmt: skip
-        self._counter.zero_()
-        wp.launch(
-            _close_parts, dim=len(model.part_pairs), device=model.device,
-            inputs=[model.part_pairs, self._part_low, self._part_high], outputs=[self._counter, self._close],
-        )  # fmt: skip
-        close = int(self._counter.numpy()[0])
         while True:
             self._counter.zero_()
             wp.launch(
@@ -96,6 +83,29 @@ class Candidates:
                 break
             self._reserve(2 * self.count)
         self._built = True
+
+    def close_parts(self, position: wp.array) -> wp.array:
+        """Pairs of parts whose boxes overlap at vertex positions [m], shape (pairs,), vec2i."""
+        self._built = False
+        return self._close[: self._prune(position, position, 0.0)]
+
+    def _prune(self, start: wp.array, end: wp.array, margin: float) -> int:
+        """Box vertices and parts over the motion and list the overlapping pairs of parts; returns their number."""
+        model = self.model
+        wp.launch(
+            _vertex_boxes, dim=len(model.vertex_rest), device=model.device,
+            inputs=[start, end, margin], outputs=[self._low, self._high],
+        )  # fmt: skip
+        wp.launch(
+            _part_boxes, dim=len(model.part_body), device=model.device,
+            inputs=[model.part_ranges, self._low, self._high], outputs=[self._part_low, self._part_high],
+        )  # fmt: skip
+        self._counter.zero_()
+        wp.launch(
+            _close_parts, dim=len(model.part_pairs), device=model.device,
+            inputs=[model.part_pairs, self._part_low, self._part_high], outputs=[self._counter, self._close],
+        )  # fmt: skip
+        return int(self._counter.numpy()[0])
 
     def _left_boxes(self, start: wp.array, end: wp.array) -> bool:
         self._outside.zero_()

@@ -42,7 +42,7 @@ def safe_step(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
 @wp.func
 def _distance(kind: int, a: wp.vec3d, b: wp.vec3d, c: wp.vec3d, d: wp.vec3d) -> wp.float64:
     if kind == POINT_TRIANGLE:
-        wb, wc, feature = closest_on_triangle(a, b, c, d)
+        wb, wc, _ = closest_on_triangle(a, b, c, d)
         return wp.length(a - (b + wb * (c - b) + wc * (d - b)))
     s, t = closest_on_edges(a, b, c, d)
     return wp.length(a + s * (b - a) - (c + t * (d - c)))
@@ -99,7 +99,7 @@ def _advance(
     if approach * limit <= distance - keep:
         return
     time = wp.float64(0.0)
-    for iteration in range(ITERATIONS):
+    for _ in range(ITERATIONS):
         advance = (distance - keep) / approach
         if time + advance >= limit:
             return

@@ -265,9 +265,7 @@ def contact_at(
         contact = point_ground(position[i], rest[i])
         contact.body_b = -1
     elif kind == POINT_TRIANGLE:
-        contact = point_triangle(
-            position[i], position[j], position[k], position[m], rest[i], rest[j], rest[k], rest[m]
-        )
+        contact = point_triangle(position[i], position[j], position[k], position[m], rest[i], rest[j], rest[k], rest[m])
         contact.body_b = vertex_body[j]
     else:
         contact = edge_edge(position[i], position[j], position[k], position[m], rest[i], rest[j], rest[k], rest[m])

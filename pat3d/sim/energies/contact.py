@@ -304,8 +304,10 @@ def _exact_hessian(
                         two * wp.outer(contact.v, contact.u) - uv * identity - wp.outer(contact.u, contact.v)
                     )
                 block += value * ri * rj * (mollifier_curvature * wp.outer(gi, gj) + mollifier_slope * second)
-                block += mollifier_slope * slope * (
-                    ri * contact.coefficients[j] * wp.outer(gi, n) + rj * contact.coefficients[i] * wp.outer(n, gj)
+                block += (
+                    mollifier_slope
+                    * slope
+                    * (ri * contact.coefficients[j] * wp.outer(gi, n) + rj * contact.coefficients[i] * wp.outer(n, gj))
                 )
             for r in range(3):
                 for s in range(3):

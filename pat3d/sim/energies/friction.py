@@ -114,9 +114,7 @@ def _record(
         bodies[slot] = wp.vec2i(contact.body_a, contact.body_b)
         coefficients[slot] = contact.coefficients
         normal[slot] = contact.normal
-        force[slot] = -contact.mollifier * barrier_slope(
-            contact.distance, d_hat, stiffness[body_world[contact.body_a]]
-        )
+        force[slot] = -contact.mollifier * barrier_slope(contact.distance, d_hat, stiffness[body_world[contact.body_a]])
 
 
 @wp.func

@@ -79,7 +79,10 @@ def _value(
         for j in range(4):
             weight = _mass_matrix(i, j, mass, body_moment[body])
             total += (
-                wp.float64(0.5) * sigma[world] * weight * wp.dot(q[body, i] - start[body, i], q[body, j] - start[body, j])
+                wp.float64(0.5)
+                * sigma[world]
+                * weight
+                * wp.dot(q[body, i] - start[body, i], q[body, j] - start[body, j])
             )
     wp.atomic_add(energy, world, total)
 

@@ -101,7 +101,7 @@ class Newton:
         return self.potential.safe_fraction(q, self._trial)
 
     def _search(self, q, slope, residual, running, exact_below) -> NDArray[np.bool_]:
-        """Backtrack until every running world decreases; leaves the states in `_trial`, returns the worlds that cannot."""
+        """Backtrack until every running world decreases, into `_trial`; returns the worlds that cannot."""
         potential = self.potential
         step = running.astype(np.float64)
         before = potential.value(q)

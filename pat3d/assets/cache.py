@@ -1,0 +1,62 @@
+"""A content-addressed store of arrays on disk: the key is a hash of everything the arrays depend on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def cache_root(cache_dir: str | os.PathLike[str] | None = None) -> Path:
+    """`cache_dir`, else $PAT3D_CACHE, else $XDG_CACHE_HOME/pat3d, else ~/.cache/pat3d."""
+    if cache_dir is not None:
+        return Path(cache_dir)
+    if os.environ.get("PAT3D_CACHE"):
+        return Path(os.environ["PAT3D_CACHE"])
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "pat3d"
+
+
+def content_key(arrays: Mapping[str, NDArray[Any]], options: Mapping[str, Any]) -> str:
+    """SHA-256 of `arrays` (types and shapes included) and JSON-serialisable `options`, as hex digits."""
+    digest = hashlib.sha256(json.dumps(options, sort_keys=True).encode())
+    for name, array in sorted(arrays.items()):
+        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def load_points(path: Path) -> list[NDArray[np.float64]] | None:
+    """Point sets [m], each of shape (n, 3), from `path`; None where there is none or it is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            points, counts = data["points"], data["counts"]
+    except Exception:
+        # A damaged archive raises whatever its damage happens to hit (zip, zlib, header, missing key).
+        return None
+    numeric = points.dtype == np.float64 and points.ndim == 2 and np.issubdtype(counts.dtype, np.integer)
+    if not numeric or points.shape[1] != 3 or counts.ndim != 1 or not len(counts):
+        return None
+    if counts.min() < 4 or counts.sum() != len(points) or not np.isfinite(points).all():
+        return None
+    return np.split(points, np.cumsum(counts)[:-1])
+
+
+def store_points(path: Path, parts: list[NDArray[np.float64]]) -> None:
+    """Write point sets to `path` atomically; a folder that cannot be written leaves no entry."""
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, points=np.concatenate(parts), counts=np.array([len(points) for points in parts]))
+        os.replace(temporary, path)
+    except OSError:
+        if temporary is not None:
+            Path(temporary).unlink(missing_ok=True)

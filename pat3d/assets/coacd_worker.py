@@ -1,0 +1,31 @@
+"""Runs CoACD on one mesh in a process of its own, since bad input makes the library abort or hang.
+
+    python -P coacd_worker.py INPUT.npz OUTPUT.npz
+
+INPUT holds `vertices`, `faces` and a JSON string `options`; OUTPUT gets the parts' `points`, one after
+another, and the `counts` of points per part. No pickle on either side.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import numpy as np
+
+
+def main(source: str, target: str) -> None:
+    """Decompose the mesh in file `source` into convex parts in file `target`."""
+    import coacd
+
+    with np.load(source, allow_pickle=False) as data:
+        vertices, faces = data["vertices"], data["faces"]
+        options = json.loads(str(data["options"]))
+    coacd.set_log_level("error")
+    parts = [np.asarray(points) for points, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), **options)]
+    with open(target, "wb") as file:
+        np.savez(file, points=np.concatenate(parts), counts=np.array([len(points) for points in parts]))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

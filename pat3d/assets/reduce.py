@@ -1,0 +1,264 @@
+"""Reduction of convex hulls: fewer vertices, the original contained, support faces kept.
+
+An edge of the hull is replaced by one point that lies outside every face around the edge, placed where
+the volume that this adds is least (progressive hulls, Sander et al. 2000); the hull of the points that
+remain contains the one before. The best edge goes first, and short edges go however few vertices there
+are, so what is left is well spaced. A point that replaces corners of a support face stays in its plane.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
+
+from pat3d.assets.asset import ConvexPart
+from pat3d.assets.hull import convex_part
+from pat3d.errors import AssetError
+
+SHORT_EDGE = 0.01
+"""Edges shorter than this fraction of the hull's longest side are removed."""
+
+_COPLANAR = 1e-7
+"""Planes of a hull of unit size closer than this are one."""
+
+_START_PLANES = 80
+"""Hulls with more corners than twice this start from that many of their supporting planes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inflation:
+    """How much larger a part is than the hull it replaces."""
+
+    distance: float
+    """Largest distance of a vertex of the part from the hull [m]."""
+    volume: float
+    """Volume added, as a fraction of the hull's volume [-]."""
+
+
+def reduce_hull(points: NDArray[np.float64], max_vertices: int = 64, max_faces: int = 64) -> ConvexPart:
+    """A convex part of few, well-spaced vertices that contains the hull of `points`.
+
+    Large flat faces of the hull, above all those that face straight down and up, keep their planes. A
+    hull that is within the limits and has no short edges is returned as it is.
+
+    Args:
+        points: [m], shape (n, 3).
+        max_vertices: most vertices of the part, at least 4.
+        max_faces: most triangles of the part, at least 4; a triangulated polyhedron has twice its vertices less 4.
+
+    Raises:
+        AssetError: the points span no volume, or the limits admit no polyhedron.
+    """
+    if min(max_vertices, max_faces) < 4:
+        raise AssetError(f"a convex part needs 4 vertices and 4 faces, not {max_vertices} and {max_faces}.")
+    limit = min(max_vertices, (max_faces + 4) // 2)
+    part = convex_part(points)
+    middle = part.bounds.mean(axis=0)
+    size = float(np.ptp(part.bounds, axis=0).max())
+    corners = (part.vertices - middle) / size
+    hull = ConvexHull(corners)
+    short = _short_edge(corners, hull)
+    if len(corners) <= limit and _edge_lengths(corners, hull).min() >= short:
+        return part
+    supports = _support_planes(hull)
+    if len(corners) > 2 * _START_PLANES:
+        corners = _few_planes(corners, hull, supports)
+    while True:
+        reduced = _collapse(corners, supports, limit, short)
+        if len(reduced) <= limit or not len(supports):
+            break
+        supports = supports[:-1]
+    if len(reduced) > limit:
+        reduced = _bounding_box(corners)
+    return _containing(reduced * size + middle, part.vertices)
+
+
+def inflation(part: ConvexPart, points: NDArray[np.float64]) -> Inflation:
+    """How far `part` reaches beyond the hull of `points` [m], shape (n, 3)."""
+    hull = ConvexHull(points)
+    distance = (part.vertices @ hull.equations[:, :3].T + hull.equations[:, 3]).max()
+    return Inflation(distance=max(0.0, float(distance)), volume=float(ConvexHull(part.vertices).volume / hull.volume) - 1)
+
+
+def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:
+    """Planes (outward normal, offset) worth keeping, most important first, shape (planes, 4)."""
+    planes, group = _merged_planes(hull.equations)
+    corners = hull.points[hull.simplices]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    area = np.bincount(group, weights=areas, minlength=len(planes)) / areas.sum()
+    upright = np.abs(planes[:, 2]) > 1 - 1e-9
+    wanted = np.flatnonzero((area > 0.05) | (upright & (area > 0.005)))
+    order = sorted(wanted, key=lambda k: (not upright[k], -area[k]))[:8]
+    planes = planes[order]
+    snapped = np.round(planes[:, :3])
+    aligned = np.abs(planes[:, :3] - snapped).max(axis=1, initial=0.0) < 1e-9
+    planes[aligned, :3] = snapped[aligned]
+    return planes
+
+
+def _merged_planes(equations: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Distinct planes and, for each equation, the index of its plane."""
+    order = np.lexsort(np.round(equations, 5).T)
+    group = np.full(len(equations), -1)
+    planes: list[NDArray[np.float64]] = []
+    for index in order:
+        if planes:
+            near = np.abs(np.array(planes) - equations[index]).max(axis=1) < _COPLANAR
+            if near.any():
+                group[index] = int(np.argmax(near))
+                continue
+        group[index] = len(planes)
+        planes.append(equations[index])
+    return np.array(planes), group
+
+
+def _few_planes(corners: NDArray[np.float64], hull: ConvexHull, supports: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners of the intersection of some supporting half-spaces, spread over the directions of the faces."""
+    normals = hull.equations[:, :3]
+    chosen = [*supports[:, :3], *np.eye(3), *-np.eye(3)]
+    similarity = (normals @ np.array(chosen).T).max(axis=1)
+    while len(chosen) < _START_PLANES and similarity.min() < 1 - 1e-4:
+        chosen.append(normals[np.argmin(similarity)])
+        similarity = np.maximum(similarity, normals @ chosen[-1])
+    directions = np.array(chosen)
+    offsets = (corners @ directions.T).max(axis=0)
+    try:
+        points = HalfspaceIntersection(np.column_stack([directions, -offsets]), corners.mean(axis=0)).intersections
+        # Corners of the intersection coincide where more than three planes meet.
+        points = np.unique(np.round(points, 13), axis=0)
+        return points[ConvexHull(points).vertices]
+    except QhullError:
+        return corners
+
+
+def _short_edge(corners: NDArray[np.float64], hull: ConvexHull) -> float:
+    """Length below which an edge of a hull of unit size is removed; well below the thickness of a thin hull."""
+    depth = -(corners @ hull.equations[:, :3].T + hull.equations[:, 3]).min(axis=0)
+    return min(SHORT_EDGE, 0.2 * float(depth.min()))
+
+
+def _edges(hull: ConvexHull) -> NDArray[np.int64]:
+    pairs = np.sort(hull.simplices[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(pairs, axis=0)
+
+
+def _edge_lengths(corners: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.float64]:
+    edges = _edges(hull)
+    return np.linalg.norm(corners[edges[:, 0]] - corners[edges[:, 1]], axis=1)
+
+
+def _collapse(
+    corners: NDArray[np.float64], supports: NDArray[np.float64], limit: int, short: float
+) -> NDArray[np.float64]:
+    """Corners left once `limit` holds and no edge below `short` can go (unit size), shape (n, 3)."""
+    points = {index: point for index, point in enumerate(corners)}
+    fresh = itertools.count(len(corners))
+    found: dict[bytes, tuple[float, NDArray[np.float64] | None]] = {}
+    while len(points) > 4:
+        names = np.array(list(points))
+        array = np.array([points[name] for name in names])
+        try:
+            hull = ConvexHull(array)
+        except QhullError:
+            break
+        if len(hull.vertices) < len(names):
+            points = {names[k]: array[k] for k in hull.vertices}
+            continue
+        edges = _edges(hull)
+        lengths = np.linalg.norm(array[edges[:, 0]] - array[edges[:, 1]], axis=1)
+        if len(points) <= limit:
+            edges = edges[lengths < short]
+            if not len(edges):
+                break
+        best: tuple[float, NDArray[np.float64] | None, tuple[int, int] | None] = (np.inf, None, None)
+        incident = [np.flatnonzero((hull.simplices == k).any(axis=1)) for k in range(len(names))]
+        held = np.abs(array @ supports[:, :3].T + supports[:, 3]) < _COPLANAR if len(supports) else None
+        for i, j in edges:
+            around = np.union1d(incident[i], incident[j])
+            triangles = np.sort(names[hull.simplices[around]], axis=1)
+            key = triangles[np.lexsort(triangles.T)].tobytes()
+            if key not in found:
+                fixed = supports[held[i] | held[j]] if held is not None else supports
+                found[key] = _outer_point(array[hull.simplices[around]], hull.equations[around], fixed)
+            cost, point = found[key]
+            if cost < best[0]:
+                best = (cost, point, (int(names[i]), int(names[j])))
+        cost, point, edge = best
+        if edge is None or point is None:
+            break
+        for name in edge:
+            del points[name]
+        points[next(fresh)] = point
+    return np.array(list(points.values()))
+
+
+def _outer_point(
+    triangles: NDArray[np.float64], equations: NDArray[np.float64], fixed: NDArray[np.float64]
+) -> tuple[float, NDArray[np.float64] | None]:
+    """The point on planes `fixed` and outside all `equations` that adds the least volume, and its cost.
+
+    A linear program in three variables, solved by trying the corners of its feasible set.
+
+    Args:
+        triangles: faces around an edge, shape (faces, 3, 3).
+        equations: their outward planes, shape (faces, 4).
+        fixed: planes that must hold the point, shape (planes, 4).
+    """
+    if len(fixed) > 3:
+        return np.inf, None
+    areas = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
+    planes = _distinct(equations)
+    free = planes
+    if len(fixed):
+        free = planes[np.abs(planes[:, None] - fixed[None]).max(axis=2).min(axis=1) > _COPLANAR]
+    wanted = 3 - len(fixed)
+    if len(free) < wanted or len(free) > 40:
+        return np.inf, None
+    choice = np.array(list(itertools.combinations(range(len(free)), wanted)), dtype=np.int64)
+    systems = np.concatenate([np.broadcast_to(fixed, (len(choice), *fixed.shape)), free[choice]], axis=1)
+    regular = np.abs(np.linalg.det(systems[:, :, :3])) > 1e-6
+    if not regular.any():
+        return np.inf, None
+    systems = systems[regular]
+    candidates = np.linalg.solve(systems[:, :, :3], -systems[:, :, 3:])[:, :, 0]
+    gap = candidates @ planes[:, :3].T + planes[:, 3]
+    candidates, gap = candidates[feasible := gap.min(axis=1) > -1e-12], gap[feasible]
+    if not len(candidates):
+        return np.inf, None
+    added = (candidates @ equations[:, :3].T + equations[:, 3]) @ areas / 3
+    # Needles add little volume and reach far: the squared distance keeps them out.
+    cost = added + 0.05 * gap.max(axis=1) ** 2
+    best = int(np.argmin(cost))
+    point = candidates[best]
+    for plane in fixed:
+        axis = int(np.argmax(np.abs(plane[:3])))
+        if abs(plane[axis]) == 1.0:
+            point[axis] = -plane[3] / plane[axis]
+    return float(cost[best]), point
+
+
+def _distinct(equations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The planes of `equations`, each once."""
+    same = np.abs(equations[:, None] - equations[None]).max(axis=2) < _COPLANAR
+    return equations[np.argmax(same, axis=1) == np.arange(len(equations))]
+
+
+def _bounding_box(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return np.array(list(itertools.product(*zip(low, high, strict=True))))
+
+
+def _containing(reduced: NDArray[np.float64], original: NDArray[np.float64]) -> ConvexPart:
+    """The part with vertices `reduced`, grown by rounding errors until it contains `original`."""
+    part = convex_part(reduced)
+    hull = ConvexHull(part.vertices)
+    depth = -(hull.equations[:, :3] @ part.vertices.mean(axis=0) + hull.equations[:, 3]).max()
+    outside = float((original @ hull.equations[:, :3].T + hull.equations[:, 3]).max())
+    if outside <= 1e-12 * depth:
+        return part
+    centre = part.vertices.mean(axis=0)
+    return convex_part(centre + (part.vertices - centre) * (1.0 + 2.0 * outside / depth))

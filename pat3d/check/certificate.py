@@ -1,0 +1,262 @@
+"""Static equilibrium, proved without a simulator: contact forces inside the friction cones that balance gravity.
+
+For every free body b with mass m, centre of mass c and size L (longest side of its bounding box)
+
+    r_force  = (m g + sum f) / (m |g|)          r_torque = (sum (x - c) x f) / (m |g| L)
+
+over its contacts at x, with |f_tangent| <= mu f_normal. A second-order-cone program finds the forces that make the
+largest |r| of each group of touching bodies least. The residuals reported are computed from those forces afterwards,
+with each force first put back inside its cone, so they do not rest on the solver's word.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.contacts import Contacts, find_contacts, merged
+from pat3d.errors import CheckError
+from pat3d.scene import Scene
+
+GRAVITY = 9.81
+"""[m/s^2], along -z."""
+
+TOLERANCE = 1e-3
+"""Largest residual, as a share of the weight, that passes."""
+
+ACTIVATION = 2e-4
+"""[m]; surfaces closer than this may press on each other."""
+
+MAX_FRICTION = 2.0
+FRICTION_STEP = 0.005
+"""Resolution of the smallest friction coefficient [-]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Certificate:
+    """Whether contact forces can hold every body still, and how well."""
+
+    friction: float
+    """Coulomb coefficient [-] of every contact."""
+    residuals: Mapping[str, float]
+    """Unbalanced force or torque of every free object over its weight (times its size), whichever is larger."""
+    contacts: int
+    """Contact points within the activation distance."""
+    activation: float
+    """[m]"""
+    smallest_friction: float | None = None
+    """The least coefficient [-] at which the certificate holds, to 0.005; infinite if none does; None if not asked."""
+
+    @property
+    def worst(self) -> float:
+        """Largest residual of any object [-]."""
+        return max(self.residuals.values(), default=0.0)
+
+    @property
+    def passed(self) -> bool:
+        """Every object's residual is at most 1e-3 of its weight."""
+        return all(residual <= TOLERANCE for residual in self.residuals.values())
+
+    @property
+    def unbalanced(self) -> tuple[str, ...]:
+        """Objects that the contacts cannot hold still."""
+        return tuple(name for name, residual in self.residuals.items() if not residual <= TOLERANCE)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json."""
+        least = self.smallest_friction
+        return {
+            **asdict(self),
+            "residuals": dict(self.residuals),
+            "smallest_friction": None if least is None or math.isinf(least) else least,
+            "worst": self.worst,
+            "passed": self.passed,
+        }
+
+
+def certify(
+    scene: Scene, friction: float | None = None, activation: float = ACTIVATION, *, margin: bool = False
+) -> Certificate:
+    """Find contact forces that hold every object of `scene` still at its pose.
+
+    Args:
+        scene: what to prove.
+        friction: coefficient [-] of every contact; None for the one the scene was settled with.
+        activation: surfaces closer than this touch [m].
+        margin: also find the smallest friction coefficient that suffices.
+
+    Raises:
+        CheckError: `friction` is negative or not finite.
+    """
+    friction = scene.settling_friction if friction is None else friction
+    if not (math.isfinite(friction) and friction >= 0.0):
+        raise CheckError(f"friction must be a number that is not negative, got {friction}.")
+    problem = _Problem(scene, activation)
+    return Certificate(
+        friction=friction,
+        residuals=problem.residuals(friction),
+        contacts=problem.found,
+        activation=activation,
+        smallest_friction=problem.smallest_friction() if margin else None,
+    )
+
+
+def smallest_friction(scene: Scene, activation: float = ACTIVATION) -> float:
+    """The least uniform friction coefficient [-] at which the certificate holds, to 0.005; infinite if none up to 2."""
+    return _Problem(scene, activation).smallest_friction()
+
+
+class _Problem:
+    """The contacts of a scene, split into groups of free bodies that press on one another."""
+
+    def __init__(self, scene: Scene, activation: float) -> None:
+        contacts = find_contacts(scene, activation)
+        self.found = len(contacts)
+        contacts = merged(contacts)
+        self.names = [obj.name for obj in scene.objects]
+        free = [k for k, obj in enumerate(scene.objects) if not obj.fixed]
+        self.centre = np.array([obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0]
+                                for obj in scene.objects])  # fmt: skip
+        self.weight = np.array([obj.asset.mass_properties.mass * GRAVITY for obj in scene.objects])
+        self.size = np.array([float(obj.asset.size.max()) for obj in scene.objects])
+        self.groups = [
+            (bodies, contacts.pick(np.isin(contacts.bodies, bodies).any(axis=1)))
+            for bodies in _groups(free, contacts)
+        ]
+
+    def residuals(self, friction: float) -> dict[str, float]:
+        """Largest residual of every free object, in the order of the scene."""
+        found: dict[int, float] = {}
+        for bodies, contacts in self.groups:
+            found |= dict(zip(bodies, self._balance(bodies, contacts, friction), strict=True))
+        return {self.names[body]: found[body] for body in sorted(found)}
+
+    def smallest_friction(self) -> float:
+        """Bisection on the friction coefficient of each group; the worst group's."""
+        least = 0.0
+        for bodies, contacts in self.groups:
+
+            def holds(friction: float, bodies=bodies, contacts=contacts) -> bool:
+                return max(self._balance(bodies, contacts, friction)) <= TOLERANCE
+
+            if holds(least):
+                continue
+            low, high = least, max(0.2, 2 * least)
+            while not holds(high):
+                if high >= MAX_FRICTION:
+                    return math.inf
+                low, high = high, min(2 * high, MAX_FRICTION)
+            while high - low > FRICTION_STEP:
+                middle = (low + high) / 2
+                low, high = (low, middle) if holds(middle) else (middle, high)
+            least = high
+        return least
+
+    def _balance(self, bodies: list[int], contacts: Contacts, friction: float) -> list[float]:
+        """Residuals of a group's bodies under the best contact forces."""
+        rows = {body: 6 * k for k, body in enumerate(bodies)}
+        gravity = np.zeros(6 * len(bodies))
+        gravity[2::6] = -1.0
+        if not len(contacts):
+            return [1.0] * len(bodies)
+        frames = _frames(contacts.normals)
+        # One unit of force is the load of the lighter body of a contact, so that pens on a table stay visible.
+        wrench = np.zeros((6 * len(bodies), 3 * len(contacts)))
+        unit = np.array([min(self.weight[b] for b in pair if b in rows) for pair in contacts.bodies.tolist()])
+        for k, (pair, point, frame) in enumerate(
+            zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)
+        ):
+            for body, sign in zip(pair, (1.0, -1.0), strict=True):
+                if body not in rows:
+                    continue
+                force = sign * unit[k] / self.weight[body] * frame
+                row, column = rows[body], 3 * k
+                wrench[row : row + 3, column : column + 3] = force
+                arm = (point - self.centre[body]) / self.size[body]
+                wrench[row + 3 : row + 6, column : column + 3] = np.cross(arm, force, axisb=0, axisc=0)
+        forces = _solve(wrench, gravity, friction)
+        if forces is None:
+            return [1.0] * len(bodies)
+        forces = _inside_cones(forces.reshape(-1, 3), friction).reshape(-1)
+        blocks = np.linalg.norm((gravity + wrench @ forces).reshape(-1, 2, 3), axis=2)
+        return [float(value) for value in blocks.max(axis=1)]
+
+
+def _groups(free: list[int], contacts: Contacts) -> list[list[int]]:
+    """Free bodies connected by contacts; the ground and fixed bodies connect nothing."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    place = {body: k for k, body in enumerate(free)}
+    edges = [(place[a], place[b]) for a, b in contacts.bodies.tolist() if a in place and b in place]
+    first, second = np.array(edges, dtype=int).reshape(-1, 2).T
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(free), len(free)))
+    count, label = connected_components(graph, directed=False)
+    return [[body for body in free if label[place[body]] == group] for group in range(count)]
+
+
+def _frames(normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation of every contact with columns (normal, tangent, tangent), shape (contacts, 3, 3)."""
+    axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
+    first = np.cross(normals, axis)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return np.stack([normals, first, np.cross(normals, first)], axis=2)
+
+
+def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: float) -> NDArray[np.float64] | None:
+    """Contact forces (normal, tangent, tangent) that make the largest residual least, or None.
+
+    Variables are the forces and the bound t; the cones are |f_tangent| <= friction f_normal for every contact and
+    |residual| <= t for the force and the torque of every body.
+    """
+    import clarabel
+    from scipy import sparse
+
+    count, rows = wrench.shape[1] // 3, wrench.shape[0]
+    scale = sparse.diags(np.tile([friction, 1.0, 1.0], count)) if friction > 0 else None
+    if scale is None:
+        wrench = wrench[:, ::3]
+        cone_block, cones = sparse.identity(count), [clarabel.NonnegativeConeT(count)]
+    else:
+        cone_block, cones = scale, [clarabel.SecondOrderConeT(3)] * count
+    residual = sparse.lil_matrix((rows // 3 * 4, wrench.shape[1] + 1))
+    target = np.zeros(rows // 3 * 4)
+    for block in range(rows // 3):
+        residual[4 * block, -1] = -1.0
+        residual[4 * block + 1 : 4 * block + 4, :-1] = -wrench[3 * block : 3 * block + 3]
+        target[4 * block + 1 : 4 * block + 4] = gravity[3 * block : 3 * block + 3]
+    height = cone_block.shape[0]
+    matrix = sparse.vstack(
+        [sparse.hstack([-cone_block, sparse.csc_matrix((height, 1))]), residual.tocsc()], format="csc"
+    )
+    cones = [*cones, *([clarabel.SecondOrderConeT(4)] * (rows // 3))]
+    width = wrench.shape[1] + 1
+    objective = np.zeros(width)
+    objective[-1] = 1.0
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_iter = 100
+    solution = clarabel.DefaultSolver(
+        sparse.csc_matrix((width, width)), objective, matrix, np.concatenate([np.zeros(height), target]), cones, settings
+    ).solve()
+    found = np.asarray(solution.x)[:-1]
+    if not np.isfinite(found).all():
+        return None
+    if scale is None:
+        return np.column_stack([found, np.zeros((count, 2))]).reshape(-1)
+    return found
+
+
+def _inside_cones(forces: NDArray[np.float64], friction: float) -> NDArray[np.float64]:
+    """Forces (normal, tangent, tangent) with the normal not negative and the tangent cut to the cone; shape (n, 3)."""
+    normal = np.maximum(forces[:, 0], 0.0)
+    tangent = forces[:, 1:]
+    size = np.linalg.norm(tangent, axis=1)
+    shrink = np.minimum(1.0, friction * normal / np.maximum(size, 1e-300))
+    return np.column_stack([normal, tangent * shrink[:, None]])
+

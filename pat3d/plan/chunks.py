@@ -1,0 +1,258 @@
+"""A prompt as a row of noun phrases and the relation words between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from pat3d.plan import lexicon
+from pat3d.plan.lexing import Token, normalise, tokenise
+from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
+from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
+from pat3d.plan.phrases import Phrase, PhraseReader, link_at
+from pat3d.plan.vocabulary import Nouns
+
+ChunkKind = Literal[
+    "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality",
+    "aside",
+]  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chunk:
+    """One piece of the prompt."""
+
+    kind: ChunkKind
+    text: str = ""
+    phrase: Phrase | None = None
+    link: Link | None = None
+    modifiers: Modifiers = NO_MODIFIERS
+    """For kind "quality": what "is red" says."""
+
+
+def chunk(prompt: str, nouns: Nouns) -> list[Chunk]:
+    """The chunks of `prompt`, ending in a stop."""
+    return _Chunker(normalise(prompt), nouns).run()
+
+
+class _Chunker:
+    def __init__(self, text: str, nouns: Nouns) -> None:
+        self._text = text
+        self._tokens = self._repaired(tokenise(text), nouns)
+        self._phrases = PhraseReader(text, self._tokens, nouns)
+        self._nouns = nouns
+        self._chunks: list[Chunk] = []
+        self._at = 0
+
+    @staticmethod
+    def _repaired(tokens: list[Token], nouns: Nouns) -> list[Token]:
+        """A bare "beside table" is a bedside table: with a relation there would be a determiner."""
+        if nouns.match(["bedside", "table"]) is None:
+            return tokens
+        return [
+            Token(text="bedside", start=token.start, end=token.end, number=token.number)
+            if token.text == "beside"
+            and follower.text in ("table", "tables", "lamp", "lamps")
+            and before in (",", "and", "a")
+            else token
+            for before, token, follower in zip(
+                [".", *(t.text for t in tokens)], tokens, [*tokens[1:], tokens[-1]], strict=False
+            )
+        ]
+
+    def run(self) -> list[Chunk]:
+        while self._at < len(self._tokens):
+            before = self._at
+            self._step()
+            if self._at == before:
+                self._at += 1
+        return self._chunks
+
+    def _add(self, kind: ChunkKind, size: int = 1, **fields: object) -> None:
+        tokens = self._tokens[self._at : self._at + size]
+        text = self._text[tokens[0].start : tokens[-1].end] if tokens else ""
+        self._chunks.append(Chunk(kind=kind, text=text, **fields))  # type: ignore[arg-type]
+        self._at += size
+
+    def _words(self, count: int) -> tuple[str, ...]:
+        return tuple(token.text for token in self._tokens[self._at : self._at + count])
+
+    @property
+    def _opens_clause(self) -> bool:
+        return not self._chunks or self._chunks[-1].kind in ("stop", "clause", "comma", "and", "dash")
+
+    def _step(self) -> None:
+        token = self._tokens[self._at]
+        word, follower = token.text, self._words(2)[-1]
+        if token.mark:
+            return self._add({",": "comma", ".": "stop", "-": "dash"}[word])  # type: ignore[arg-type]
+        if word in lexicon.MOOD_VERBS and self._chunks and self._chunks[-1].kind != "stop":
+            return self._remark()
+        if word in ("there", "there's", "here") or (word == "'s" and self._previous_word() in ("there", "here")):
+            skip = 1
+            while (verb := self._tokens[self._at + skip].text) in lexicon.COPULAS | lexicon.VERBS | {
+                "also",
+                "stand",
+                "sit",
+            }:
+                skip += 1
+                if verb == ".":
+                    break
+            return self._add("there", skip)
+        if word in ("without", "no"):
+            return self._absence()
+        if word in ("while", "whereas", "meanwhile", "but"):
+            return self._add("clause")
+        for key in (
+            ("along", "with"),
+            ("together", "with"),
+            ("as", "well", "as"),
+            ("accompanied", "by"),
+            ("next", "comes"),
+        ):
+            if self._words(len(key)) == key:
+                return self._add("and", len(key))
+        if word in ("and", "plus", "or"):
+            return self._add("and")
+        if self._relation():
+            return None
+        if word == "each" and (follower in lexicon.COPULAS or follower == "of" or link_at(self._tokens, self._at + 1)
+                               or self._tokens[self._at + 1].mark):  # fmt: skip
+            return self._add("each")
+        if word in lexicon.COPULAS or (word == "'s" and self._previous_word() in lexicon.PRONOUNS):
+            self._add("verb")
+            return self._quality()
+        if word == "'s":
+            return self._owned_part()
+        if word in lexicon.VERBS and not (self._opens_clause and follower == "of"):
+            return self._add("verb")
+        if self._meaningless(word, follower):
+            self._at += 1
+            return None
+        read = self._phrases.read(self._at)
+        if read is None:
+            if word in lexicon.PRONOUNS:
+                return self._add("phrase", phrase=Phrase(kind="pronoun", head=word, words=word, number=token.number))
+            self._at += 1
+            return None
+        phrase, after = read
+        return self._add("phrase", after - self._at, phrase=phrase)
+
+    def _previous_word(self) -> str:
+        return self._tokens[self._at - 1].text if self._at else ""
+
+    def _meaningless(self, word: str, follower: str) -> bool:
+        """Whether the word may be dropped: a posture before its preposition, an adverb, a command."""
+        if follower == "of" or self._nouns.match([word]) or self._nouns.match([word, follower]):
+            return False
+        if self._opens_clause and word in lexicon.COMMANDS:
+            return True
+        after_phrase = bool(self._chunks) and self._chunks[-1].kind not in ("stop", "and", "link")
+        moving = self._at + 1 < len(self._tokens) and bool(
+            link_at(self._tokens, self._at + 1)
+            or self._tokens[self._at + 1].mark
+            or follower in lexicon.ADVERBS
+            or follower.endswith("ly")
+        )
+        if word in lexicon.PARTICIPLES or (word in lexicon.COMMANDS and after_phrase and moving):
+            return moving or after_phrase
+        if word in lexicon.ADVERBS or (word.endswith("ly") and moving):
+            return True
+        return after_phrase and word.endswith(("ing", "ed")) and word not in lexicon.NOT_VERBS and moving
+
+    def _relation(self) -> bool:
+        """Read the longest relation, side or arrangement that begins here, if one does."""
+        for size in range(LONGEST_LINK, 0, -1):
+            key = self._words(size)
+            if key in EACH_OTHER:
+                last = self._chunks[-1] if self._chunks else None
+                if (
+                    last is not None
+                    and last.kind in ("phrase", "comma", "link", "verb")
+                    and not self._stacked_noun(size)
+                ):
+                    self._add("arrange", size)
+                    self._chunks[-1] = Chunk(kind="arrange", text=EACH_OTHER[key])
+                    return True
+            if key in LINKS:
+                link = LINKS[key]
+                if key == ("on",) and self._words(2) == ("on", "each") and self._tokens[self._at + 2].text == "other":
+                    continue
+                # Verbs that are also nouns ("bears", "houses") open no clause.
+                if (
+                    link.finite
+                    and len(key) == 1
+                    and (self._opens_clause and key[0] not in ("has", "have", "contains", "holds"))
+                ):
+                    continue
+                self._add("link", size, link=link)
+                return True
+            follower = self._tokens[min(self._at + size, len(self._tokens) - 1)]
+            whole = key[-1] == "side" or follower.mark or not self._phrases.goes_on(self._at + size)
+            if key in SIDES and whole and follower.text != "of":
+                side = SIDES[key]
+                self._add("side", size)
+                self._chunks[-1] = Chunk(kind="side", text=side)
+                return True
+        return False
+
+    def _stacked_noun(self, size: int) -> bool:
+        """Whether "stacked" describes the noun after it ("and stacked cups")."""
+        return size == 1 and self._chunks[-1].kind in ("comma", "link") and not (
+            link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
+        )  # fmt: skip
+
+    def _remark(self) -> None:
+        size = 0
+        while not (token := self._tokens[self._at + size]).mark or token.text != ".":
+            size += 1
+        self._add("aside", size)
+
+    def _absence(self) -> None:
+        """Read "without a lid", "no people": set aside with the phrase."""
+        start = self._at
+        read = self._phrases.read(self._at + 1)
+        self._add("aside", (read[1] if read else self._at + 1) - start)
+
+    def _owned_part(self) -> None:
+        """Read "the dog's head": the part places nothing, its owner has been read."""
+        read = self._phrases.read(self._at + 1)
+        self._at += 1
+        if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
+            self._at = read[1]
+
+    def _quality(self) -> None:
+        """Read "(is) plain white": modifiers without a noun."""
+        start = self._at
+        while self._tokens[self._at].text in lexicon.ADVERBS:
+            self._at += 1
+        word = self._tokens[self._at].text
+        if (
+            word in lexicon.DETERMINERS
+            or word in lexicon.NUMBERS
+            or link_at(self._tokens, self._at)
+            or word in lexicon.PARTICIPLES
+        ):
+            self._at = start
+            return
+        if word in lexicon.VERBS or self._tokens[self._at].mark:
+            return
+        words: list[str] = []
+        size = 0
+        while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
+            if token.text in ("and", "or"):
+                if not is_modifier(self._tokens[self._at + size + 1].text):
+                    break
+            elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
+                break
+            else:
+                words.append(token.text)
+            size += 1
+        if words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
+            self._add("quality", size, modifiers=read_modifiers(words))
+
+
+def summary(chunks: Sequence[Chunk]) -> str:
+    """The chunks on one line, for a look at how a prompt was cut."""
+    return " | ".join(f"{piece.kind}:{piece.text}" for piece in chunks)

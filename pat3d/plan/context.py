@@ -1,0 +1,245 @@
+"""What the reader knows at one point of a prompt, and what relation words come to there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from pat3d.plan import lexicon
+from pat3d.plan.draft import Draft, Flank, Group
+from pat3d.plan.groups import GroupMaker
+from pat3d.plan.links import Link
+from pat3d.plan.phrases import Phrase
+from pat3d.scene import SUPPORT_KINDS
+
+
+@dataclass(kw_only=True, eq=False)
+class Frame:
+    """An open list: "a table with A, B and C", "On a table there are A, B and C"."""
+
+    link: Link
+    parents: list[Group]
+    members: list[Group] = field(default_factory=list)
+    flank: Flank | None = None
+    each: bool = False
+    fresh: bool = True
+    """The next phrase belongs to the list without a comma or "and"."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Context:
+    """The open lists, the subject, and what pronouns may mean."""
+
+    draft: Draft
+    maker: GroupMaker
+    frames: list[Frame] = field(default_factory=list)
+    """Open lists, innermost last."""
+    subject: list[Group] = field(default_factory=list)
+    """Subject of the clause."""
+    before: list[Group] = field(default_factory=list)
+    """Subject of the clause before this one."""
+    last: list[Group] = field(default_factory=list)
+    """What a relation without a comma attaches to."""
+    top: list[Group] = field(default_factory=list)
+    """Members of the list that the clause begins with, while nothing else was said of them."""
+    holder: dict[int, Frame] = field(default_factory=dict)
+    """The list that a group is a member of, by id of the group."""
+    carried: dict[int, list[Group]] = field(default_factory=dict)
+    """What was last put on a group, by id of the group."""
+    related: list[Group] = field(default_factory=list)
+    """What the last relation was said of."""
+    landmark: Group | None = None
+    """What "the left side" was last said of."""
+    mark: str = "start"
+    """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
+
+    def close(self) -> None:
+        """Forget the clause; keep its subject for pronouns."""
+        self.before = self.subject or self.before
+        self.subject, self.last, self.top, self.frames, self.related = [], [], [], [], []
+
+    def wait_for_child(self) -> None:
+        """Keep only the list opened by a relation in front ("On a table, there is ...")."""
+        self.frames = [frame for frame in self.frames if not frame.link.inverse and not frame.members][-1:]
+        for frame in self.frames:
+            frame.fresh = True
+
+    def replace_generic(self, generic: Group) -> None:
+        """The list that follows stands in place of `generic` ("toys, including ...")."""
+        self.maker.inherit(generic)
+        holder = self.holder.get(id(generic))
+        if holder is not None:
+            holder.fresh = True
+            kept = self.frames[: self.frames.index(holder)] if holder in self.frames else []
+            self.frames = [*kept, holder]
+            return
+        self.subject = [group for group in self.subject if group is not generic]
+        self.top = [group for group in self.top if group is not generic]
+        edge = self.draft.supports.get(id(generic))
+        if edge is not None:
+            self.frames = [Frame(link=Link(kind=edge.kind), parents=[edge.parent])]
+
+    def open_frame(self, group: Group, phrase: Phrase) -> Frame | None:
+        """The innermost open list that `group` can belong to."""
+        for index in range(len(self.frames) - 1, -1, -1):
+            frame = self.frames[index]
+            if frame.link.manner == "of" and (phrase.determined or self.mark != "and"):
+                continue
+            loose = frame.flank is not None or frame.link.manner in ("surround", "include")
+            holders = frame.parents[:1]
+            if loose or all(self._takes(frame, parent, group) for parent in holders):
+                del self.frames[index + 1 :]
+                return frame
+        return None
+
+    def _takes(self, frame: Frame, parent: Group, group: Group) -> bool:
+        vague = frame.link.manner == "with" and frame.link.kind is None
+        picky = self.draft.is_a(parent, lexicon.NARROW + lexicon.DISHES)
+        return self.draft.fits(group, parent) or (vague and not picky)
+
+    def enlist(self, frame: Frame, group: Group, known: bool) -> None:
+        """Add `group` to an open list and relate it as the list says."""
+        frame.fresh = False
+        frame.members.append(group)
+        self.holder[id(group)] = frame
+        link = frame.link
+        if frame.flank is not None:
+            frame.flank.members.append(group)
+            return
+        for parent in frame.parents[:1]:
+            if parent is group:
+                continue
+            if frame.each:
+                self.maker.multiply(group, parent.count)
+            if link.manner == "surround":
+                self.draft.beside(group, "around", parent)
+            elif not link.inverse:
+                self.relate(group, link, parent)
+            elif link.manner == "include" or (link.kind is None and link.manner == "with"):
+                if not known:
+                    self.draft.join_with(group, parent)
+            elif link.kind == "on":
+                self.draft.place(group, "on", parent)
+            elif not known or link.manner != "of":
+                self._hold(group, parent)
+
+    def _hold(self, group: Group, parent: Group) -> None:
+        if self.draft.is_a(group, lexicon.FLOOR) and not self.draft.on_floor(parent):
+            self.draft.beside(group, "next_to", parent)
+            return
+        self.maker.settle_generic(group, parent)
+        self.draft.place(group, self.draft.containment(parent), parent)
+
+    def antecedent(self, children: list[Group], phrase: Phrase) -> list[Group]:
+        """What `phrase` ("it", "them", "its head", "one of the shelves") speaks of."""
+        child = children[-1] if children else None
+        if phrase.kind == "pieces" and phrase.said == "stack":
+            stacks = [group for group in self.draft.groups if group.height != 1 and group is not child]
+            return stacks[-1:]
+        frame = self.holder.get(id(child)) if child is not None else None
+        if frame is not None and frame.parents and frame.flank is None:
+            return frame.parents[:1]
+        if phrase.each or phrase.head in ("them", "they", "each"):
+            plural = [group for group in self.draft.groups if group.count > 1 and group is not child]
+            if plural:
+                return plural[-1:]
+        for options in (self.subject, self.before, self.draft.groups[::-1]):
+            chosen = [group for group in options if group is not child and group not in children]
+            if phrase.head in ("it", "its", "itself"):
+                chosen = [group for group in chosen if group.count == 1 or group.height > 1] or (
+                    chosen if options is not self.subject else []
+                )
+            if chosen:
+                return chosen[:1]
+        return []
+
+    def climb(self, children: list[Group], link: Link, parent: Group) -> list[Group]:
+        """From the nearest phrase to the one that the relation speaks of.
+
+        "a cup holding pens on a desk" puts the cup on the desk; "a mug on a table next to a plate" the mug next to the
+        plate; "a fork, a knife and a spoon on a plate" all three on the plate.
+        """
+        draft = self.draft
+        supports = link.kind in SUPPORT_KINDS
+        floor = draft.on_floor(parent)
+        if len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
+            return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
+        child = children[-1]
+        while not draft.on_floor(child) or (floor and not supports):
+            frame = self.holder.get(id(child))
+            if not supports and id(child) in self.carried and not frame and not floor:
+                break
+            if frame is None or not frame.parents or frame.flank or not frame.link.inverse:
+                break
+            above = frame.parents[0]
+            if above is parent:
+                break
+            if draft.on_floor(above) and (supports or not floor):
+                break
+            if supports and not floor and draft.is_a(above, lexicon.LEVEL + lexicon.DISHES):
+                break
+            if supports and (draft.supports.get(id(above)) is not None and not draft.supports[id(above)].weak):
+                break
+            child = above
+        if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
+            return self.carried[id(child)]
+        return [child]
+
+    def relate(self, child: Group, link: Link, parent: Group) -> None:
+        """Record that `child` stands in relation `link` to `parent`."""
+        draft = self.draft
+        if link.manner == "gaze" or (link.kind is None and link.manner != "under"):
+            return
+        if link.manner == "under":
+            if draft.is_a(child, lexicon.THIN) and not (draft.is_a(child, ("table",)) and not draft.on_floor(parent)):
+                draft.place(parent, "on", child)
+            else:
+                draft.beside(child, "next_to", parent)
+                draft.notes.append(f'"{child.phrase}" under "{parent.phrase}" is placed next to it.')
+        elif link.manner == "sides":
+            self.maker.multiply(child, 2 if child.count == 1 else 1)
+            draft.flanks.append(Flank(parent=parent, members=[child]))
+        elif link.manner == "between":
+            # Both neighbours are said of the one between them: "A left_of child", "B right_of child".
+            flank = Flank(parent=child, members=[parent])
+            draft.flanks.append(flank)
+            if parent.count == 1:
+                self.frames.append(Frame(link=Link(manner="flank"), parents=[child], flank=flank, fresh=False))
+        elif link.manner == "half":
+            self.on_half([child], link.side or "centre", parent)
+        elif link.kind in SUPPORT_KINDS:
+            kind = link.kind
+            if kind == "in" and not draft.is_a(parent, lexicon.HOLLOW) and draft.on_floor(parent):
+                kind = "on"
+            self.maker.settle_generic(child, parent)
+            draft.place(child, kind, parent)
+        else:
+            draft.beside(child, link.kind or "next_to", parent)
+
+    def on_half(self, children: list[Group], side: str, parent: Group | None) -> None:
+        """Read "on the left side of the table": on it when it is a surface, else beside it."""
+        for child in children:
+            level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
+            self.landmark = parent or self.landmark
+            if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
+                self.draft.place(child, self.draft.containment(parent), parent)
+                self.draft.sided.append((child, side, None))
+            elif parent is not None:
+                self.draft.beside(child, "left_of" if side == "left" else "right_of", parent)
+            else:
+                self.draft.sided.append((child, side, None))
+
+    def side_owner(self, group: Group, side: str) -> tuple[Group, Frame] | None:
+        """The listed group that "on the other side" speaks of, from the innermost list outwards."""
+        member: Group | None = group
+        found: list[tuple[Group, Frame]] = []
+        while member is not None and (frame := self.holder.get(id(member))) is not None and len(found) < 8:
+            found.append((member, frame))
+            member = frame.parents[0] if frame.parents else None
+        flanked = [(each, frame) for each, frame in found if frame.flank is not None]
+        if flanked:
+            return flanked[0]
+        if side in ("other", "right"):
+            for each, frame in found:
+                if any(group in frame.members and group is not each for group, _, _ in self.draft.sided):
+                    return each, frame
+        return found[0] if found else None

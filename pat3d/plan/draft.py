@@ -1,0 +1,176 @@
+"""The plan while a prompt is being read: groups of like objects and the relations between groups."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from pat3d.errors import PromptError
+from pat3d.plan import lexicon
+from pat3d.plan.modifiers import Modifiers
+from pat3d.plan.vocabulary import Nouns
+from pat3d.scene import RelationKind
+
+
+@dataclass(kw_only=True, eq=False)
+class Group:
+    """Objects asked for by one noun phrase."""
+
+    noun: str
+    said: str
+    phrase: str
+    count: int
+    counted: bool
+    """Whether the prompt gives the number."""
+    plural: bool
+    modifiers: Modifiers
+    member_colours: list[tuple[str, ...]] = field(default_factory=list)
+    """Colours of the single members, where the prompt tells them apart."""
+    cycle: tuple[str, ...] = ()
+    height: int = 1
+    """Objects in each stack; 1 where they are not stacked."""
+    row: bool = False
+    proxy: bool = False
+    replaced: bool = False
+    """A generic whose members were listed ("plush toys, including ...")."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Edge:
+    """`child` stands in relation `kind` to `parent`."""
+
+    child: Group
+    kind: RelationKind
+    parent: Group
+    weak: bool = False
+    """Guessed from "with": gives way to anything the prompt says outright."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Flank:
+    """What stands on both sides of something."""
+
+    parent: Group
+    members: list[Group] = field(default_factory=list)
+    sides: dict[int, str] = field(default_factory=dict)
+
+
+class Draft:
+    """Groups, supports and lateral relations, kept a tree while they are collected."""
+
+    def __init__(self, nouns: Nouns) -> None:
+        self.nouns = nouns
+        self.groups: list[Group] = []
+        self.supports: dict[int, Edge] = {}
+        """The support edge of each group that has one, by id of the group."""
+        self.laterals: list[Edge] = []
+        self.flanks: list[Flank] = []
+        self.sided: list[tuple[Group, str, Group | None]] = []
+        """Groups said to be on the left, right, ...; and of what, where known."""
+        self.set_aside: list[str] = []
+        self.notes: list[str] = []
+
+    def is_a(self, group: Group, table: tuple[str, ...]) -> bool:
+        """Whether the group's noun belongs to a class of the lexicon."""
+        return self.nouns.of_class(group.noun, table)
+
+    def on_floor(self, group: Group) -> bool:
+        """Whether the group's objects stand on the floor by nature."""
+        return self.is_a(group, lexicon.FLOOR)
+
+    def support(self, group: Group) -> Group | None:
+        """What carries `group`, or None for the ground."""
+        edge = self.supports.get(id(group))
+        return edge.parent if edge else None
+
+    def ancestors(self, group: Group) -> list[Group]:
+        """What carries `group`, what carries that, and so on."""
+        path: list[Group] = []
+        while (parent := self.support(path[-1] if path else group)) is not None:
+            path.append(parent)
+        return path
+
+    def containment(self, parent: Group) -> RelationKind:
+        """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
+        return "in" if self.is_a(parent, lexicon.HOLLOW) else "on"
+
+    def place(self, child: Group, kind: RelationKind, parent: Group, *, weak: bool = False) -> None:
+        """Record that `child` is carried by `parent`.
+
+        Raises:
+            PromptError: the prompt has an object carry itself.
+        """
+        if kind == "in":
+            kind = "in" if not self._flat(parent) else "on"
+        old = self.supports.get(id(child))
+        if parent is child or child in self.ancestors(parent):
+            if weak:
+                return
+            # "a lamp and a table with the lamp on it" may repeat what is known, never turn it round.
+            raise PromptError(
+                f'"{child.phrase}" would rest on itself: it already carries "{parent.phrase}". Say which one is below.'
+            )
+        if old is not None and not old.weak:
+            if weak or parent is old.parent or parent in self.ancestors(child):
+                return
+            if old.parent not in self.ancestors(parent):
+                known = f'"{child.phrase}" is {old.kind} "{old.parent.phrase}"'
+                self.notes.append(f'{known}; also being {kind} "{parent.phrase}" is left out.')
+                return
+        self.supports[id(child)] = Edge(child=child, kind=kind, parent=parent, weak=weak)
+        if not weak:
+            self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]
+            if old is not None and old.weak:
+                self._pass_on(old, child, parent)
+
+    def _pass_on(self, old: Edge, child: Group, parent: Group) -> None:
+        """Where "a desk with a lamp" goes on "on two books", the books stand where the lamp was to stand."""
+        newest = bool(self.groups) and parent is self.groups[-1] and old.parent is not parent
+        above = self.ancestors(old.parent)
+        free = self.support(parent) is None and not self.on_floor(parent)
+        if newest and free and child not in above and parent not in above:
+            self.place(parent, old.kind, old.parent, weak=True)
+
+    def _flat(self, group: Group) -> bool:
+        if self.is_a(group, lexicon.HOLLOW):
+            return False
+        return any(self.is_a(group, table) for table in (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES))
+
+    def beside(self, child: Group, kind: RelationKind, parent: Group, *, weak: bool = False) -> None:
+        """Record a lateral relation."""
+        if child is parent:
+            return
+        old = self.supports.get(id(child))
+        if old is not None and old.weak and old.parent is parent:
+            del self.supports[id(child)]
+        self.laterals = [
+            edge for edge in self.laterals if not (edge.weak and edge.child is child and edge.parent is parent)
+        ]
+        self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
+
+    def fits(self, child: Group, parent: Group) -> bool:
+        """Whether one would list `child` among what `parent` carries."""
+        if self.on_floor(child) and not self.is_a(child, ("floor cushion",)):
+            return False
+        if self.is_a(parent, lexicon.NARROW):
+            return self.is_a(child, lexicon.SLENDER) or child.noun == parent.noun
+        if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray",)):
+            return not self.is_a(child, lexicon.NOT_ON_DISH)
+        return True
+
+    def join_with(self, child: Group, parent: Group) -> None:
+        """Record what `parent` "with" `child` means."""
+        if self.is_a(child, lexicon.ON_HEAD) and not self._flat(parent) and not self.is_a(parent, lexicon.HOLLOW):
+            self.place(child, "on", parent, weak=True)
+        elif self.on_floor(child):
+            around = child.count >= 3 and self.is_a(child, ("chair", "stool", "armchair"))
+            kind = "around" if around else "next_to"
+            self.beside(child, kind, parent, weak=True)
+        elif self.is_a(parent, lexicon.HOLLOW) or self._flat(parent) or self._carries(parent):
+            self.place(child, self.containment(parent), parent, weak=True)
+        else:
+            self.beside(child, "next_to", parent, weak=True)
+
+    def _carries(self, group: Group) -> bool:
+        return self.is_a(
+            group, ("cake", "book", "box", "pillow", "radio", "basket", "block", "pizza", "laptop", "pancake")
+        )

@@ -1,0 +1,386 @@
+"""Noun phrases: determiner, count, modifiers, head ("two large red-handled wooden brushes")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from pat3d.plan import lexicon
+from pat3d.plan.lexing import Token, singulars
+from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
+from pat3d.plan.modifiers import (
+    NO_MODIFIERS,
+    Modifiers,
+    is_colour_word,
+    is_modifier,
+    looks_like_adjective,
+    read_modifiers,
+)
+from pat3d.plan.vocabulary import Nouns
+
+PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
+JOINERS = frozenset({
+    "and", "or", "plus", "while", "whereas", "but", "there", "there's", "without", "no", "not", "than", "as", "which",
+    "meanwhile", "where", "who", "for", "from", "through", "via", "per", "if", "because", "so", "that", "'s", "against",
+})  # fmt: skip
+_ALWAYS_BREAK = (
+    frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
+    - {"hold", "contain", "feature", "carry", "support", "show", "have", "display"}
+) | frozenset({"besides", "across", "has", "is", "are", "was", "were"})  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Phrase:
+    """What one noun phrase says."""
+
+    kind: PhraseKind
+    words: str = ""
+    """As written in the prompt."""
+    head: str = ""
+    number: int = 0
+    """Position of the head in the prompt [words, from 1]."""
+    noun: str = ""
+    said: str = ""
+    count: int | None = None
+    """None where the prompt gives none."""
+    vague: bool = False
+    plural: bool = False
+    determined: bool = False
+    """Opens with a determiner or a number."""
+    definite: bool = False
+    each: bool = False
+    possessive: bool = False
+    cycle: tuple[str, ...] = ()
+    """Nouns standing in turn for a generic ("fruit")."""
+    modifiers: Modifiers = NO_MODIFIERS
+    height: int | None = None
+    """Objects in one stack; 0 for a stack of unstated height."""
+    chains: int = 1
+    """Number of stacks."""
+    row: bool = False
+    substance: str = ""
+    """Content that is no rigid body ("tea")."""
+
+
+class PhraseReader:
+    """Reads noun phrases from the tokens of one prompt."""
+
+    def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns) -> None:
+        self._text = text
+        self._tokens = tokens
+        self._nouns = nouns
+
+    def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
+        """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
+        at, count, flags = self._opening(start)
+        run, after = self._run(at)
+        tokens = self._tokens
+        if not run:
+            if after == start:
+                return None
+            phrase = Phrase(kind="pieces" if count is not None else "pronoun", head=tokens[after - 1].text)
+            if (
+                count is not None
+                and tokens[after].text == "of"
+                and depth < 3
+                and (inner := self.read(after + 1, depth + 1))
+            ):
+                single = flags.get("one", False)
+                phrase, after = replace(inner[0], count=count, definite=inner[0].definite or single), inner[1]
+        elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
+            phrase, after = joined
+            count = phrase.count
+        elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
+            phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
+        else:
+            phrase = self._simple(run, count)
+        flags.pop("one", None)
+        words = self._text[tokens[start].start : tokens[after - 1].end]
+        number = phrase.number or tokens[after - 1].number
+        merged = {key: value or getattr(phrase, key) for key, value in flags.items()}
+        return replace(
+            phrase, words=words, count=count if count is not None else phrase.count, number=number, **merged
+        ), after
+
+    def _opening(self, at: int) -> tuple[int, int | None, dict[str, bool]]:
+        """Determiners and numbers from token `at`: the token after them, the count and the flags of Phrase."""
+        count: int | None = None
+        flags: dict[str, bool] = {}
+        while not (token := self._tokens[at]).mark:
+            word = token.text
+            follower = self._tokens[at + 1].text
+            if word in lexicon.POSSESSIVES:
+                flags["possessive"] = flags["definite"] = True
+            elif word == "half" and follower in ("a", "dozen"):
+                count, at = 6, at + (2 if follower == "a" else 1)
+                flags["determined"] = True
+            elif word in ("dozen", "couple", "pair", "trio", "set") and follower == "of":
+                break
+            elif word in ("dozen", "hundred", "thousand") and (count is not None or flags.get("determined")):
+                count = (count or 1) * lexicon.NUMBERS[word]
+            elif word in lexicon.NUMBERS and word not in ("couple", "dozen", "trio", "single"):
+                count = lexicon.NUMBERS[word]
+                flags["determined"] = True
+                flags["one"] = word == "one"
+                if word == "both":
+                    flags["definite"] = True
+            elif word.isascii() and word.isdigit():
+                count = int(word[:9])
+                flags["determined"] = True
+            elif word in lexicon.VAGUE and word != "couple":
+                count = lexicon.VAGUE[word]
+                flags["determined"] = flags["vague"] = True
+            elif word in ("couple", "dozen") and not self._tokens[at + 1].mark:
+                count = lexicon.NUMBERS[word]
+            elif word in lexicon.DETERMINERS:
+                flags["determined"] = True
+                if word in lexicon.DEFINITE:
+                    flags["definite"] = True
+                if word in ("each", "every"):
+                    flags["each"] = True
+            elif word in ("other", "same", "single") and flags.get("determined"):
+                pass
+            else:
+                break
+            at += 1
+        return at, count, flags
+
+    def _run(self, at: int) -> tuple[list[Token], int]:
+        """Modifiers and head from token `at`, and the token after them."""
+        run: list[Token] = []
+        start = at
+        while True:
+            token = self._tokens[at]
+            if token.mark or token.text in ("and", "or"):
+                if self._opens_joined_name(run, at):
+                    run.append(token)
+                    at += 1
+                    continue
+                onward = self._coordination(run, at)
+                if onward is None:
+                    break
+                at = onward
+                continue
+            if self._breaks(run, at):
+                break
+            run.append(token)
+            at += 1
+        # Words between the last noun and the break belong to no phrase ("mug gently" on ...).
+        return run, at if run else start
+
+    def _breaks(self, run: list[Token], at: int) -> bool:
+        word = self._tokens[at].text
+        if self._opens_joined_name(run, at):
+            return False
+        words = [token.text for token in run]
+        if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
+            return True
+        if word in lexicon.DETERMINERS or (
+            (word in lexicon.NUMBERS or word.isdigit()) and word not in ("set", "single")
+        ):
+            return not (word in ("couple", "dozen", "trio") and self._tokens[at + 1].text == "of" and not run)
+        if word == "of":
+            return True
+        multi = link_at(self._tokens, at)
+        if multi > 1 and not self._extends(words, word):
+            return True
+        if not words or not self._ends_in_noun(words):
+            return False
+        verb = multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
+        verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
+        if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
+            follower = self._tokens[at + 1]
+            runs_on = not follower.mark and follower.text not in ("and", "or", "of")
+            verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
+        return bool(verb) and not self._extends(words, word)
+
+    def goes_on(self, at: int) -> bool:
+        """Whether token `at` may be the noun that a participle before it describes."""
+        word = self._tokens[at].text
+        function = word in JOINERS or word in lexicon.DETERMINERS or word in lexicon.NUMBERS or word in _ALWAYS_BREAK
+        return not (function or link_at(self._tokens, at) or word in lexicon.ADVERBS or word.endswith("ly")
+                    or word in lexicon.POSSESSIVES or word in lexicon.PRONOUNS)  # fmt: skip
+
+    def _extends(self, words: list[str], word: str) -> bool:
+        """Whether `word` makes a longer known noun of the run ("teddy" + "bears")."""
+        return any(self._nouns.match([*words[-size:], word]) for size in (1, 2, 3) if size <= len(words))
+
+    def _opens_joined_name(self, run: list[Token], at: int) -> bool:
+        if self._tokens[at].text not in ("of", "and", "in", "on", "with") or not run or not self._nouns.joined:
+            return False
+        tokens = self._tokens
+        for back in (1, 2):
+            for ahead in (1, 2):
+                if back <= len(run) and at + ahead < len(tokens):
+                    words = [token.text for token in (*run[-back:], *tokens[at : at + ahead + 1])]
+                    if self._nouns.match(words):
+                        return True
+        return False
+
+    def _ends_in_noun(self, words: list[str]) -> bool:
+        head = words[-1]
+        singular = (head, *singulars(head))
+        general = lexicon.BACKGROUND | lexicon.ITEMS | lexicon.PIECES | lexicon.STACK_NOUNS | lexicon.GENERICS.keys()
+        return bool(self._nouns.match(words[-1:]) or self._nouns.longest(words)) or any(
+            word in general or word in lexicon.PARTS for word in singular
+        )
+
+    def _coordination(self, run: list[Token], at: int) -> int | None:
+        """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
+        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
+            return None
+        colours = is_colour_word(run[-1].text)
+        if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
+            return None
+        first = self._skip_joint(at)
+        look = first
+        if colours:
+            # Every member of the list is a colour, and the last stands directly before more of the phrase.
+            while is_colour_word(self._tokens[look].text):
+                look += 1
+                if (onward := self._skip_joint(look)) > look:
+                    if not is_colour_word(self._tokens[onward].text):
+                        return None
+                    look = onward
+                elif self.goes_on(look):
+                    return first
+            return None
+        words: list[str] = []
+        while not self._tokens[look].mark and self.goes_on(look) and len(words) < 5:
+            words.append(self._tokens[look].text)
+            look += 1
+        return first if words and self._ends_in_noun(words) else None
+
+    def _skip_joint(self, at: int) -> int:
+        if self._tokens[at].text == ",":
+            at += 1
+        if self._tokens[at].text in ("and", "or"):
+            at += 1
+        return at
+
+    def _simple(self, run: list[Token], count: int | None) -> Phrase:
+        """The phrase of a run without "of"."""
+        words = [token.text for token in run]
+        head, number = words[-1], run[-1].number
+        base = Phrase(kind="unknown", head=head, number=number, count=count, modifiers=read_modifiers(words[:-1]))
+        singular = (head, *singulars(head))
+        for size in (2, 1):
+            ends = [" ".join([*words[-size:-1], word]) for word in singular]
+            generic = next((end for end in ends if len(words) >= size and end in lexicon.GENERICS), None)
+            plural = head not in lexicon.GENERICS and head == words[-1] and len(singular) > 1
+            longer = self._nouns.longest(words) if size == 1 else None
+            if (
+                generic
+                and not (longer and len(longer[1]) > 1)
+                and (plural or generic in lexicon.MASS_GENERICS or size == 2 or not self._nouns.match([head]))
+            ):
+                cycle = self._known(lexicon.GENERICS[generic])
+                if cycle:
+                    return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
+                                   modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
+        found = self._nouns.longest(words)
+        if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):
+            match, used = found
+            if match.said == "glasses" and (count or 0) > 1 and (drinking := self._nouns.match(["glass"])):
+                match = replace(drinking, plural=True)
+            rest = [word for index, word in enumerate(words) if index not in used]
+            hidden = [word for word in match.said.split()[:-1] if word not in match.noun.split()]
+            plural = match.plural and match.said not in lexicon.PLURAL_ONLY
+            own = read_modifiers(rest, hidden)
+            return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
+        two = " ".join(words[-2:])
+        if any(word in lexicon.STACK_NOUNS for word in singular):
+            return replace(base, kind="pieces", said="stack")
+        if any(word in lexicon.PIECES for word in singular):
+            return replace(base, kind="pieces")
+        if head in lexicon.ITEMS:
+            return replace(base, kind="items")
+        if head in lexicon.BACKGROUND or two in lexicon.BACKGROUND:
+            return replace(base, kind="background")
+        if any(word in lexicon.SUBSTANCES for word in singular):
+            return replace(base, kind="background", substance=head)
+        if any(word in lexicon.PARTS for word in singular):
+            return replace(base, kind="part", said=singular[-1])
+        if all(is_modifier(word) for word in words):
+            return replace(base, kind="pieces", modifiers=read_modifiers(words))
+        return base
+
+    def _of(self, run: list[Token], at: int, count: int | None, depth: int) -> tuple[Phrase, int] | None:
+        """The phrase of a run before the "of" at token `at`; None where "of" is a relation between two phrases."""
+        words = [token.text for token in run]
+        head, plural = words[-1], bool(singulars(words[-1]))
+        singular = (head, *singulars(head))
+        read = self.read(at + 1, depth + 1)
+        if read is None:
+            return None
+        inner, after = read
+        if inner.head in lexicon.SUBSTANCES and not inner.determined:
+            inner = replace(inner, kind="background", substance=inner.head)
+        if any(word in lexicon.STACK_NOUNS for word in singular):
+            if inner.kind not in ("object", "unknown"):
+                return None
+            chains = count if count is not None else (2 if plural else 1)
+            stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
+            own = read_modifiers(words[:-1])
+            return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
+                           modifiers=inner.modifiers.under(own)), after  # fmt: skip
+        if head in lexicon.PICTURES:
+            return None
+        if head in lexicon.ROWS or head in lexicon.COLLECTIVES:
+            taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
+            taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
+            taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
+            if head in ("few", "handful", "lot", "lots", "plenty", "number"):
+                taken = 5 if head in ("lot", "lots", "plenty") else 3
+            if inner.kind == "background":
+                return inner, after
+            amount = inner.count if taken is None else taken
+            return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
+                           modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
+        known = self._nouns.longest(words)
+        part = any(word in lexicon.PARTS for word in singular)
+        if known is None:
+            part = part and (inner.definite or not plural)
+        else:
+            # "one of the shelves of a bookcase", but not "a shelf of books".
+            part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
+        if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
+            return replace(inner, count=inner.count if inner.kind == "object" else None), after
+        if inner.kind == "background" and inner.substance:
+            whole = self._simple(run, count)
+            compound = self._nouns.match([inner.head, singular[-1]])
+            if compound:
+                return replace(
+                    whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count
+                ), after
+            return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
+        holds = known is not None and any(
+            self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
+        )
+        portion = any(word in lexicon.PORTIONS for word in singular)
+        shape = any(word in lexicon.SHAPES for word in singular)
+        if inner.kind in ("object", "unknown", "pieces") and (portion or shape):
+            stem = (inner.said or inner.head).split()
+            compound = None if holds and inner.kind == "object" else self._nouns.match([*stem, singular[-1]])
+            rest = read_modifiers(words[:-1])
+            if compound:
+                return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
+                               cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
+            if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
+                return replace(inner, plural=plural, count=count, modifiers=inner.modifiers.under(rest)), after
+        if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
+            return self._simple(run, count), after
+        return None
+
+    def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(name for name in names if self._nouns.resolve(name))
+
+
+def link_at(tokens: Sequence[Token], at: int) -> int:
+    """Number of tokens of the longest relation phrase that begins at token `at`; 0 where none does."""
+    for size in range(LONGEST_LINK, 0, -1):
+        key = tuple(token.text for token in tokens[at : at + size])
+        if key in LINKS or key in SIDES or key in EACH_OTHER:
+            return size
+    return 0

@@ -1,0 +1,376 @@
+"""Reads the chunks of a prompt into a draft: who is on, in or beside whom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.chunks import Chunk
+from pat3d.plan.context import Context, Frame
+from pat3d.plan.draft import Draft, Flank, Group
+from pat3d.plan.groups import GroupMaker, recolour
+from pat3d.plan.links import Link
+from pat3d.plan.phrases import Phrase
+from pat3d.scene import SUPPORT_KINDS
+
+
+class Reader:
+    """Walks through the chunks of one prompt."""
+
+    def __init__(self, draft: Draft, maker: GroupMaker) -> None:
+        self._now = Context(draft=draft, maker=maker)
+        self._chunks: Sequence[Chunk] = ()
+        self._all = False
+        """The subject is everything read so far ("The items are placed on ...")."""
+        self._verb = False
+        """A verb stands directly before."""
+        self._had_verb = False
+        """The clause has its verb."""
+        self._each = False
+        self._side = ""
+
+    def read(self, chunks: Sequence[Chunk]) -> None:
+        """Read all chunks."""
+        self._chunks = chunks
+        at = 0
+        while at < len(chunks):
+            at = self._step(at)
+
+    def _step(self, at: int) -> int:
+        piece = self._chunks[at]
+        if piece.kind in ("stop", "clause"):
+            self._end_clause()
+        elif piece.kind in ("comma", "and", "dash"):
+            joined = piece.kind == "and" and self._now.mark == "comma"
+            self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
+            return at + 1
+        elif piece.kind == "aside":
+            self._now.draft.set_aside.append(piece.text)
+        elif piece.kind == "there":
+            self._there()
+        elif piece.kind == "verb":
+            self._on_verb()
+        elif piece.kind == "quality":
+            self._qualify(piece)
+        elif piece.kind == "arrange":
+            self._arrange(piece.text)
+        elif piece.kind == "each":
+            self._on_each(at)
+        elif piece.kind == "side":
+            self._on_side(piece.text, at)
+        elif piece.kind == "link" and piece.link is not None:
+            return self._on_link(piece.link, at)
+        elif piece.phrase is not None:
+            self._on_phrase(piece.phrase, at)
+        if piece.kind not in ("stop", "clause"):
+            self._now.mark = ""
+        return at + 1
+
+    def _end_clause(self) -> None:
+        self._now.close()
+        self._now.maker.end_sentence()
+        self._verb = self._had_verb = self._all = self._each = False
+        self._side, self._now.mark = "", "start"
+
+    def _there(self) -> None:
+        waiting = any(not frame.link.inverse for frame in self._now.frames)
+        if not waiting and self._now.subject:
+            self._now.before = self._now.subject
+        self._now.wait_for_child()
+        self._now.subject, self._now.top, self._had_verb, self._verb = [], [], True, False
+
+    def _on_verb(self) -> None:
+        self._now.maker.end_sentence()
+        self._now.wait_for_child()
+        self._verb = self._had_verb = True
+
+    def _qualify(self, piece: Chunk) -> None:
+        if self._now.subject:
+            for group in self._now.subject:
+                recolour(group, piece.modifiers)
+        else:
+            self._now.draft.set_aside.append(piece.text)
+
+    def _arrange(self, how: str) -> None:
+        groups = self._now.last or self._now.subject
+        if how == "stack":
+            if len(groups) == 1 and groups[0].count > 1:
+                groups[0].height = groups[0].count if groups[0].height == 1 else groups[0].height
+            elif len(self._now.top) > 1:
+                for lower, upper in zip(self._now.top, self._now.top[1:], strict=False):
+                    self._now.draft.place(upper, "on", lower)
+        else:
+            for group in groups[-1:]:
+                group.row = True
+            if len(groups) == 1 and groups[0].count == 1:
+                for left, right in zip(self._now.top, self._now.top[1:], strict=False):
+                    self._now.draft.beside(right, "next_to", left)
+
+    def _on_each(self, at: int) -> None:
+        follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
+        before = self._chunks[at - 1] if at else None
+        if follower is not None and follower.kind == "link":
+            self._each = True
+            return
+        if before is not None and before.kind == "phrase":
+            for group in self._now.last:
+                frame = self._now.holder.get(id(group))
+                if frame is not None and frame.parents:
+                    self._now.maker.multiply(group, frame.parents[0].count)
+
+    def _on_phrase(self, phrase: Phrase, at: int) -> None:
+        if phrase.kind == "pronoun":
+            if self._now.mark == "start" or not self._now.subject:
+                self._now.subject = self._now.last = list(self._now.before)
+            return
+        if phrase.kind == "items":
+            if self._starts_clause(at) or self._now.mark == "start":
+                self._now.subject, self._now.last, self._all = [], [], True
+            self._now.draft.set_aside.append(phrase.words)
+            return
+        if phrase.kind in ("part", "pieces"):
+            self._detail(phrase)
+            return
+        if phrase.kind == "background":
+            self._background(phrase, at)
+            return
+        group, known = self._group(phrase)
+        if group is None:
+            return
+        self._all = False
+        if self._had_verb and self._now.mark in ("and", "comma and", "comma", "dash") and self._starts_clause(at):
+            self._end_clause()
+        if self._now.frames and self._now.frames[-1].fresh and self._now.mark in ("", "comma", "start"):
+            self._now.enlist(self._now.frames[-1], group, known)
+        elif self._now.mark in ("comma", "and", "comma and", "dash") and (frame := self._now.open_frame(group, phrase)):
+            self._now.enlist(frame, group, known)
+        else:
+            if self._now.mark == "start" or (self._verb and not self._now.subject):
+                self._now.subject = []
+            self._now.frames = []
+            if not self._had_verb or not self._now.subject:
+                self._now.subject = [*self._now.subject, group]
+            self._now.top.append(group)
+        if self._now.frames and not self._now.frames[-1].link.inverse and group in self._now.frames[-1].members:
+            self._now.subject = [*self._now.subject, group]
+        self._verb = False
+        self._now.last = [group]
+        if self._side:
+            self._now.draft.sided.append((group, self._side, None))
+
+    def _group(self, phrase: Phrase) -> tuple[Group | None, bool]:
+        """The group that `phrase` means, and whether it was known before."""
+        known = self._now.maker.refer(phrase)
+        if known is not None:
+            return known, True
+        frame = self._now.frames[-1] if self._now.frames else None
+        return self._now.maker.make(phrase, filling=bool(frame and frame.fresh and frame.link.filling)), False
+
+    def _background(self, phrase: Phrase, at: int) -> None:
+        self._now.draft.set_aside.append(phrase.words)
+        if phrase.substance:
+            self._now.draft.notes.append(f'"{phrase.words}" is no rigid body and is left out.')
+        if self._now.frames and self._now.frames[-1].fresh:
+            self._now.frames[-1].fresh = False
+            return
+        if self._now.mark == "start" or self._starts_clause(at):
+            self._now.close()
+
+    def _detail(self, phrase: Phrase) -> None:
+        """A part ("with red covers") or bare colours ("one white and one beige") describe what was read before."""
+        frame = self._now.frames[-1] if self._now.frames and self._now.frames[-1].fresh else None
+        owners = frame.parents if frame else self._now.last or self._now.subject
+        if not owners:
+            self._now.draft.set_aside.append(phrase.words)
+            return
+        owner = owners[-1]
+        if phrase.kind == "pieces" and phrase.count is not None and owner.count == 1:
+            plural = [*self._now.carried.get(id(owner), ()), *self._now.subject]
+            owner = next((group for group in plural if group.count > 1), owner)
+        if phrase.kind == "pieces" and not phrase.said:
+            self._now.maker.tell_apart(owner, phrase)
+        elif phrase.modifiers.colours or phrase.modifiers.palette:
+            recolour(owner, phrase.modifiers, part=phrase.said)
+        if frame:
+            frame.fresh = bool(frame.link.manner == "hold")
+            self._now.last = [owner]
+
+    def _starts_clause(self, at: int) -> bool:
+        """Whether the phrase at chunk `at` is the subject of a verb of its own."""
+        after = at + 1
+        while after + 1 < len(self._chunks) and self._chunks[after].kind == "link":
+            link = self._chunks[after].link
+            if link is not None and link.finite:
+                return True
+            after += 2 if self._chunks[after + 1].kind == "phrase" else 1
+        piece = self._chunks[after] if after < len(self._chunks) else None
+        return piece is not None and (piece.kind == "verb" or bool(piece.link and piece.link.finite))
+
+    def _on_link(self, link: Link, at: int) -> int:
+        if link.finite:
+            self._now.frames = []
+            self._now.maker.end_sentence()
+            self._had_verb = True
+        follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
+        apart = link.finite or self._verb or "comma" in self._now.mark or self._now.mark == "dash"
+        near = self._now.subject if apart else self._now.last or self._now.subject
+        if link.manner == "include":
+            near = self._now.last or self._now.subject
+        elif self._now.mark in ("and", "comma and") and not link.inverse and not self._verb:
+            near = self._now.related or near
+        if link.inverse:
+            self._open(link, near)
+            self._verb, self._now.mark = False, ""
+            return at + 1
+        target = follower.phrase if follower is not None and follower.kind == "phrase" else None
+        if follower is not None and follower.kind == "each":
+            target = Phrase(kind="pronoun", head="each", each=True)
+        if target is None:
+            self._without_target(link)
+            self._verb, self._now.mark = False, ""
+            return at + 1
+        fronted = self._fronted(at, near)
+        if fronted and self._now.subject:
+            self._now.close()
+        self._forward(link, target, [] if fronted else near, apart=apart)
+        self._verb, self._now.mark = False, ""
+        return at + 2
+
+    def _fronted(self, at: int, near: list[Group]) -> bool:
+        """Whether the relation at chunk `at` speaks of a phrase that is still to come."""
+        if self._all:
+            return False
+        kinds = [piece.kind for piece in self._chunks[at + 2 : at + 5]]
+        if self._now.mark == "start" or not near:
+            return True
+        if not self._now.mark:
+            return False
+        return (
+            kinds[:1] == ["there"] or kinds[:2] in (["comma", "there"], ["verb", "phrase"]) or kinds[:1] == ["phrase"]
+        )
+
+    def _open(self, link: Link, parents: list[Group]) -> None:
+        if link.manner == "include" and parents and parents[-1].cycle and not parents[-1].replaced:
+            self._now.replace_generic(parents[-1])
+            return
+        if not parents:
+            return
+        if link.manner == "include" and (holder := self._now.holder.get(id(parents[-1]))):
+            holder.fresh = True
+            return
+        parents = parents[-1:] if not self._each else parents
+        flank = None
+        if link.manner == "flank":
+            flank = Flank(parent=parents[0])
+            self._now.draft.flanks.append(flank)
+        if link.finite or link.manner != "of":
+            self._now.frames = [
+                frame for frame in self._now.frames if any(m in parents for m in frame.members) or not link.finite
+            ]
+        self._now.frames.append(Frame(link=link, parents=parents, flank=flank, each=self._each))
+        self._each = False
+
+    def _without_target(self, link: Link) -> None:
+        """Read "with a cat on top", "with two cushions in front": of what the list speaks of."""
+        for group in self._now.last[-1:]:
+            frame = self._now.holder.get(id(group))
+            parents = (
+                frame.parents
+                if frame
+                else [other for other in self._now.subject if other is not group] or self._now.before
+            )
+            for parent in parents[:1]:
+                if parent is not group:
+                    self._now.relate(group, link, parent)
+
+    def _forward(self, link: Link, phrase: Phrase, children: list[Group], *, apart: bool) -> None:
+        if link.manner == "half" and phrase.kind == "background":
+            self._now.on_half(children, link.side or "centre", None)
+        if phrase.kind in ("background", "part", "pieces", "items"):
+            self._to_place(phrase, children, link)
+            return
+        if phrase.kind == "pronoun":
+            parents, known = self._now.antecedent(children, phrase), True
+        else:
+            group, known = self._group(phrase)
+            parents = [group] if group is not None else []
+        if not parents:
+            return
+        parent = parents[0]
+        if self._all:
+            if link.kind in SUPPORT_KINDS:
+                self._carry_all(link, parent)
+            return
+        if not children:
+            frame = Frame(link=link, parents=parents, each=phrase.each)
+            self._now.frames = [frame]
+            self._now.last = [] if known and phrase.kind == "pronoun" else parents
+            return
+        if not apart:
+            children = self._now.climb(children, link, parent)
+        self._now.related = children
+        for child in children:
+            if phrase.each and parent.count > 1:
+                self._now.maker.multiply(child, parent.count)
+            if child is not parent or phrase.kind == "object":
+                self._now.relate(child, link, parent)
+                self._now.carried[id(parent)] = [child]
+        self._now.top = []
+        self._now.last = parents
+        if phrase.kind == "pronoun":
+            self._now.last = children
+
+    def _carry_all(self, link: Link, parent: Group) -> None:
+        for group in self._now.draft.groups:
+            loose = self._now.draft.support(group) is None and group not in self._now.draft.ancestors(parent)
+            if loose and group is not parent:
+                self._now.relate(group, link, parent)
+        self._now.subject, self._now.last, self._all = [parent], [parent], False
+
+    def _to_place(self, phrase: Phrase, children: list[Group], link: Link) -> None:
+        """A relation to the floor, a part or the items in general."""
+        if phrase.kind == "background":
+            self._now.draft.set_aside.append(phrase.words)
+            if children:
+                self._now.last = []
+                self._now.top = []
+            else:
+                self._now.frames = []
+            return
+        if phrase.kind in ("part", "pieces"):
+            owners = self._now.antecedent(children, phrase)
+            if children and owners and link.kind is not None:
+                for child in children:
+                    self._now.relate(child, link, owners[0])
+            elif owners:
+                self._now.frames = [Frame(link=link, parents=owners)]
+            return
+        self._now.draft.set_aside.append(phrase.words)
+
+    def _on_side(self, side: str, at: int) -> None:
+        """Read "on the left": of the clause's next phrase when it comes first, else of what was read last."""
+        kinds = [piece.kind for piece in self._chunks[at + 1 : at + 3]]
+        coming = kinds[:1] in (["there"], ["verb"]) or (
+            kinds in (["comma", "there"], ["comma", "phrase"]) and self._now.mark == "start"
+        )
+        if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
+            if self._now.mark != "start":
+                self._end_clause()
+            landmark = self._now.landmark
+            if landmark is not None and side in ("left", "right", "centre"):
+                half = Link(manner="half", kind="on", side=side)
+                self._now.frames = [Frame(link=half, parents=[landmark])]
+            else:
+                self._side = side
+            return
+        groups = self._now.subject if self._verb else self._now.last
+        for group in groups[-1:]:
+            owner = self._now.side_owner(group, side)
+            if owner is None:
+                self._now.draft.sided.append((group, side, None))
+            else:
+                member, frame = owner
+                if frame.flank is not None:
+                    frame.flank.sides[id(member)] = side
+                else:
+                    self._now.draft.sided.append((member, side, frame.parents[0]))
+        self._verb = False

@@ -1,0 +1,263 @@
+"""The layout stage: nothing touches, everything is where its relations say, or a clear refusal."""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from pat3d.errors import LayoutError, SpecError
+from pat3d.layout.layout import arrange
+from pat3d.layout.predicates import check_relations, relation_holds
+from pat3d.scene import GROUND, Pose, Relation
+from tests.layout.things import (
+    asset,
+    ball,
+    block,
+    gap_by_manifold,
+    mug,
+    pen,
+    shelf,
+    table,
+    tree_with_branch,
+    vessel,
+)
+
+GAP = 0.002
+LEAST = 0.0015
+"""The barrier of the simulator reaches 1 mm; layouts stay clear of it."""
+
+
+def rel(child, kind, parent):
+    return Relation(child=child, kind=kind, parent=parent)
+
+
+def check(assets, relations, layout):
+    """Nothing nearer than 1.5 mm, nothing under the ground, every relation holds up to the gap."""
+    gap, pair = gap_by_manifold(dict(assets), dict(layout.poses))
+    assert gap >= LEAST, (pair, gap)
+    for name, pose in layout.poses.items():
+        lowest = min(pose.apply(part.vertices)[:, 2].min() for part in assets[name].parts)
+        assert lowest >= LEAST, name
+    results = check_relations(tuple(relations), assets, layout.poses, touch=GAP + 2e-4)
+    assert all(result.holds for result in results), [f"{r.relation}: {r.detail}" for r in results if not r.holds]
+
+
+@st.composite
+def small_scenes(draw):
+    """Boxes on boxes, on the ground and in bowls: a random tree of up to eight objects."""
+    sizes = st.floats(0.03, 0.12)
+    assets, relations = {"table": table()}, []
+    for k in range(draw(st.integers(1, 7))):
+        kind = draw(st.sampled_from(["box", "ball", "bowl"]))
+        name = f"{kind} {k}"
+        hosts = [GROUND, "table"]
+        if kind == "box":
+            # On a box, the box above is no larger: a person stacks that way.
+            below = [other for other in assets if other.startswith("box")]
+            x, y, z = draw(sizes), draw(sizes), draw(sizes)
+            assets[name] = block(x, y, z)
+            roomy = [other for other in below if np.all(assets[other].size[:2] >= [x, y]) and not
+                     any(r.parent == other for r in relations)]  # fmt: skip
+            parent = draw(st.sampled_from([*hosts, *roomy]))
+        else:
+            assets[name] = ball(draw(st.floats(0.01, 0.02))) if kind == "ball" else vessel(0.09, 0.07)
+            bowls = [other for other in assets if other.startswith("bowl") and other != name]
+            parent = draw(st.sampled_from([*hosts, *(bowls if kind == "ball" else [])]))
+        if parent != GROUND:
+            relations.append(rel(name, "in" if parent.startswith("bowl") else "on", parent))
+    return assets, tuple(relations), draw(st.integers(0, 5))
+
+
+@given(scene=small_scenes())
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+def test_random_trees_are_laid_out_without_contact(scene):
+    assets, relations, seed = scene
+    check(assets, relations, arrange(assets, relations, seed=seed))
+
+
+def test_layout_is_a_function_of_its_seed():
+    assets = {"table": table(), "mug": mug(), "pen 1": pen(), "pen 2": pen(), "a": block(), "b": block()}
+    relations = (
+        rel("mug", "on", "table"), rel("pen 1", "in", "mug"), rel("pen 2", "in", "mug"),
+        rel("a", "on", "table"), rel("b", "on", "a"),
+    )  # fmt: skip
+    first, again, other = (arrange(assets, relations, seed=seed) for seed in (3, 3, 4))
+    assert first.poses == again.poses
+    assert first.poses != other.poses
+
+
+def test_a_basket_takes_twelve_balls_within_its_walls():
+    assets = {"basket": vessel(0.16, 0.13, wall=0.01), **{f"ball {k}": ball() for k in range(12)}}
+    relations = tuple(rel(f"ball {k}", "in", "basket") for k in range(12))
+    check(assets, relations, arrange(assets, relations, seed=0))
+
+
+def test_pens_stand_in_a_mug_with_their_feet_down():
+    assets = {"mug": mug(), **{f"pen {k}": pen() for k in range(4)}}
+    relations = tuple(rel(f"pen {k}", "in", "mug") for k in range(4))
+    layout = arrange(assets, relations, seed=1)
+    check(assets, relations, layout)
+    for k in range(4):
+        axis = layout.poses[f"pen {k}"].rotation[:, 0]
+        assert abs(axis[2]) > np.cos(np.radians(50))
+
+
+def test_tapered_cups_nest():
+    """Four cups 0.1 m high with a 20 % taper stand far lower inside one another than on one another."""
+    assets = {f"cup {k}": vessel(0.045, 0.1, wall=0.003, taper=0.7, noun="cup") for k in range(4)}
+    relations = tuple(rel(f"cup {k + 1}", "on", f"cup {k}") for k in range(3))
+    layout = arrange(assets, relations, seed=0)
+    check(assets, relations, layout)
+    heights = [layout.poses[f"cup {k}"].position[2] for k in range(4)]
+    assert np.all(np.diff(heights) < 0.06)
+
+
+def test_a_tower_of_ten_is_stacked_with_the_gap_between():
+    assets = {f"block {k}": block() for k in range(10)}
+    relations = tuple(rel(f"block {k + 1}", "on", f"block {k}") for k in range(9))
+    layout = arrange(assets, relations, seed=2)
+    heights = np.array([layout.poses[f"block {k}"].position[2] for k in range(10)])
+    np.testing.assert_allclose(np.diff(heights), 0.06 + GAP, atol=1e-4)
+    offsets = np.array([layout.poses[f"block {k}"].position[:2] for k in range(10)])
+    assert np.abs(np.diff(offsets, axis=0)).max() <= 0.02 * 0.06 * 1.5
+
+
+@pytest.mark.parametrize("kind", ["left_of", "right_of", "in_front_of", "behind", "next_to"])
+@pytest.mark.parametrize("where", ["table", GROUND])
+def test_lateral_relations_hold_in_the_layout(kind, where):
+    assets = {"table": table(), "plate": block(0.2, 0.2, 0.02), "cup": block(0.07, 0.07, 0.1), "far": block()}
+    support = () if where == GROUND else tuple(rel(name, "on", "table") for name in ("plate", "cup", "far"))
+    relations = (*support, rel("cup", kind, "plate"), rel("far", "left_of", "cup"))
+    check(assets, relations, arrange(assets, relations, seed=0))
+
+
+def test_four_chairs_around_a_table_face_it():
+    chair = asset("chair", _chair_shape())
+    assets = {"table": table(), **{f"chair {k}": chair for k in range(4)}}
+    relations = tuple(rel(f"chair {k}", "around", "table") for k in range(4))
+    layout = arrange(assets, relations, seed=0)
+    check(assets, relations, layout)
+    for k in range(4):
+        pose = layout.poses[f"chair {k}"]
+        front = pose.rotation @ np.array([0.0, -1.0, 0.0])
+        towards = -np.array(pose.position)
+        assert front[:2] @ towards[:2] > 0.7 * np.linalg.norm(towards[:2])
+
+
+def test_a_relation_to_something_on_another_support_moves_the_support():
+    assets = {"table": table(), "lamp": block(0.1, 0.1, 0.4), "bed": block(1.6, 2.0, 0.5, noun="bed")}
+    relations = (rel("lamp", "on", "table"), rel("lamp", "left_of", "bed"))
+    check(assets, relations, arrange(assets, relations, seed=0))
+
+
+def test_shelves_share_their_things_out():
+    assets = {"shelf": shelf(), "ball": ball(), "box": block(0.2, 0.15, 0.2, noun="box"), "hat": block(noun="hat")}
+    relations = tuple(rel(name, "on", "shelf") for name in ("ball", "box", "hat"))
+    layout = arrange(assets, relations, seed=0)
+    check(assets, relations, layout)
+    assert len({round(layout.poses[name].position[2], 2) for name in ("ball", "box", "hat")}) == 3
+
+
+def test_a_swing_hangs_under_the_branch():
+    swing = asset("swing", _swing_shape())
+    assets = {"tree": tree_with_branch(), "swing": swing}
+    relations = (rel("swing", "hangs_from", "tree"),)
+    layout = arrange(assets, relations, seed=0)
+    check(assets, relations, layout)
+    top = layout.poses["swing"].position[2] + swing.size[2]
+    assert top == pytest.approx(2.4, abs=0.01)
+
+
+def test_crowded_surface_uses_rows_and_small_gaps():
+    """Nine plates of 0.2 m need three rows of 0.6 m and two gaps on a 0.66 m square."""
+    assets = {"board": block(0.66, 0.66, 0.05), **{f"plate {k}": block(0.2, 0.2, 0.02) for k in range(9)}}
+    relations = tuple(rel(f"plate {k}", "on", "board") for k in range(9))
+    check(assets, relations, arrange(assets, relations, seed=0))
+
+
+def test_long_things_are_turned_to_fit():
+    assets = {"board": block(0.2, 0.5, 0.05), "rule 1": block(0.45, 0.05, 0.01), "rule 2": block(0.45, 0.05, 0.01)}
+    relations = (rel("rule 1", "on", "board"), rel("rule 2", "on", "board"))
+    check(assets, relations, arrange(assets, relations, seed=0))
+
+
+def test_given_poses_are_kept_exactly_and_avoided():
+    assets = {"table": table(), "vase": block(0.1, 0.1, 0.3), "cup": block()}
+    relations = (rel("vase", "on", "table"), rel("cup", "on", "table"))
+    fixed = {
+        "table": Pose(position=(1.0, 2.0, GAP)),
+        "vase": Pose.from_yaw(0.4, (1.1, 2.05, 0.74 + 2 * GAP)),
+    }
+    layout = arrange(assets, relations, seed=0, fixed_poses=fixed)
+    assert {name: layout.poses[name] for name in fixed} == fixed
+    check(assets, relations, layout)
+
+
+def test_a_watermelon_in_a_mug_is_refused_with_both_sizes():
+    with pytest.raises(LayoutError, match=r'"watermelon" \(0\.\d+ m\) does not fit inside "mug" \(0\.\d+ m wide\)'):
+        arrange({"mug": mug(), "watermelon": ball(0.14)}, (rel("watermelon", "in", "mug"),), seed=0)
+
+
+def test_a_full_container_is_refused_with_what_is_inside():
+    assets = {"mug": mug(), **{f"egg {k}": ball(0.022) for k in range(12)}}
+    with pytest.raises(LayoutError, match=r'"mug".* is full: no room for "egg'):
+        arrange(assets, tuple(rel(f"egg {k}", "in", "mug") for k in range(12)), seed=0)
+
+
+def test_too_many_plates_on_a_stool_are_refused():
+    assets = {"stool": block(0.3, 0.3, 0.4), **{f"plate {k}": block(0.25, 0.25, 0.02) for k in range(3)}}
+    with pytest.raises(LayoutError, match=r'"plate \d" .*finds no room on "stool" \(0\.30 x 0\.30 m\)'):
+        arrange(assets, tuple(rel(f"plate {k}", "on", "stool") for k in range(3)), seed=0)
+
+
+def test_contradicting_sides_are_refused():
+    with pytest.raises(LayoutError, match="a left_of b"):
+        arrange({"a": block(), "b": block()}, (rel("a", "left_of", "b"), rel("b", "left_of", "a")), seed=0)
+
+
+def test_intersecting_given_poses_are_refused_by_pair():
+    fixed = {"a": Pose(position=(0, 0, GAP)), "b": Pose(position=(0.03, 0, GAP))}
+    with pytest.raises(LayoutError, match='"a" and "b" intersect'):
+        arrange({"a": block(), "b": block()}, (), seed=0, fixed_poses=fixed)
+
+
+def test_a_given_pose_under_the_ground_is_refused():
+    with pytest.raises(LayoutError, match=r'"a" reaches 10\.0 mm under the ground'):
+        arrange({"a": block()}, (), seed=0, fixed_poses={"a": Pose(position=(0, 0, -0.01))})
+
+
+def test_a_given_pose_on_a_free_support_is_refused():
+    assets = {"table": table(), "cup": block()}
+    with pytest.raises(LayoutError, match='Give "table" a pose too'):
+        arrange(assets, (rel("cup", "on", "table"),), seed=0, fixed_poses={"cup": Pose(position=(0, 0, 0.8))})
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(SpecError, match="ghost"):
+        arrange({"a": block()}, (rel("ghost", "on", "a"),), seed=0)
+    with pytest.raises(LayoutError, match="ghost"):
+        arrange({"a": block()}, (), seed=0, fixed_poses={"ghost": Pose()})
+
+
+def test_things_without_a_cavity_carry_on_top_and_say_so():
+    assets = {"block": block(0.2, 0.2, 0.1), "ball": ball()}
+    layout = arrange(assets, (rel("ball", "in", "block"),), seed=0)
+    assert "no cavity" in layout.notes[0]
+    assert relation_holds(rel("ball", "on", "block"), assets, layout.poses, touch=2 * GAP)
+
+
+def _chair_shape():
+    from pat3d.assets import shapes
+
+    seat = shapes.box(0.42, 0.42, 0.45)
+    back = shapes.box(0.42, 0.04, 0.45).moved(y=0.19, z=0.45)
+    return shapes.join(seat, back)
+
+
+def _swing_shape():
+    from pat3d.assets import shapes
+
+    seat = shapes.box(0.5, 0.2, 0.03)
+    ropes = [shapes.box(0.02, 0.02, 1.6).moved(x=side * 0.22) for side in (-1, 1)]
+    bar = shapes.box(0.5, 0.03, 0.03).moved(z=1.6)
+    return shapes.join(seat, bar, *ropes)

@@ -1,0 +1,56 @@
+"""A small fixed vocabulary, so that the planner's tests do not depend on what the catalogue makes."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+
+NOUNS: dict[str, tuple[str, ...]] = {
+    "bed": (), "bedside table": ("nightstand",), "lamp": ("table lamp",), "bookshelf": ("bookcase",), "dog": ("puppy",),
+    "sofa": ("couch",), "coffee table": (), "sculpture": ("art piece", "statue"), "rug": ("carpet",), "plant": (),
+    "potted plant": ("houseplant",), "book": ("hardcover book", "spell book"), "rabbit": ("bunny", "hare"),
+    "pancake": (), "wizard": (), "desk": ("writing desk",), "crystal ball": (), "bird": ("blue jay",), "basket": (),
+    "macaron": (), "table": ("dining table",), "vase": (), "bouquet": ("bouquet of flowers", "flowers"), "plate": (),
+    "cake": ("slice of cake",), "apple": (), "orange": (), "banana": (), "lemon": (), "pear": (), "cup": (),
+    "mug": ("coffee mug",), "bowl": (), "toothbrush": (), "toothpaste": ("toothpaste tube",), "razor": (),
+    "soap dish": (), "soap": ("bar of soap",), "radio": (), "cow figurine": (), "pencil": (), "pen": (),
+    "teddy bear": (), "elephant": (), "giraffe": (), "pillow": ("throw pillow",), "floor cushion": (), "cushion": (),
+    "inflatable pool": ("pool", "paddling pool"), "ball": ("plastic ball",), "toy sailboat": ("sailboat",),
+    "rubber duck": (), "turtle": (), "starfish": (), "fire extinguisher": (), "shelf": ("shelving unit", "shelves"),
+    "cap": ("baseball cap",), "hat": (), "cardboard sheet": (), "cart": ("wheeled cart", "trolley"),
+    "block": ("building block",), "plush dog": ("toy dog",), "pen holder": (), "ruler": (), "scissors": (),
+    "chair": (), "side table": (), "swing": (), "tree": (), "box": ("cardboard box",), "spoon": (), "fork": (),
+    "knife": (), "bottle": (), "candle": (), "tray": (), "glass": ("drinking glass",), "towel": (), "bench": (),
+    "octagon puzzle": (), "jar": (), "cookie": (), "teapot": (), "stool": (), "watermelon": (), "egg": (), "pot": (),
+    "cutting board": (), "bread": ("loaf of bread",), "carrot": (), "tomato": (), "glasses": (), "crate": (),
+}  # fmt: skip
+IRREGULAR = {"knives": "knife", "bookshelves": "bookshelf", "boxes": "box"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Word:
+    noun: str
+    plurals: tuple[str, ...] = ()
+
+
+class Table:
+    """find, names and nearest over NOUNS, as the catalogue's registry offers them."""
+
+    def __init__(self) -> None:
+        plurals: dict[str, tuple[str, ...]] = {}
+        for plural, single in IRREGULAR.items():
+            plurals[single] = (*plurals.get(single, ()), plural)
+        self._names: dict[str, Word] = {}
+        for noun, synonyms in NOUNS.items():
+            word = Word(noun=noun, plurals=plurals.get(noun, ()))
+            for name in (noun, *synonyms, *word.plurals):
+                self._names[name] = word
+
+    def find(self, name: str, /) -> Word | None:
+        return self._names.get(name)
+
+    def names(self) -> tuple[str, ...]:
+        return tuple(sorted(self._names))
+
+    def nearest(self, name: str, count: int = 3) -> tuple[str, ...]:
+        return tuple(difflib.get_close_matches(name, self.names(), n=count, cutoff=0.5))
