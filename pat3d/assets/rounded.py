@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.spatial import HalfspaceIntersection
 
-from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex, join
+from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex
 
 Profile = Sequence[tuple[float, float]]
 
@@ -199,7 +199,13 @@ def rounded_rectangle(x: float, y: float, corner: float) -> NDArray[np.float64]:
 
 def ring_of(shape: Shape, radius: float, count: int, start: float = 0.0) -> Shape:
     """`count` copies of `shape` around z at `radius` [m], turned outwards, the first at `start` [degrees]."""
-    return join(*(shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)))
+    return merged([shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)])
+
+
+def merged(shapes: Sequence[Shape]) -> Shape:
+    """The same as `join`, in one go: fast for hundreds of small shapes."""
+    solid = manifold3d.Manifold.batch_boolean([shape.solid for shape in shapes], manifold3d.OpType.Add)
+    return Shape(solid, tuple(points for shape in shapes for points in shape.hulls))
 
 
 def taper(bottom: tuple[float, float], top: tuple[float, float], height: float) -> Shape:

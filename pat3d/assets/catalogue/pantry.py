@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import DARK, STEEL, WHITE, band, cavity, disc, height, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import curve, hollow, lathe, ring_of, slab, tube, unseen
+from pat3d.assets.rounded import curve, hollow, lathe, merged, ring_of, slab, tube, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box
 
 
@@ -176,7 +176,7 @@ def basket(style: Style) -> Build:
     return Build(
         parts=((Shape(rippled, body.hulls), style.colour()), (unseen(rim), dark)),
         regions=(cavity(inner, 12),),
-        paint=((unseen(join(*blocks)), dark),),
+        paint=((merged(blocks), dark),),
     )
 
 
@@ -198,7 +198,7 @@ def colander(style: Style) -> Build:
         bow = [(side * (r - 0.002), -0.04, 0.9 * h), (side * (r + 0.026), -0.026, 0.92 * h),
                (side * (r + 0.026), 0.026, 0.92 * h), (side * (r - 0.002), 0.04, 0.9 * h)]  # fmt: skip
         grips.append(tube(curve(bow, 17), 0.005, 3))
-    solid = body.solid - join(*holes).solid
+    solid = body.solid - merged(holes).solid
     return Build(
         parts=((Shape(solid, body.hulls), style.colour()), (join(*grips), style.colour())),
         regions=(cavity(inner, 8, (0.5 * h,)),),
