@@ -2,9 +2,11 @@
 
 from pat3d.assets.catalogue import (
     animals,
+    bags,
     basics,
     birds,
     figures,
+    games,
     outdoor,
     plush,
     sports,
@@ -14,9 +16,11 @@ from pat3d.assets.catalogue import (
 
 __all__ = [
     "animals",
+    "bags",
     "basics",
     "birds",
     "figures",
+    "games",
     "outdoor",
     "plush",
     "sports",

@@ -1,4 +1,4 @@
-"""Standing figures: wizard, doll, robot, snowman, statuette, chess pieces, trophy."""
+"""Standing figures: wizard, doll, robot, snowman, statuette, chess pieces."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ SKIN: RGB = (232, 190, 160)
 BOOT: RGB = (84, 52, 34)
 
 
-@entry("wizard", family="toys", synonyms=("sorcerer", "mage", "magician", "wizard figure"), material="fabric",
-       colours=("purple", "navy", "blue"), accents=("gold",))  # fmt: skip
+@entry("wizard", family="toys", synonyms=("sorcerer", "mage", "magician", "wizard figure"),
+       material="fabric", colours=("purple", "navy", "blue"), accents=("gold",))  # fmt: skip
 def wizard(style: Style) -> Build:
     """A bearded wizard in a robe and pointed hat who leans on a staff, 1.95 m with the hat."""
     robe, trim = style.colour(), style.colour(1)
@@ -61,8 +61,8 @@ def wizard(style: Style) -> Build:
     )
 
 
-@entry("doll", family="toys", synonyms=("baby doll", "rag doll", "toy doll"), material="fabric", colours=("pink",
-       "blue", "red"), accents=("brown",))  # fmt: skip
+@entry("doll", family="toys", synonyms=("baby doll", "rag doll", "toy doll"), material="fabric",
+       colours=("pink", "blue", "red"), accents=("brown",))  # fmt: skip
 def doll(style: Style) -> Build:
     """A doll in a wide dress, 36 cm tall."""
     dress, hair = style.colour(), style.colour(1)
@@ -95,8 +95,8 @@ def doll(style: Style) -> Build:
     )
 
 
-@entry("robot", family="toys", synonyms=("toy robot", "tin robot", "robot toy"), material="steel", colours=("silver",
-       "red", "blue"), accents=("yellow",))  # fmt: skip
+@entry("robot", family="toys", synonyms=("toy robot", "tin robot", "robot toy"), material="steel",
+       colours=("silver", "red", "blue"), accents=("yellow",))  # fmt: skip
 def robot(style: Style) -> Build:
     """A square toy robot with an antenna and a panel of buttons, 25 cm tall."""
     colour, lamp = style.colour(), style.colour(1)
@@ -191,8 +191,9 @@ def snowman(style: Style) -> Build:
     )
 
 
-@entry("figurine", family="toys", synonyms=("statue", "statuette", "small statue", "sculpture", "art piece",
-       "small art piece", "action figure"), material="ceramic", colours=("white", "bronze", "gray"))  # fmt: skip
+@entry("figurine", family="toys", synonyms=("statuette", "small statue", "sculpture",
+       "action figure"), material="ceramic", colours=("white", "bronze",
+       "gray"))  # fmt: skip
 def figurine(style: Style) -> Build:
     """A small statue of a standing figure in a long gown on a round plinth, 24 cm tall."""
     colour = style.colour()
@@ -263,31 +264,3 @@ def chess_king(style: Style) -> Build:
     high = style.vary(0.014)
     cross = join(box(0.004, 0.004, high).moved(z=0.087), box(0.012, 0.004, 0.004).moved(z=0.087 + 0.45 * high))
     return finish(style, [(join(turned_solid(profile, 12), cross), style.colour())], mass=0.045)
-
-
-@entry(
-    "trophy",
-    family="toys",
-    synonyms=("cup trophy", "award", "winner's cup"),
-    plurals=("trophies",),
-    material="brass",
-    colours=("gold", "silver"),
-)
-def trophy(style: Style) -> Build:
-    """A two-handled prize cup on a dark foot, 30 cm tall."""
-    colour = style.colour()
-    high = style.vary(0.125)
-    cup = turned_solid([(0.020, 0.120), (0.050, 0.150), (0.062, 0.150 + high * 0.8), (0.066, 0.150 + high)], 12)
-    stem = turned_solid([(0.040, 0.055), (0.014, 0.075), (0.011, 0.110), (0.024, 0.124)], 10)
-    path = [(0.058, 0.0, 0.245), (0.096, 0.0, 0.240), (0.092, 0.0, 0.195), (0.052, 0.0, 0.165)]
-    handle = join(*(limb(a, b, 0.006) for a, b in zip(path, path[1:], strict=False)))
-    foot = box(0.110, 0.110, 0.058)
-    return finish(
-        style,
-        [(join(cup, stem, pair(handle)), colour), (foot, (58, 40, 32))],
-        paint=[
-            (box(0.070, 0.02, 0.026).moved(0.0, -0.058, 0.016), colour),
-            (cylinder(0.058, 0.01).moved(z=0.147 + high), style.shade(colour, 0.45)),
-        ],
-        mass=1.1,
-    )
