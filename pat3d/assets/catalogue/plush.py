@@ -191,8 +191,8 @@ def _side_eyes(size, at):
 
 
 @entry("plush dog", family="plush", synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush",
-       "dog toy", "plush puppy"), plurals=("plush puppies",), material="plush", colours=("tan",
-       "brown", "cream"))  # fmt: skip
+       "dog toy", "plush puppy"), plurals=("plush puppies",), material="plush", colours=("tan", "brown",
+       "cream"))  # fmt: skip
 def plush_dog(style: Style) -> Build:
     """A seated floppy-eared dog, 34 cm tall, whose broad flat crown carries hats."""
     coat = style.colour()
