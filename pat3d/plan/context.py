@@ -137,6 +137,9 @@ class Context:
             return stacks[-1:]
         frame = self.holder.get(id(child)) if child is not None else None
         if frame is not None and frame.parents and frame.flank is None:
+            central = [group for group, side, _ in self.draft.sided if side == "centre" and group in frame.members]
+            if central and child not in central:
+                return central[-1:]
             return frame.parents[:1]
         if phrase.each or phrase.head in ("them", "they", "each"):
             plural = [group for group in self.draft.groups if group.count > 1 and group is not child]
@@ -163,7 +166,19 @@ class Context:
         floor = draft.on_floor(parent)
         if len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
             return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
-        child = children[-1]
+        child = self._carrier(children[-1], link, parent)
+        if child is not children[-1] and len(self.top) > 1 and child is self.top[-1]:
+            return self.climb([child], link, parent)
+        if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
+            return self.carried[id(child)]
+        return [child]
+
+    def _carrier(self, child: Group, link: Link, parent: Group) -> Group:
+        """What carries `child` and is itself what `link` speaks of."""
+        draft = self.draft
+        supports = link.kind in SUPPORT_KINDS
+        floor = draft.on_floor(parent)
+        seen = [child]
         while not draft.on_floor(child) or (floor and not supports):
             frame = self.holder.get(id(child))
             if not supports and id(child) in self.carried and not frame and not floor:
@@ -171,18 +186,19 @@ class Context:
             if frame is None or not frame.parents or frame.flank or not frame.link.inverse:
                 break
             above = frame.parents[0]
-            if above is parent:
+            # A prompt may list two groups in each other.
+            if above is parent or above in seen:
                 break
             if draft.on_floor(above) and (supports or not floor):
                 break
-            if supports and not floor and draft.is_a(above, lexicon.LEVEL + lexicon.DISHES):
+            dish = draft.is_a(above, lexicon.DISHES) and not draft.is_a(parent, lexicon.LEVEL)
+            if supports and not floor and (dish or draft.is_a(above, lexicon.LEVEL)):
                 break
             if supports and (draft.supports.get(id(above)) is not None and not draft.supports[id(above)].weak):
                 break
             child = above
-        if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
-            return self.carried[id(child)]
-        return [child]
+            seen.append(child)
+        return child
 
     def relate(self, child: Group, link: Link, parent: Group) -> None:
         """Record that `child` stands in relation `link` to `parent`."""
