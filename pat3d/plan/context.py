@@ -48,7 +48,9 @@ class Context:
     related: list[Group] = field(default_factory=list)
     """What the last relation was said of."""
     landmark: Group | None = None
-    """What "the left side" was last said of."""
+    """What "the left side of" or "to the left of" was last said of."""
+    landmark_is_surface: bool = True
+    """Whether it was "the left side of": on it rather than beside it."""
     mark: str = "start"
     """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
 
@@ -83,6 +85,11 @@ class Context:
         for index in range(len(self.frames) - 1, -1, -1):
             frame = self.frames[index]
             if frame.link.manner == "of" and (phrase.determined or self.mark != "and"):
+                continue
+            # "a lamp, a crate of toys, and a mug": the mug goes on the list that has commas already.
+            wider = (each for each in reversed(self.frames[:index]) if each.parents[0] is not frame.parents[0])
+            outer = next((each.members for each in wider), self.top)
+            if "comma" in self.mark and len(frame.members) < 2 <= len(outer) and frame.parents[0] in outer:
                 continue
             loose = frame.flank is not None or frame.link.manner in ("surround", "include")
             holders = frame.parents[:1]
@@ -229,13 +236,15 @@ class Context:
             self.maker.settle_generic(child, parent)
             draft.place(child, kind, parent)
         else:
+            if link.kind in ("left_of", "right_of"):
+                self.landmark, self.landmark_is_surface = parent, False
             draft.beside(child, link.kind or "next_to", parent)
 
     def on_half(self, children: list[Group], side: str, parent: Group | None) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         for child in children:
             level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
-            self.landmark = parent or self.landmark
+            self.landmark, self.landmark_is_surface = parent or self.landmark, True
             if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
                 self.draft.place(child, self.draft.containment(parent), parent)
                 self.draft.sided.append((child, side, None))

@@ -370,8 +370,10 @@ class Reader:
                 self._end_clause()
             landmark = self._now.landmark
             if landmark is not None and side in ("left", "right", "centre"):
-                half = Link(manner="half", kind="on", side=side)
-                self._now.frames = [Frame(link=half, parents=[landmark])]
+                link = Link(manner="half", kind="on", side=side)
+                if not self._now.landmark_is_surface and side != "centre":
+                    link = Link(kind="left_of" if side == "left" else "right_of")
+                self._now.frames = [Frame(link=link, parents=[landmark])]
             else:
                 self._side = side
             return
