@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
+from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.drop import clear, fall
 from pat3d.layout.group import Group, yaw_matrix
@@ -22,6 +23,8 @@ from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
 
 CELLS = 36
 """Positions tried across the cavity."""
+COARSEST = 90
+"""Cells across twice the reach of the largest thing to place, so that large things in small cavities stay cheap."""
 CENTRING = 0.03
 """Height [m] that one metre off the cavity's axis costs when places are ranked."""
 BALANCING = 0.1
@@ -75,6 +78,7 @@ def pack(
     obstacles: Sequence[Placed],
     rng: np.random.Generator,
     gap: float,
+    steady: bool = False,
 ) -> list[Group]:
     """Place every group inside the container's cavity.
 
@@ -85,6 +89,7 @@ def pack(
         obstacles: further bodies in the way.
         rng: orders equal places.
         gap: distance kept from everything [m].
+        steady: whether to accept only places where nothing tips: there are no walls to lean on.
 
     Raises:
         LayoutError: one is larger than the cavity, or the cavity is full.
@@ -93,7 +98,7 @@ def pack(
     refusals = []
     # Large before small packs densest; small below large lets the large ones form the heap's top.
     for order in (bulky, bulky[::-1]):
-        heap = _Heap(container, column, obstacles, reach=max(_reach(group) for group in order), gap=gap)
+        heap = _Heap(container, column, obstacles, reach=max(_reach(group) for group in order), gap=gap, steady=steady)
         for group in order:
             found = next(
                 (
@@ -123,12 +128,19 @@ class _Heap:
     """What is in the container so far, its height map, and the search for the next place."""
 
     def __init__(
-        self, container: Placed, column: Column, obstacles: Sequence[Placed], *, reach: float, gap: float
+        self,
+        container: Placed,
+        column: Column,
+        obstacles: Sequence[Placed],
+        *,
+        reach: float,
+        gap: float,
+        steady: bool,
     ) -> None:
-        self.container, self.column, self.gap = container, column, gap
+        self.container, self.column, self.gap, self.steady = container, column, gap, steady
         self.placed: list[Group] = []
         self.settled = [container, *obstacles]
-        self.cell = float(2 * column.reach.max() / CELLS)
+        self.cell = max(float(2 * column.reach.max()) / CELLS, 2 * reach / COARSEST)
         self.counts = np.maximum(1, np.round(2 * column.reach / self.cell).astype(int))
         self.corner = column.centre[:2] - self.cell * (self.counts - 1) / 2
         x, y = (self.corner[k] + self.cell * np.arange(self.counts[k]) for k in range(2))
@@ -152,17 +164,19 @@ class _Heap:
         for rotation in rotations:
             turned = group.turned(rotation)
             heights, cost = self._survey(turned, rng)
-            for index in np.argsort(cost, axis=None)[:3]:
+            for index in np.argsort(cost, axis=None)[: 60 if self.steady else 3 : 4 if self.steady else 1]:
                 i, j = np.unravel_index(index, cost.shape)
                 if np.isfinite(cost[i, j]):
                     spot = np.array([*self.spots[i, j], heights[i, j]])
                     ranked.append((float(cost[i, j]), len(ranked), turned, spot))
         best: tuple[float, Group] | None = None
         for attempt, (_, _, turned, spot) in enumerate(sorted(ranked, key=lambda item: item[:2])):
-            if attempt >= 16 or (attempt >= 3 and best is not None):
+            if attempt >= (40 if self.steady else 16) or (attempt >= 3 and best is not None):
                 break
             lowered = lower(turned, spot, self.settled, floor=float(self.container.low[2]), gap=self.gap)
             if lowered is None or not self._deep_enough(np.array(lowered.low[2]), lowered):
+                continue
+            if self.steady and support_margin(lowered, self.settled, gap=self.gap) <= 0.0:
                 continue
             energy = float(lowered.centre_of_mass[2])
             if best is None or energy < best[0]:
@@ -184,6 +198,9 @@ class _Heap:
         reach = self.spots + centre[:2]
         allowed = self.column.holds(reach, 0.85 if self.placed else 0.95)
         allowed &= self._deep_enough(heights + low[2], turned)
+        if self.steady:
+            # Not beside what carries.
+            allowed &= heights + low[2] > self.container.low[2] + 2 * self.gap
         if self.column.capped:
             allowed &= heights + high[2] + self.gap < self.column.rim
         off_axis = np.linalg.norm(reach - self.column.centre[:2], axis=-1)
