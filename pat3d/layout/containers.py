@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
+from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.drop import clear, fall
 from pat3d.layout.group import Group, yaw_matrix
@@ -22,10 +23,19 @@ from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
 
 CELLS = 36
 """Positions tried across the cavity."""
+COARSEST = 90
+"""Cells across twice the reach of the largest thing to place, so that large things in small cavities stay cheap."""
 CENTRING = 0.03
 """Height [m] that one metre off the cavity's axis costs when places are ranked."""
 BALANCING = 0.1
 """The same for the common centre of mass of everything inside, so that light containers do not tip."""
+LONG = 2.2
+"""Things this many times longer than wide are stood on end in narrow cavities."""
+TIPPING = 1.0
+"""Height [m] that one metre of the centre of mass outside the contacts costs."""
+_PICKS = np.array([0, 1, 2])
+_SPREAD_PICKS = np.array([0, 1, 2, 4, 8, 16, 32, 48, 64, 96])
+"""Ranks of the places that are tried exactly, of each orientation."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +85,7 @@ def pack(
     obstacles: Sequence[Placed],
     rng: np.random.Generator,
     gap: float,
+    steady: bool = False,
 ) -> list[Group]:
     """Place every group inside the container's cavity.
 
@@ -85,15 +96,20 @@ def pack(
         obstacles: further bodies in the way.
         rng: orders equal places.
         gap: distance kept from everything [m].
+        steady: whether to accept only places where nothing tips: there are no walls to lean on.
 
     Raises:
         LayoutError: one is larger than the cavity, or the cavity is full.
     """
     bulky = sorted(groups, key=lambda group: -float(np.prod(np.sort(group.size)[1:])))
     refusals = []
-    # Large before small packs densest; small below large lets the large ones form the heap's top.
-    for order in (bulky, bulky[::-1]):
-        heap = _Heap(container, column, obstacles, reach=max(_reach(group) for group in order), gap=gap)
+    reach = max(_reach(group) for group in groups)
+    # Large before small packs densest; small below large lets the large ones form the heap's top. Only when
+    # neither stays within the walls may the heap rise above the rim.
+    small_first = bulky[::-1]
+    attempts = [(bulky, 0.0), (small_first, 0.0), (bulky, 0.5), (bulky, 1.0), (small_first, 1.0)]
+    for order, above_rim in attempts[3:] if steady else attempts:
+        heap = _Heap(container, column, obstacles, reach=reach, gap=gap, steady=steady, above_rim=above_rim)
         for group in order:
             found = next(
                 (
@@ -114,6 +130,12 @@ def pack(
     raise refusals[-1]
 
 
+def _compact(group: Group) -> bool:
+    """Whether the group is not long and thin."""
+    size = np.sort(group.size)
+    return bool(size[2] < LONG * size[1])
+
+
 def _reach(group: Group) -> float:
     """Largest distance of the group from its root's origin [m]."""
     return max(float(np.linalg.norm(member.vertices, axis=1).max()) for member in group.members)
@@ -123,12 +145,22 @@ class _Heap:
     """What is in the container so far, its height map, and the search for the next place."""
 
     def __init__(
-        self, container: Placed, column: Column, obstacles: Sequence[Placed], *, reach: float, gap: float
+        self,
+        container: Placed,
+        column: Column,
+        obstacles: Sequence[Placed],
+        *,
+        reach: float,
+        gap: float,
+        steady: bool,
+        above_rim: float,
     ) -> None:
-        self.container, self.column, self.gap = container, column, gap
+        self.container, self.column, self.gap, self.steady = container, column, gap, steady
+        self.above_rim = above_rim
+        """How much of the height of a thing on the heap may rise above the rim beyond its upper half."""
         self.placed: list[Group] = []
         self.settled = [container, *obstacles]
-        self.cell = float(2 * column.reach.max() / CELLS)
+        self.cell = max(float(2 * column.reach.max()) / CELLS, 2 * reach / COARSEST)
         self.counts = np.maximum(1, np.round(2 * column.reach / self.cell).astype(int))
         self.corner = column.centre[:2] - self.cell * (self.counts - 1) / 2
         x, y = (self.corner[k] + self.cell * np.arange(self.counts[k]) for k in range(2))
@@ -148,23 +180,33 @@ class _Heap:
 
     def place(self, group: Group, rotations: Sequence[Array], rng: np.random.Generator) -> Group | None:
         """`group` at the lowest place found over all `rotations`, or None."""
+        # Long things lean on walls; whether others tip is asked of the few best places.
+        compact = _compact(group)
+        picks = _SPREAD_PICKS if self.steady or (compact and self.placed) else _PICKS
         ranked: list[tuple[float, int, Group, Array]] = []
         for rotation in rotations:
             turned = group.turned(rotation)
             heights, cost = self._survey(turned, rng)
-            for index in np.argsort(cost, axis=None)[:3]:
+            order = np.argsort(cost, axis=None)
+            for index in order[picks[picks < len(order)]]:
                 i, j = np.unravel_index(index, cost.shape)
                 if np.isfinite(cost[i, j]):
                     spot = np.array([*self.spots[i, j], heights[i, j]])
                     ranked.append((float(cost[i, j]), len(ranked), turned, spot))
         best: tuple[float, Group] | None = None
+        tries = len(picks)
         for attempt, (_, _, turned, spot) in enumerate(sorted(ranked, key=lambda item: item[:2])):
-            if attempt >= 16 or (attempt >= 3 and best is not None):
+            if attempt >= 4 * tries or (attempt >= tries and best is not None):
                 break
             lowered = lower(turned, spot, self.settled, floor=float(self.container.low[2]), gap=self.gap)
             if lowered is None or not self._deep_enough(np.array(lowered.low[2]), lowered):
                 continue
             energy = float(lowered.centre_of_mass[2])
+            if self.steady or (compact and self.placed):
+                margin = support_margin(lowered, self.settled, gap=self.gap)
+                if self.steady and margin <= 0.0:
+                    continue
+                energy += TIPPING * float(np.clip(-margin, 0.0, 0.5 * np.sort(group.size)[1]))
             if best is None or energy < best[0]:
                 best = energy, lowered
         return None if best is None else best[1]
@@ -184,6 +226,9 @@ class _Heap:
         reach = self.spots + centre[:2]
         allowed = self.column.holds(reach, 0.85 if self.placed else 0.95)
         allowed &= self._deep_enough(heights + low[2], turned)
+        if self.steady:
+            # Not beside what carries.
+            allowed &= heights + low[2] > self.container.low[2] + 2 * self.gap
         if self.column.capped:
             allowed &= heights + high[2] + self.gap < self.column.rim
         off_axis = np.linalg.norm(reach - self.column.centre[:2], axis=-1)
@@ -204,9 +249,10 @@ class _Heap:
         """Whether a body with its lowest point at `lowest` [m] is in the cavity, or on a heap that stays in it."""
         column = self.column
         inside = lowest <= column.rim - 0.25 * column.height
-        if self.placed and not column.capped and group.size[:2].max() <= 2.1 * column.half_size.max():
-            inside |= lowest <= column.rim + 0.5 * float(group.size[2])
-        return inside
+        if not self.placed or column.capped or group.size[:2].max() > 2.1 * column.half_size.max():
+            return inside
+        on_heap = lowest <= column.rim + (self.above_rim - 0.5) * float(group.size[2])
+        return on_heap if _compact(group) else inside | on_heap
 
     def _raise(self, bodies: Sequence[Placed]) -> None:
         origin = self.corner - self.cell * self.border
@@ -233,13 +279,13 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
     start = float(rng.uniform(-math.pi, math.pi))
     size = group.size
     order = np.argsort(size)
-    thin, wide, long = size[order]
+    thin, wide = size[order][:2]
     upright = len(group.members) > 1
     round_about = abs(size[0] - size[1]) < 0.05 * max(size[0], size[1])
     yaws = [start] if round_about and not upright else [0.1 * start / math.pi + k * math.pi / 4 for k in range(4)]
     for yaw in yaws:
         yield yaw_matrix(yaw)
-    if upright or long < 2.2 * wide:
+    if upright or _compact(group):
         return
     on_end = _onto_end(group, int(order[2]), _upper_end(group.root, int(order[2]), column.height))
     steepest = min(math.atan2(max(0.0, 2 * column.half_size.min() - 1.2 * wide), column.height), math.radians(50))
