@@ -312,7 +312,9 @@ def _mass(entry: Mapping[str, Any], place: str) -> MassProperties:
     if np.abs(inertia - inertia.T).max() > 1e-9 * np.abs(inertia).max() or moments[0] <= 0:
         raise SpecError(f"{place}.inertia: must be symmetric and positive definite.")
     if moments[2] > (moments[0] + moments[1]) * (1 + 1e-6):
-        raise SpecError(f"{place}.inertia: no body has principal moments {moments}; the largest exceeds the others' sum.")
+        raise SpecError(
+            f"{place}.inertia: no body has principal moments {moments}; the largest exceeds the others' sum."
+        )
     return MassProperties(
         mass=float(entry["mass"]),
         volume=float(entry["volume"]),

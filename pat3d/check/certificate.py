@@ -125,8 +125,7 @@ class _Problem:
         self.weight = np.array([obj.asset.mass_properties.mass * GRAVITY for obj in scene.objects])
         self.size = np.array([float(obj.asset.size.max()) for obj in scene.objects])
         self.groups = [
-            (bodies, contacts.pick(np.isin(contacts.bodies, bodies).any(axis=1)))
-            for bodies in _groups(free, contacts)
+            (bodies, contacts.pick(np.isin(contacts.bodies, bodies).any(axis=1))) for bodies in _groups(free, contacts)
         ]
 
     def residuals(self, friction: float) -> dict[str, float]:
@@ -168,9 +167,7 @@ class _Problem:
         # One unit of force is the load of the lighter body of a contact, so that pens on a table stay visible.
         wrench = np.zeros((6 * len(bodies), 3 * len(contacts)))
         unit = np.array([min(self.weight[b] for b in pair if b in rows) for pair in contacts.bodies.tolist()])
-        for k, (pair, point, frame) in enumerate(
-            zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)
-        ):
+        for k, (pair, point, frame) in enumerate(zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)):
             for body, sign in zip(pair, (1.0, -1.0), strict=True):
                 if body not in rows:
                     continue
@@ -242,7 +239,12 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
     settings.verbose = False
     settings.max_iter = 100
     solution = clarabel.DefaultSolver(
-        sparse.csc_matrix((width, width)), objective, matrix, np.concatenate([np.zeros(height), target]), cones, settings
+        sparse.csc_matrix((width, width)),
+        objective,
+        matrix,
+        np.concatenate([np.zeros(height), target]),
+        cones,
+        settings,
     ).solve()
     found = np.asarray(solution.x)[:-1]
     if not np.isfinite(found).all():
@@ -259,4 +261,3 @@ def _inside_cones(forces: NDArray[np.float64], friction: float) -> NDArray[np.fl
     size = np.linalg.norm(tangent, axis=1)
     shrink = np.minimum(1.0, friction * normal / np.maximum(size, 1e-300))
     return np.column_stack([normal, tangent * shrink[:, None]])
-

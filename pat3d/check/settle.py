@@ -60,9 +60,7 @@ class SettleReport:
     def moved(self, *, mm: float = 1.0, degrees: float = 1.0) -> tuple[ObjectDrift, ...]:
         """The objects that strayed by `mm` or `degrees` or more (or to nowhere)."""
         return tuple(
-            obj
-            for obj in self.objects
-            if not (obj.centre_mm < mm and obj.origin_mm < mm and obj.degrees < degrees)
+            obj for obj in self.objects if not (obj.centre_mm < mm and obj.origin_mm < mm and obj.degrees < degrees)
         )
 
     @property
