@@ -129,7 +129,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
         if id(obj.asset) not in stored:
             stored[id(obj.asset)] = name
             _write_asset(obj.asset, name, assets, folder, as_mesh=id(obj.asset) in flush)
-        body = ET.SubElement(world, "body", name=name, **_placement(obj.pose))
+        body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
         ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
         if not obj.fixed:
             ET.SubElement(body, "freejoint", name=name)

@@ -187,14 +187,15 @@ def _read_json(path: Path) -> Any:
 
 def _validate(document: Any, path: Path) -> None:
     """Check format, version, schema and that every number is finite."""
-    import jsonschema
+    from jsonschema import Draft202012Validator
+    from jsonschema.exceptions import best_match
 
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise SpecError(f'{path}: not a PAT3D scene ("format" must be "{FORMAT}").')
     version = document.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise SpecError(f"{path}: written in format version {version}; this PAT3D reads {VERSION}. Upgrade pat3d.")
-    error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(SCENE_SCHEMA).iter_errors(document))
+    error = best_match(Draft202012Validator(SCENE_SCHEMA).iter_errors(document))
     if error is not None:
         message = error.message if len(error.message) < 200 else error.message[:200] + " ..."
         raise SpecError(f"{path}: {_place(error.absolute_path)}: {message}.")

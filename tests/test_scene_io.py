@@ -169,7 +169,7 @@ def test_a_number_too_large_for_a_float_is_refused(scene, tmp_path):
     save_scene(scene, tmp_path / "s")
     path = tmp_path / "s" / "scene.json"
     path.write_text(path.read_text().replace('"settling_friction": 0.15', '"settling_friction": 1e999'))
-    with pytest.raises(SpecError, match="settling_friction.*not finite"):
+    with pytest.raises(SpecError, match=r"settling_friction.*not finite"):
         load_scene(tmp_path / "s")
 
 
