@@ -19,10 +19,12 @@ MuJoCo gives a pair of geoms the larger of their friction coefficients and the s
 from __future__ import annotations
 
 import shutil
+import sys
 import tempfile
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -100,7 +102,19 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
         except OSError:
             shutil.move(Path(temporary) / "old", folder)
             raise
+    forget_cached_meshes()
     return folder / "scene.xml"
+
+
+def forget_cached_meshes() -> None:
+    """Empty the mesh cache of a MuJoCo that this process has loaded.
+
+    MuJoCo keeps compiled meshes by path and modification time in whole seconds, so a mesh that is written again
+    within the second would be taken for the old one.
+    """
+    mujoco: Any = sys.modules.get("mujoco")
+    if mujoco is not None and hasattr(mujoco, "mj_clearCache"):
+        mujoco.mj_clearCache(mujoco.mj_getCache())
 
 
 def _document(scene: Scene, folder: Path) -> ET.Element:
@@ -129,7 +143,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
         if id(obj.asset) not in stored:
             stored[id(obj.asset)] = name
             _write_asset(obj.asset, name, assets, folder, as_mesh=id(obj.asset) in flush)
-        body = ET.SubElement(world, "body", name=name, **_placement(obj.pose))
+        body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
         ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
         if not obj.fixed:
             ET.SubElement(body, "freejoint", name=name)
@@ -181,7 +195,7 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
         ("fill", (1.5, -0.6, 1.5), "0.25 0.26 0.28", "false"),
     ):
         position = centre + 2.0 * reach * np.array(offset)
-        ET.SubElement(world, "light", name=name, type="directional", pos=_text(*position),
+        ET.SubElement(world, "light", name=name, directional="true", pos=_text(*position),
                       dir=_text(*(centre - position)), diffuse=diffuse, castshadow=shadow)  # fmt: skip
     # The viewer of the relations: from -y, a little above, looking at the middle of the scene.
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])
