@@ -150,4 +150,4 @@ def test_groups_listed_in_each_other_end_the_reading(planner: GrammarPlanner, li
 
 
 def test_the_default_vocabulary_is_the_catalogue():
-    assert [obj.noun for obj in GrammarPlanner().plan("three wooden cubes").objects] == ["block"] * 3
+    assert [obj.noun for obj in GrammarPlanner().plan("three toy blocks").objects] == ["block"] * 3
