@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from pat3d.assets.asset import ConvexPart
 from pat3d.assets.reduce import reduce_hull
+from pat3d.assets.topology import Indices
 
 TOLERANCE = 1e-5
 """Points of the visual mesh may stick out of the parts by this much [m]."""
@@ -44,7 +45,7 @@ def outside(points: NDArray[np.float64], parts: list[ConvexPart]) -> tuple[NDArr
     return np.maximum(distance, 0.0), nearest
 
 
-def surface_points(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:
+def surface_points(vertices: NDArray[np.float64], faces: Indices) -> NDArray[np.float64]:
     """Vertices and evenly spread points of the faces [m], shape (n, 3), at most MAX_SAMPLES and the vertices."""
     used = vertices[np.unique(faces)]
     corners = vertices[faces]

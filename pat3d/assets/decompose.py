@@ -108,7 +108,9 @@ def _run(
         # -P keeps the worker's folder off the module path, where our file names could shadow others.
         command = [sys.executable, "-P", str(coacd_worker.__file__), str(source), str(target)]
         with open(Path(folder, "log"), "w+b") as log:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+            )
             try:
                 code = process.wait(timeout)
             except subprocess.TimeoutExpired:

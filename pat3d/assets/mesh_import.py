@@ -13,10 +13,11 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from pat3d.assets.asset import Asset, ConvexPart, VisualMesh
 from pat3d.assets.cache import cache_root, content_key, load_points, store_points
-from pat3d.assets.cover import cover, outside, surface_points
+from pat3d.assets.cover import cover, outside, planes, surface_points
 from pat3d.assets.decompose import DEFAULT_OPTIONS, decompose
 from pat3d.assets.hull import convex_part
 from pat3d.assets.mass import mass_properties
@@ -45,15 +46,24 @@ TO_Z_UP: dict[str, tuple[tuple[int, int, int], ...]] = {
 }  # fmt: skip
 """Rotations that turn each axis up; from y up, +z (glTF's front) becomes -y (ours)."""
 
-THRESHOLDS = (0.05, 0.03, 0.02, 0.012)
-"""CoACD concavity thresholds, tried in turn until a cavity is kept."""
+THRESHOLD = 0.05
+"""CoACD's concavity threshold for objects without a cavity."""
+
+CAVITY_THRESHOLDS = (0.03, 0.02, 0.012)
+"""Thresholds for objects with a cavity, tried in turn until the parts leave it open."""
 
 MAX_CAVITY_LOSS = 0.02
 """Median fraction of a cavity's radius that its parts may take."""
 
 MAX_PIECES = 24
 MAX_SOLID_FACES = 20_000
-_NEARLY_CONVEX = 0.99
+
+NEARLY_CONVEX = 0.93
+"""A piece that fills this fraction of its convex hull, and has no dent deeper than MAX_DENT, is one part."""
+
+MAX_DENT = 0.11
+"""Depth below the convex hull as a fraction of the object's longest side; 0.02 for objects with a cavity."""
+
 _VERSION = 1
 
 
@@ -106,7 +116,9 @@ def import_mesh(
     try:
         placed, factors = _placed(loaded, axis, units, scale, size)
         fixed = repair(placed, loaded.faces, thickness=thickness)
-        properties = mass_properties(fixed.solid.vertices, fixed.solid.faces, density=density or found.density, mass=mass)
+        properties = mass_properties(
+            fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=density or found.density, mass=mass
+        )
         made = _make_parts(fixed, parts, cache_dir, timeout)
     except AssetError as error:
         raise AssetError(f'"{path}": {error}') from error
@@ -156,14 +168,16 @@ def _make_parts(
     points = np.concatenate([surface_points(fixed.vertices, fixed.faces), fixed.solid.vertices])
     low, high = points.min(axis=0), points.max(axis=0)
     if method == "box":
-        box = convex_part(np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]))
+        box = convex_part(
+            np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        )
         return _Parts(parts=[box], record={})
     if method == "hull":
         parts, _, after = cover([points], points)
         return _Parts(parts=parts, record=_record(parts, [points], after, start))
     key = content_key(
         {"vertices": fixed.vertices, "faces": fixed.faces, "solid": fixed.solid.vertices},
-        {**DEFAULT_OPTIONS, "thresholds": THRESHOLDS, "format": _VERSION},
+        {**DEFAULT_OPTIONS, "thresholds": [THRESHOLD, *CAVITY_THRESHOLDS], "format": _VERSION},
     )
     path = cache_root(cache_dir) / "parts" / f"{key}.npz"
     stored = load_points(path)
@@ -174,8 +188,8 @@ def _make_parts(
     pit = cavity(mesh_height_map(fixed.solid.vertices, fixed.solid.faces))
     parts: list[ConvexPart] = []
     record: dict[str, Any] = {}
-    for threshold in THRESHOLDS:
-        hulls, options = _decomposed(fixed, threshold, cache_dir, timeout)
+    for threshold in CAVITY_THRESHOLDS if pit else (THRESHOLD,):
+        hulls, options = _decomposed(fixed, threshold, 0.02 if pit else MAX_DENT, cache_dir, timeout)
         parts, before, after = cover(hulls, points)
         record = {"options": options, "stuck_out": before, **_record(parts, hulls, after, start)}
         if pit is None or len(parts) > 150:
@@ -189,7 +203,7 @@ def _make_parts(
 
 
 def _decomposed(
-    fixed: Repaired, threshold: float, cache_dir: str | os.PathLike[str] | None, timeout: float
+    fixed: Repaired, threshold: float, dent: float, cache_dir: str | os.PathLike[str] | None, timeout: float
 ) -> tuple[list[NDArray[np.float64]], dict[str, Any]]:
     """Convex hulls of all pieces, and CoACD's options where it was needed."""
     pieces = fixed.pieces if len(fixed.pieces) <= MAX_PIECES else (fixed.solid,)
@@ -198,18 +212,48 @@ def _decomposed(
     options: dict[str, Any] = {}
     for piece in pieces:
         hull = convex_part(piece.vertices)
-        if signed_volume(piece.vertices, piece.faces) > _NEARLY_CONVEX * signed_volume(hull.vertices, hull.faces):
+        if _nearly_convex(piece, hull, dent * whole):
             hulls.append(hull.vertices)
             continue
         piece = _simplified(piece)
         # CoACD measures concavity relative to each piece; the same tolerance in metres holds for all.
         relative = min(0.5, threshold * whole / float(np.ptp(piece.vertices, axis=0).max()))
         done = decompose(
-            piece.vertices, piece.faces.astype(np.int32), timeout=timeout, cache_dir=cache_dir, threshold=round(relative, 6)
+            piece.vertices,
+            piece.faces.astype(np.int32),
+            timeout=timeout,
+            cache_dir=cache_dir,
+            threshold=round(relative, 6),
         )
         options = {**done.options, "threshold": threshold}
-        hulls += done.parts
+        hulls += [_snapped(part, piece, fixed.solid) for part in done.parts]
     return hulls, options
+
+
+def _nearly_convex(piece: Solid, hull: ConvexPart, dent: float) -> bool:
+    """Whether the piece fills its hull but for dents shallower than `dent` [m], such as the lid of a can."""
+    filled = signed_volume(piece.vertices, piece.faces) / signed_volume(hull.vertices, hull.faces)
+    if filled < NEARLY_CONVEX:
+        return False
+    points = surface_points(piece.vertices, piece.faces)
+    sides = planes(hull)
+    depth = max(
+        float(-(points[k : k + 20_000] @ sides[:, :3].T + sides[:, 3]).max(axis=1).min())
+        for k in range(0, len(points), 20_000)
+    )
+    return depth < dent
+
+
+def _snapped(part: NDArray[np.float64], piece: Solid, solid: Solid) -> NDArray[np.float64]:
+    """Points of a part moved onto the vertices and the base that they stand for: CoACD rounds them."""
+    tolerance = 2e-5 * float(np.ptp(solid.vertices, axis=0).max())
+    distance, index = KDTree(piece.vertices).query(part, distance_upper_bound=tolerance)
+    part = part.copy()
+    near = np.isfinite(distance)
+    part[near] = piece.vertices[np.asarray(index)[near]]
+    for level in (float(solid.vertices[:, 2].min()), float(solid.vertices[:, 2].max())):
+        part[np.abs(part[:, 2] - level) < tolerance, 2] = level
+    return part
 
 
 def _simplified(piece: Solid) -> Solid:

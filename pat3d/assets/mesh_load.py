@@ -82,13 +82,15 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
     if not finite.all():
         bad = int(used[np.argmin(finite)])
         raise AssetError(
-            f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad} is {vertices[bad]}).'
+            f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad}: {vertices[bad]}).'
         )
     uv, texture = pack([patch for _, _, patch in patches], notes)
     return LoadedMesh(vertices=vertices, faces=faces, uv=uv, texture=texture, notes=tuple(notes))
 
 
-def _patches(path: Path, scene: Any, notes: list[str]) -> Iterator[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]:
+def _patches(
+    path: Path, scene: Any, notes: list[str]
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]:
     """World vertices, faces and look of every mesh node."""
     import trimesh
 
@@ -145,7 +147,9 @@ def _count_faces(path: Path, kind: str, size: int) -> int | None:
             return _count(file, b"\nf ", size)
         if kind == "ply":
             declared = [line.split() for line in head.split(b"end_header")[0].splitlines()]
-            return sum(int(words[2]) for words in declared if words[:2] in ([b"element", b"face"], [b"element", b"tristrips"]))
+            return sum(
+                int(words[2]) for words in declared if words[:2] in ([b"element", b"face"], [b"element", b"tristrips"])
+            )
         if kind == "off":
             words = b" ".join(line.split(b"#")[0] for line in head.splitlines()).split()
             return int(words[2 if words[0].lower().endswith(b"off") else 1])
@@ -160,7 +164,9 @@ def _count(file: io.BufferedReader, pattern: bytes, size: int) -> int | None:
     if size > MAX_BYTES:
         return None
     with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as view:
-        return sum(view[start : start + (1 << 24) + len(pattern) - 1].count(pattern) for start in range(0, size, 1 << 24))
+        return sum(
+            view[start : start + (1 << 24) + len(pattern) - 1].count(pattern) for start in range(0, size, 1 << 24)
+        )
 
 
 def _count_gltf(text: bytes) -> int:

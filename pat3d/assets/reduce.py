@@ -4,12 +4,15 @@ An edge of the hull is replaced by one point that lies outside every face around
 the volume that this adds is least (progressive hulls, Sander et al. 2000); the hull of the points that
 remain contains the one before. The best edge goes first, and short edges go however few vertices there
 are, so what is left is well spaced. A point that replaces corners of a support face stays in its plane.
+At last every corner moves in as far as the faces around it stay outside the original (a linear program each).
 """
 
 from __future__ import annotations
 
+import functools
 import itertools
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +27,8 @@ SHORT_EDGE = 0.01
 
 _COPLANAR = 1e-7
 """Planes of a hull of unit size closer than this are one."""
+
+_SWEEPS = 8
 
 _START_PLANES = 80
 """Hulls with more corners than twice this start from that many of their supporting planes."""
@@ -65,15 +70,18 @@ def reduce_hull(points: NDArray[np.float64], max_vertices: int = 64, max_faces: 
     if len(corners) <= limit and _edge_lengths(corners, hull).min() >= short:
         return part
     supports = _support_planes(hull)
+    bounds = (float(corners[:, 2].min()), float(corners[:, 2].max()))
+    start = corners
     if len(corners) > 2 * _START_PLANES:
-        corners = _few_planes(corners, hull, supports)
-    while True:
-        reduced = _collapse(corners, supports, limit, short)
-        if len(reduced) <= limit or not len(supports):
-            break
+        start = _few_planes(corners, hull, supports)
+    reduced = _collapse(start, supports, bounds, limit, short)
+    while len(supports) and (len(reduced) > limit or _edge_lengths(reduced, ConvexHull(reduced)).min() < short):
+        # The least important support face gives way.
         supports = supports[:-1]
+        reduced = _collapse(reduced, supports, bounds, limit, short)
     if len(reduced) > limit:
         reduced = _bounding_box(corners)
+    reduced = _tightened(reduced, corners, supports, bounds, short)
     return _containing(reduced * size + middle, part.vertices)
 
 
@@ -81,14 +89,16 @@ def inflation(part: ConvexPart, points: NDArray[np.float64]) -> Inflation:
     """How far `part` reaches beyond the hull of `points` [m], shape (n, 3)."""
     hull = ConvexHull(points)
     distance = (part.vertices @ hull.equations[:, :3].T + hull.equations[:, 3]).max()
-    return Inflation(distance=max(0.0, float(distance)), volume=float(ConvexHull(part.vertices).volume / hull.volume) - 1)
+    return Inflation(
+        distance=max(0.0, float(distance)), volume=float(ConvexHull(part.vertices).volume / hull.volume) - 1
+    )
 
 
 def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:
     """Planes (outward normal, offset) worth keeping, most important first, shape (planes, 4)."""
     planes, group = _merged_planes(hull.equations)
     corners = hull.points[hull.simplices]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    areas = _areas(corners)
     area = np.bincount(group, weights=areas, minlength=len(planes)) / areas.sum()
     upright = np.abs(planes[:, 2]) > 1 - 1e-9
     wanted = np.flatnonzero((area > 0.05) | (upright & (area > 0.005)))
@@ -97,6 +107,11 @@ def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:
     snapped = np.round(planes[:, :3])
     aligned = np.abs(planes[:, :3] - snapped).max(axis=1, initial=0.0) < 1e-9
     planes[aligned, :3] = snapped[aligned]
+    # Rounded bottoms and tops become level faces, so that a part is as high as the hull.
+    lowest = [0.0, 0.0, -1.0, hull.min_bound[2]]
+    highest = [0.0, 0.0, 1.0, -hull.max_bound[2]]
+    level = [plane for plane in (lowest, highest) if not (planes[:, 2] == plane[2]).any()]
+    planes = np.array([*level, *planes])
     return planes
 
 
@@ -141,7 +156,7 @@ def _short_edge(corners: NDArray[np.float64], hull: ConvexHull) -> float:
     return min(SHORT_EDGE, 0.2 * float(depth.min()))
 
 
-def _edges(hull: ConvexHull) -> NDArray[np.int64]:
+def _edges(hull: ConvexHull) -> NDArray[np.integer[Any]]:
     pairs = np.sort(hull.simplices[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return np.unique(pairs, axis=0)
 
@@ -152,97 +167,190 @@ def _edge_lengths(corners: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.
 
 
 def _collapse(
-    corners: NDArray[np.float64], supports: NDArray[np.float64], limit: int, short: float
+    corners: NDArray[np.float64], supports: NDArray[np.float64], bounds: tuple[float, float], limit: int, short: float
 ) -> NDArray[np.float64]:
     """Corners left once `limit` holds and no edge below `short` can go (unit size), shape (n, 3)."""
-    points = {index: point for index, point in enumerate(corners)}
+    points = dict(enumerate(corners))
     fresh = itertools.count(len(corners))
-    found: dict[bytes, tuple[float, NDArray[np.float64] | None]] = {}
+    found: dict[tuple[int, int], tuple[float, NDArray[np.float64] | None]] = {}
     while len(points) > 4:
         names = np.array(list(points))
-        array = np.array([points[name] for name in names])
+        array = np.array(list(points.values()))
         try:
             hull = ConvexHull(array)
         except QhullError:
             break
         if len(hull.vertices) < len(names):
-            points = {names[k]: array[k] for k in hull.vertices}
+            points = {int(names[k]): array[k] for k in hull.vertices}
             continue
         edges = _edges(hull)
-        lengths = np.linalg.norm(array[edges[:, 0]] - array[edges[:, 1]], axis=1)
         if len(points) <= limit:
-            edges = edges[lengths < short]
-            if not len(edges):
-                break
-        best: tuple[float, NDArray[np.float64] | None, tuple[int, int] | None] = (np.inf, None, None)
-        incident = [np.flatnonzero((hull.simplices == k).any(axis=1)) for k in range(len(names))]
-        held = np.abs(array @ supports[:, :3].T + supports[:, 3]) < _COPLANAR if len(supports) else None
-        for i, j in edges:
-            around = np.union1d(incident[i], incident[j])
-            triangles = np.sort(names[hull.simplices[around]], axis=1)
-            key = triangles[np.lexsort(triangles.T)].tobytes()
+            edges = edges[np.linalg.norm(array[edges[:, 0]] - array[edges[:, 1]], axis=1) < short]
+        incident: list[set[int]] = [set() for _ in names]
+        for face, triangle in enumerate(hull.simplices.tolist()):
+            for corner in triangle:
+                incident[corner].add(face)
+        held = np.abs(array @ supports[:, :3].T + supports[:, 3]) < _COPLANAR
+        best = (np.inf, None, (0, 0))
+        for i, j in edges.tolist():
+            key = (int(names[i]), int(names[j]))
             if key not in found:
-                fixed = supports[held[i] | held[j]] if held is not None else supports
-                found[key] = _outer_point(array[hull.simplices[around]], hull.equations[around], fixed)
-            cost, point = found[key]
-            if cost < best[0]:
-                best = (cost, point, (int(names[i]), int(names[j])))
-        cost, point, edge = best
-        if edge is None or point is None:
+                around = sorted(incident[i] | incident[j])
+                fixed = supports[held[i] | held[j]]
+                found[key] = _outer_point(array[hull.simplices[around]], hull.equations[around], fixed, bounds)
+            if found[key][0] < best[0]:
+                best = (*found[key], (i, j))
+        _, point, pair = best
+        if point is None:
             break
-        for name in edge:
-            del points[name]
+        touched = set(names[hull.simplices[sorted(incident[pair[0]] | incident[pair[1]])]].reshape(-1).tolist())
+        found = {key: value for key, value in found.items() if not touched.intersection(key)}
+        for index in pair:
+            del points[int(names[index])]
         points[next(fresh)] = point
     return np.array(list(points.values()))
 
 
 def _outer_point(
-    triangles: NDArray[np.float64], equations: NDArray[np.float64], fixed: NDArray[np.float64]
+    triangles: NDArray[np.float64],
+    equations: NDArray[np.float64],
+    fixed: NDArray[np.float64],
+    bounds: tuple[float, float],
 ) -> tuple[float, NDArray[np.float64] | None]:
     """The point on planes `fixed` and outside all `equations` that adds the least volume, and its cost.
-
-    A linear program in three variables, solved by trying the corners of its feasible set.
 
     Args:
         triangles: faces around an edge, shape (faces, 3, 3).
         equations: their outward planes, shape (faces, 4).
         fixed: planes that must hold the point, shape (planes, 4).
+        bounds: least and greatest height of the point.
     """
-    if len(fixed) > 3:
-        return np.inf, None
-    areas = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
+    areas = _areas(triangles)
     planes = _distinct(equations)
     free = planes
     if len(fixed):
         free = planes[np.abs(planes[:, None] - fixed[None]).max(axis=2).min(axis=1) > _COPLANAR]
-    wanted = 3 - len(fixed)
-    if len(free) < wanted or len(free) > 40:
-        return np.inf, None
-    choice = np.array(list(itertools.combinations(range(len(free)), wanted)), dtype=np.int64)
-    systems = np.concatenate([np.broadcast_to(fixed, (len(choice), *fixed.shape)), free[choice]], axis=1)
-    regular = np.abs(np.linalg.det(systems[:, :, :3])) > 1e-6
-    if not regular.any():
-        return np.inf, None
-    systems = systems[regular]
-    candidates = np.linalg.solve(systems[:, :, :3], -systems[:, :, 3:])[:, :, 0]
-    gap = candidates @ planes[:, :3].T + planes[:, 3]
-    candidates, gap = candidates[feasible := gap.min(axis=1) > -1e-12], gap[feasible]
+    candidates = _feasible_corners(free, fixed)
+    candidates = candidates[(candidates[:, 2] >= bounds[0] - 1e-12) & (candidates[:, 2] <= bounds[1] + 1e-12)]
     if not len(candidates):
         return np.inf, None
+    gap = candidates @ planes[:, :3].T + planes[:, 3]
     added = (candidates @ equations[:, :3].T + equations[:, 3]) @ areas / 3
     # Needles add little volume and reach far: the squared distance keeps them out.
     cost = added + 0.05 * gap.max(axis=1) ** 2
     best = int(np.argmin(cost))
-    point = candidates[best]
+    return float(cost[best]), _snapped(candidates[best], fixed)
+
+
+def _feasible_corners(free: NDArray[np.float64], fixed: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners of {x: n x + d >= 0 for `free`, = 0 for `fixed` planes}, shape (n, 3): where a linear program ends."""
+    wanted = 3 - len(fixed)
+    if wanted < 0 or not wanted <= len(free) <= 40:
+        return np.zeros((0, 3))
+    choice = _combinations(len(free), wanted)
+    systems = np.concatenate([np.broadcast_to(fixed, (len(choice), *fixed.shape)), free[choice]], axis=1)
+    systems = systems[np.abs(np.linalg.det(systems[:, :, :3])) > 1e-6]
+    if not len(systems):
+        return np.zeros((0, 3))
+    corners = np.linalg.solve(systems[:, :, :3], -systems[:, :, 3:])[:, :, 0]
+    return np.asarray(corners[(corners @ free[:, :3].T + free[:, 3]).min(axis=1, initial=0.0) > -1e-12])
+
+
+@functools.cache
+def _combinations(count: int, size: int) -> NDArray[np.int64]:
+    """All choices of `size` out of `count` numbers, one a row."""
+    rows = list(itertools.combinations(range(count), size))
+    return np.array(rows, dtype=np.int64).reshape(len(rows), size)
+
+
+def _snapped(point: NDArray[np.float64], fixed: NDArray[np.float64]) -> NDArray[np.float64]:
+    """`point` with the coordinate of every axis-aligned plane in `fixed` exact."""
+    point = point.copy()
     for plane in fixed:
         axis = int(np.argmax(np.abs(plane[:3])))
         if abs(plane[axis]) == 1.0:
             point[axis] = -plane[3] / plane[axis]
-    return float(cost[best]), point
+    return point
+
+
+def _tightened(
+    corners: NDArray[np.float64],
+    inner: NDArray[np.float64],
+    supports: NDArray[np.float64],
+    bounds: tuple[float, float],
+    short: float,
+) -> NDArray[np.float64]:
+    """Corners moved in, one at a time, while their hull contains `inner` (unit size)."""
+    volume = ConvexHull(corners).volume
+    for _ in range(_SWEEPS):
+        before = volume
+        for index in range(len(corners)):
+            hull = ConvexHull(corners)
+            if index >= len(corners) or len(hull.vertices) < len(corners):
+                break
+            point = _inner_point(corners, hull, index, inner, supports, bounds)
+            if point is None:
+                continue
+            moved = corners.copy()
+            moved[index] = point
+            trial = ConvexHull(moved)
+            fits = (inner @ trial.equations[:, :3].T + trial.equations[:, 3]).max() < 1e-12
+            spaced = _edge_lengths(moved, trial).min() >= min(short, _edge_lengths(corners, hull).min())
+            if fits and spaced and trial.volume < volume and len(trial.vertices) == len(moved):
+                corners, volume = moved, trial.volume
+        if before - volume < 1e-3 * volume:
+            break
+    return corners
+
+
+def _inner_point(
+    corners: NDArray[np.float64],
+    hull: ConvexHull,
+    index: int,
+    inner: NDArray[np.float64],
+    supports: NDArray[np.float64],
+    bounds: tuple[float, float],
+) -> NDArray[np.float64] | None:
+    """Where corner `index` makes the hull smallest while the faces around it stay outside `inner`.
+
+    The planes through each opposite edge that touch `inner` bound it from below, the faces beyond those
+    edges from above.
+    """
+    around = np.flatnonzero((hull.simplices == index).any(axis=1))
+    corner = corners[index]
+    lower, gradient = [], np.zeros(3)
+    for face in around:
+        a, b = corners[[k for k in hull.simplices[face] if k != index]]
+        normal = hull.equations[face, :3]
+        edge = (b - a) / np.linalg.norm(b - a)
+        across = (corner - a) - ((corner - a) @ edge) * edge
+        gradient += normal * np.linalg.norm(across) * np.linalg.norm(b - a)
+        across /= max(float(np.linalg.norm(across)), 1e-300)
+        offsets = inner - a
+        down, out = -(offsets @ normal), offsets @ across
+        angle = np.arctan2(down, out)[np.hypot(down, out) > 1e-9].min(initial=np.pi / 2)
+        tangent = np.cos(angle) * normal + np.sin(angle) * across
+        lower.append([*tangent, -tangent @ a])
+    beyond = hull.equations[np.setdiff1d(np.unique(hull.neighbors[around]), around)]
+    fixed = supports[np.abs(supports[:, :3] @ corner + supports[:, 3]) < _COPLANAR]
+    limits = np.concatenate([np.array(lower), -beyond, [[0, 0, 1, -bounds[0]], [0, 0, -1, bounds[1]]]])
+    if len(fixed):
+        limits = limits[(np.abs(limits[:, :3] @ fixed[:, :3].T) < 1 - 1e-9).all(axis=1)]
+    candidates = _feasible_corners(_distinct(limits), fixed)
+    if not len(candidates):
+        return None
+    return _snapped(candidates[int(np.argmin(candidates @ gradient))], fixed)
+
+
+def _areas(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Areas of triangles, shape (faces, 3, 3) to (faces,)."""
+    return np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
 
 
 def _distinct(equations: NDArray[np.float64]) -> NDArray[np.float64]:
     """The planes of `equations`, each once."""
+    if not len(equations):
+        return equations
     same = np.abs(equations[:, None] - equations[None]).max(axis=2) < _COPLANAR
     return equations[np.argmax(same, axis=1) == np.arange(len(equations))]
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.spatial import Delaunay, QhullError
+from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.assets.asset import ConvexPart, Region
 from pat3d.assets.cover import planes
@@ -77,7 +77,7 @@ def height_map(parts: Sequence[ConvexPart], cells: int = CELLS) -> HeightMap:
     return HeightMap(x=x, y=y, height=height)
 
 
-def mesh_height_map(vertices: NDArray[np.float64], faces: NDArray[np.int64], cells: int = CELLS) -> HeightMap:
+def mesh_height_map(vertices: NDArray[np.float64], faces: NDArray[np.integer[Any]], cells: int = CELLS) -> HeightMap:
     """Height map of a triangle mesh by rays from above."""
     import trimesh
 
@@ -86,7 +86,9 @@ def mesh_height_map(vertices: NDArray[np.float64], faces: NDArray[np.int64], cel
     px, py = np.meshgrid(x, y, indexing="ij")
     start = vertices[:, 2].max() + 0.1 * np.ptp(vertices, axis=0).max()
     origins = np.stack([px.ravel(), py.ravel(), np.full(px.size, start)], axis=1)
-    points, rays, _ = mesh.ray.intersects_location(origins, np.tile([0.0, 0.0, -1.0], (px.size, 1)), multiple_hits=False)
+    points, rays, _ = mesh.ray.intersects_location(
+        origins, np.tile([0.0, 0.0, -1.0], (px.size, 1)), multiple_hits=False
+    )
     height = np.full(px.size, -np.inf)
     np.maximum.at(height, rays, points[:, 2])
     return HeightMap(x=x, y=y, height=height.reshape(px.shape))
@@ -97,11 +99,12 @@ def cavity(seen: HeightMap) -> Region | None:
     finite = np.isfinite(seen.height)
     low, high = float(seen.height[finite].min()), float(seen.height.max())
     rim = _water_level(seen.height)
-    depth = np.where(finite, rim - seen.height, 0.0)
+    depth = np.zeros_like(rim)
+    depth[finite] = rim[finite] - seen.height[finite]
     least = MIN_DEPTH * max(high, high - low)
-    label, count = ndimage.label(depth > 0.25 * least)
+    label = _labels(depth > 0.25 * least)
     best, room = None, 0.0
-    for index in range(1, count + 1):
+    for index in range(1, int(label.max()) + 1):
         pit = label == index
         if depth[pit].max() < least:
             continue
@@ -142,6 +145,11 @@ def top(seen: HeightMap) -> Region:
     return Region(kind="on", shape=shape, floor=(*centre, floor), half_size=half)
 
 
+def _labels(mask: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Connected cells of `mask`, numbered from 1; 0 elsewhere."""
+    return np.asarray(ndimage.label(mask)[0])  # type: ignore[index]
+
+
 def _axes(low: NDArray[np.float64], high: NDArray[np.float64], cells: int):
     cell = float(max(high[0] - low[0], high[1] - low[1])) / cells
     counts = np.ceil((high[:2] - low[:2]) / cell - 1e-9).astype(int) + 2
@@ -173,7 +181,7 @@ def _largest(
     """The larger of the largest disc and rectangle within `mask`: shape, centre [m], half sizes [m]."""
     if not mask.any():
         return "rectangle", (0.0, 0.0), (0.0, 0.0)
-    reach = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
+    reach = np.asarray(ndimage.distance_transform_edt(np.pad(mask, 1)))[1:-1, 1:-1]
     # Cells at the same reach form a plateau: its middle is the centre.
     peak = np.argwhere(reach >= reach.max() - 0.51)
     middle = peak.mean(axis=0)
@@ -206,9 +214,11 @@ def _largest_rectangle(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
 
 def _filled(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Cells in the convex hull of the true cells."""
-    points = np.argwhere(mask)
+    rows = np.flatnonzero(mask.any(axis=1))
+    first, last = mask[rows].argmax(axis=1), mask.shape[1] - 1 - mask[rows][:, ::-1].argmax(axis=1)
     try:
-        inside = Delaunay(points).find_simplex(np.argwhere(np.ones_like(mask))) >= 0
+        sides = ConvexHull(np.concatenate([np.stack([rows, first], axis=1), np.stack([rows, last], axis=1)])).equations
     except (QhullError, ValueError):
         return mask
-    return inside.reshape(mask.shape)
+    i, j = np.indices(mask.shape)
+    return np.all([a * i + b * j + c <= 1e-9 for a, b, c in sides], axis=0)

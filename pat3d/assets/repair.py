@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.topology import (
+    Indices,
+    Points,
     Sheets,
     boundary_loops,
     signed_volume,
@@ -33,9 +35,6 @@ WELD = 1e-5
 """Vertices on open edges closer than this fraction of the longest side are joined."""
 
 MAX_SHEETS = 500
-
-Points = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -115,7 +114,8 @@ def repair(vertices: Points, faces: Indices, *, thickness: float | None = None) 
     pieces = _solid_pieces(pieces, size, repairs)
     union = _union(pieces)
     if union is None:
-        wrapped = Solid(**dict(zip(("vertices", "faces"), voxel_wrap(points, welded), strict=True)))
+        outer, around = voxel_wrap(points, welded)
+        wrapped = Solid(vertices=outer, faces=around)
         repairs.append(f"wrapped the surface in voxels, which adds about {0.6 * size / RESOLUTION * 1e3:.2g} mm")
         return Repaired(
             vertices=sheets.vertices, faces=sheets.faces, corners=corners, pieces=(wrapped,), solid=wrapped,
@@ -154,7 +154,9 @@ def _pieces(sheets: Sheets, corners: Indices) -> list[_Piece]:
         used, inverse = np.unique(sheets.faces[members], return_inverse=True)
         faces = inverse.reshape(-1, 3)
         pieces.append(
-            _Piece(sheets.vertices[used], faces, corners[members], boundary_loops(faces), sheets.cut[members].reshape(-1))
+            _Piece(
+                sheets.vertices[used], faces, corners[members], boundary_loops(faces), sheets.cut[members].reshape(-1)
+            )
         )
     return pieces
 
@@ -172,7 +174,7 @@ def _close(pieces: list[_Piece], size: float, thickness: float | None, repairs: 
             remaining = []
             for loop in piece.loops:
                 why = _reason_to_cap(piece, loop, size, base, closed)
-                if why in allowed:
+                if why is not None and why in allowed:
                     done[why] += 1
                     _cap(piece, loop)
                 else:
@@ -269,7 +271,11 @@ def _inward(piece: _Piece, depth: float) -> Points:
     areas = np.linalg.norm(weighted, axis=1)
     normals = weighted / np.maximum(areas, 1e-300)[:, None]
     areas = areas + 1e-12 * areas.max()
-    matrix, target, total = np.zeros((len(piece.vertices), 3, 3)), np.zeros_like(piece.vertices), np.zeros(len(piece.vertices))
+    matrix, target, total = (
+        np.zeros((len(piece.vertices), 3, 3)),
+        np.zeros_like(piece.vertices),
+        np.zeros(len(piece.vertices)),
+    )
     for k in range(3):
         np.add.at(matrix, piece.faces[:, k], areas[:, None, None] * normals[:, :, None] * normals[:, None, :])
         np.add.at(target, piece.faces[:, k], areas[:, None] * normals)
@@ -347,17 +353,14 @@ def _union(pieces: list[_Piece]) -> Solid | None:
     """Union of the bodies less the voids; None where a piece is no solid or nothing is left."""
     if not pieces:
         return None
-    total = None
+    total = manifold3d.Manifold()
     for piece in pieces:
         body = _is_body(piece)
         solid = manifold_of(piece.vertices, piece.faces if body else piece.faces[:, ::-1])
         if solid is None:
             return None
-        if total is None:
-            total = solid
-        else:
-            total = total + solid if body else total - solid
-    if total is None or total.is_empty() or total.volume() <= 0:
+        total = total + solid if body else total - solid
+    if total.is_empty() or total.volume() <= 0:
         return None
     return solid_of(total) if len(pieces) > 1 else Solid(vertices=pieces[0].vertices, faces=pieces[0].faces)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from pat3d.assets.cover import planes
 
 def cavity_loss(
     vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
+    faces: NDArray[np.integer[Any]],
     parts: Sequence[ConvexPart],
     region: Region,
     *,

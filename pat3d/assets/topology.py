@@ -7,15 +7,16 @@ are paired around it, or, if that is impossible, cut apart.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 Points = NDArray[np.float64]
-Indices = NDArray[np.int64]
+Indices = NDArray[np.integer[Any]]
 
 
 def weld(vertices: Points, faces: Indices, tolerance: float) -> tuple[Points, Indices, int]:
@@ -26,7 +27,7 @@ def weld(vertices: Points, faces: Indices, tolerance: float) -> tuple[Points, In
     rim = np.unique(pairs[counts == 1])
     if not len(rim):
         return vertices, faces, 0
-    near = cKDTree(vertices[rim]).query_pairs(tolerance, output_type="ndarray")
+    near = KDTree(vertices[rim]).query_pairs(tolerance, output_type="ndarray")
     label = components(len(vertices), rim[near])
     first = np.unique(label, return_index=True)[1]
     return vertices[first], label[faces], len(vertices) - len(first)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from pat3d.errors import AssetError
 
@@ -17,7 +19,7 @@ MAX_SAMPLES = 2_000_000
 
 
 def voxel_wrap(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64], resolution: int = RESOLUTION
+    vertices: NDArray[np.float64], faces: NDArray[np.integer[Any]], resolution: int = RESOLUTION
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Vertices and faces of a closed surface 0.6 voxels outside the triangles; what they enclose is solid.
 
@@ -34,13 +36,13 @@ def voxel_wrap(
     corners = vertices[faces]
     low = corners.min(axis=(0, 1))
     voxel = float(np.ptp(corners.reshape(-1, 3), axis=0).max()) / resolution
-    samples = cKDTree(_surface_samples(corners, 0.4 * voxel))
+    samples = KDTree(_surface_samples(corners, 0.4 * voxel))
     low = low - 3 * voxel
     shape = np.ceil((corners.max(axis=(0, 1)) + 3 * voxel - low) / voxel).astype(int) + 1
     grid = np.stack(np.meshgrid(*(np.arange(n) for n in shape), indexing="ij"), axis=-1).reshape(-1, 3) * voxel + low
     distance = samples.query(grid, distance_upper_bound=2 * voxel)[0].reshape(shape)
     distance = np.minimum(distance, 2 * voxel)
-    label, _ = ndimage.label(distance > 0.9 * voxel)
+    label = np.asarray(ndimage.label(distance > 0.9 * voxel)[0])  # type: ignore[index]
     enclosed = (label > 0) & (label != label[0, 0, 0])
     field = 0.6 * voxel - distance
     field[enclosed] = voxel

@@ -29,6 +29,7 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
     if not draft.groups:
         aside = f" Set aside: {'; '.join(draft.set_aside)}." if draft.set_aside else ""
         raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
+    _open_boxes(draft)
     _pair_sides(draft)
     _share_supports(draft)
     members = _members(draft)
@@ -40,6 +41,15 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
         set_aside=tuple(dict.fromkeys(draft.set_aside)),
         notes=tuple(dict.fromkeys(draft.notes)),
     )
+
+
+def _open_boxes(draft: Draft) -> None:
+    """Make what holds something an open thing: a carton with balls in it is an open box."""
+    for edge in draft.supports.values():
+        for closed, opened in lexicon.OPENED.items():
+            noun = draft.nouns.resolve(opened)
+            if edge.kind == "in" and noun and edge.parent.noun == draft.nouns.resolve(closed):
+                edge.parent.noun = noun
 
 
 def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
@@ -55,9 +65,8 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
             if group.cycle:
                 said = group.cycle[index % len(group.cycle)]
                 noun = draft.nouns.resolve(said) or said
-            name = " ".join(
-                filter(None, (words.size_word, " and ".join(colours[:3]), _material_word(group, said), said))
-            )
+            shown = [colour for colour in colours[:3] if colour not in said.split()]
+            name = " ".join(filter(None, (words.size_word, " and ".join(shown), _material_word(group, said), said)))
             plush = (
                 "plush" if group.cycle and group.said.split()[0] in ("plush", "stuffed", "soft", "plushie") else None
             )

@@ -121,12 +121,18 @@ COLLECTIVES = frozenset({
     "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit", "heap", "heaps",
 })  # fmt: skip
 ROWS = frozenset({"row", "line", "series"})
-PARTITIVES = frozenset({
-    "bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "block", "ball", "pack", "packet",
-    "figure", "statue", "figurine", "sculpture", "toy", "bouquet", "wedge", "head", "scoop", "model", "bunch", "carton",
-    "can", "tin", "bottle", "box",
+PORTIONS = frozenset({
+    "bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet", "wedge", "head",
+    "scoop", "carton", "can", "tin", "bottle", "box",
 })  # fmt: skip
-"""X in "X of Y" where X only portions or shapes Y."""
+"""X in "X of Y" where X only portions Y."""
+SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "bouquet", "model", "block", "ball"})
+"""X in "X of Y" where X is the form that Y has."""
+PICTURES = frozenset({
+    "photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration", "display", "scene",
+    "arrangement", "painting", "drawing", "depiction",
+})  # fmt: skip
+"""X in "X of Y" where only Y is there to be placed."""
 SUBSTANCES = frozenset({
     "water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt", "honey", "jam", "oil",
     "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade", "soda", "chocolate milk",
@@ -179,13 +185,15 @@ SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushio
 DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat")
 """What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
 HOLLOW = (
-    "basket", "bowl", "cup", "mug", "vase", "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", "bag",
-    "pot", "crate", "bin", "glass", "soap dish", "drawer", "pan", "saucepan", "wine glass", "teacup", "planter",
-    "flowerpot", "trash can", "wastebasket", "toy box", "storage box", "pencil case", "pencil cup", "tumbler", "tin",
-    "bathtub", "sink", "backpack", "chest", "treasure chest", "storage bin", "laundry basket", "wheelbarrow", "wagon",
+    "colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", 
+    "pot", "crate", "bin", "glass", "soap dish", "pan", "saucepan", "wine glass", "teacup", "planter",
+    "flowerpot", "trash can", "wastebasket", "storage box", "pencil case", "pencil cup", "tumbler", 
+    "storage bin", "laundry basket", 
     "goblet", "pitcher", "jug", "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl",
-    "mixing bowl", "hamper", "picnic basket", "pail", "toolbox", "casserole", "frying pan", "cooking pot", "flower pot",
+    "mixing bowl", "hamper", "picnic basket", "pail", "casserole", "frying pan", "cooking pot", "flower pot",
 )  # fmt: skip
+OPENED = {"box": "storage box"}
+"""What a closed thing becomes when the prompt puts something in it."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder")
 SLENDER = (
     "pen", "pencil", "ruler", "scissors", "toothbrush", "toothpaste", "razor", "spoon", "fork", "knife", "flower",

@@ -91,6 +91,8 @@ class PhraseReader:
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined
             count = phrase.count
+        elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
+            phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
         else:
             phrase = self._simple(run, count)
         flags.pop("one", None)
@@ -282,6 +284,8 @@ class PhraseReader:
         found = self._nouns.longest(words)
         if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):
             match, used = found
+            if match.said == "glasses" and (count or 0) > 1 and (drinking := self._nouns.match(["glass"])):
+                match = replace(drinking, plural=True)
             rest = [word for index, word in enumerate(words) if index not in used]
             hidden = [word for word in match.said.split()[:-1] if word not in match.noun.split()]
             plural = match.plural and match.said not in lexicon.PLURAL_ONLY
@@ -313,6 +317,8 @@ class PhraseReader:
         if read is None:
             return None
         inner, after = read
+        if inner.head in lexicon.SUBSTANCES and not inner.determined:
+            inner = replace(inner, kind="background", substance=inner.head)
         if any(word in lexicon.STACK_NOUNS for word in singular):
             if inner.kind not in ("object", "unknown"):
                 return None
@@ -321,7 +327,9 @@ class PhraseReader:
             own = read_modifiers(words[:-1])
             return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
-        if head in lexicon.ROWS or (head in lexicon.COLLECTIVES and not self._nouns.match([head])):
+        if head in lexicon.PICTURES:
+            return None
+        if head in lexicon.ROWS or head in lexicon.COLLECTIVES:
             taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
             taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
             taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
@@ -347,14 +355,16 @@ class PhraseReader:
         holds = known is not None and any(
             self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
         )
-        if inner.kind in ("object", "unknown", "pieces") and any(word in lexicon.PARTITIVES for word in singular):
+        portion = any(word in lexicon.PORTIONS for word in singular)
+        shape = any(word in lexicon.SHAPES for word in singular)
+        if inner.kind in ("object", "unknown", "pieces") and (portion or shape):
             stem = (inner.said or inner.head).split()
             compound = None if holds and inner.kind == "object" else self._nouns.match([*stem, singular[-1]])
             rest = read_modifiers(words[:-1])
             if compound:
                 return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
-            if known is None and inner.kind == "object":
+            if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
                 return replace(inner, plural=plural, count=count, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
             return self._simple(run, count), after

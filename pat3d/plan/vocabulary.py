@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from pat3d.plan.lexing import singulars
+from pat3d.plan.modifiers import is_modifier
 
 
 class Known(Protocol):
@@ -94,6 +95,11 @@ class Nouns:
         last = len(words) - 1
         for size in range(min(4, len(words)), 1, -1):
             if found := self.match(words[-size:]):
+                # "small dog" is a dog that is small even where the vocabulary lists it as a name.
+                while size > 1 and is_modifier(words[-size]) and (plain := self.match(words[1 - size :])):
+                    if plain.noun != found.noun:
+                        break
+                    found, size = plain, size - 1
                 return found, frozenset(range(len(words) - size, len(words)))
         for position in range(last - 1):
             if found := self.match([words[position], words[-1]]):
