@@ -262,31 +262,3 @@ def chess_king(style: Style) -> Build:
     high = style.vary(0.014)
     cross = join(box(0.004, 0.004, high).moved(z=0.087), box(0.012, 0.004, 0.004).moved(z=0.087 + 0.45 * high))
     return finish(style, [(join(turned_solid(profile, 12), cross), style.colour())], mass=0.045)
-
-
-@entry(
-    "trophy",
-    family="toys",
-    synonyms=("cup trophy", "award", "winner's cup"),
-    plurals=("trophies",),
-    material="brass",
-    colours=("gold", "silver"),
-)
-def trophy(style: Style) -> Build:
-    """A two-handled prize cup on a dark foot, 30 cm tall."""
-    colour = style.colour()
-    high = style.vary(0.125)
-    cup = turned_solid([(0.020, 0.120), (0.050, 0.150), (0.062, 0.150 + high * 0.8), (0.066, 0.150 + high)], 12)
-    stem = turned_solid([(0.040, 0.055), (0.014, 0.075), (0.011, 0.110), (0.024, 0.124)], 10)
-    path = [(0.058, 0.0, 0.245), (0.096, 0.0, 0.240), (0.092, 0.0, 0.195), (0.052, 0.0, 0.165)]
-    handle = join(*(limb(a, b, 0.006) for a, b in zip(path, path[1:], strict=False)))
-    foot = box(0.110, 0.110, 0.058)
-    return finish(
-        style,
-        [(join(cup, stem, pair(handle)), colour), (foot, (58, 40, 32))],
-        paint=[
-            (box(0.070, 0.02, 0.026).moved(0.0, -0.058, 0.016), colour),
-            (cylinder(0.058, 0.01).moved(z=0.147 + high), style.shade(colour, 0.45)),
-        ],
-        mass=1.1,
-    )
