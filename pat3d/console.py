@@ -1,0 +1,156 @@
+"""What a person sees in the terminal: progress while it runs, a summary at the end."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pat3d.progress import Event, Progress
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from pat3d.check.proof import Proof
+    from pat3d.report import Report
+    from pat3d.scene import Scene
+
+_QUIET_SECONDS = 10.0
+"""A log that is no terminal hears of a stage in progress at most this often."""
+
+
+def console(*, stderr: bool = False) -> Console:
+    """A console that writes plain text where the stream is no terminal."""
+    from rich.console import Console
+
+    made = Console(stderr=stderr, highlight=False)
+    if not made.is_terminal:
+        made = Console(stderr=stderr, highlight=False, width=120)
+    return made
+
+
+@contextmanager
+def watch(target: Console) -> Iterator[Progress]:
+    """Shows a run's events on `target`: one live line in a terminal, a few plain lines elsewhere."""
+    if target.is_terminal:
+        with target.status("starting") as status:
+            yield _Live(status.update).tell
+    else:
+        yield _Lines(target).tell
+
+
+class _Live:
+    def __init__(self, update) -> None:
+        self._update = update
+        self._start = time.perf_counter()
+        self._last = 0.0
+        self._stage = ""
+
+    def tell(self, event: Event) -> None:
+        now = time.perf_counter()
+        if event.stage == self._stage and now - self._last < 0.1:
+            return
+        self._stage, self._last = event.stage, now
+        self._update(f"{now - self._start:5.1f} s  {_words(event)}", spinner="dots")
+
+
+class _Lines:
+    def __init__(self, target: Console) -> None:
+        self._console = target
+        self._start = self._last = time.perf_counter()
+        self._stage = ""
+
+    def tell(self, event: Event) -> None:
+        now = time.perf_counter()
+        if event.stage == self._stage and now - self._last < _QUIET_SECONDS:
+            return
+        self._stage, self._last = event.stage, now
+        self._console.print(f"{now - self._start:6.1f} s  {_words(event)}", markup=False)
+
+
+def _words(event: Event) -> str:
+    text = event.stage
+    if event.step is not None and event.steps is not None:
+        text += f" {event.step + 1}/{event.steps}"
+    elif event.step:
+        text += f", step {event.step}"
+    if event.motion is not None:
+        text += f", moving {_length(event.motion)}"
+    return f"{text}: {event.detail}" if event.detail else text
+
+
+def _length(metres: float) -> str:
+    """A length in words that fit it."""
+    for limit, factor, unit in ((1e-6, 1e9, "nm"), (1e-3, 1e6, "um"), (1.0, 1e3, "mm")):
+        if metres < limit:
+            return f"{metres * factor:.3g} {unit}"
+    return f"{metres:.3g} m"
+
+
+def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
+    """The table of a scene's objects, and what the checks found."""
+    from rich.table import Table
+
+    drifts = {obj.name: obj for obj in proof.mujoco.objects}
+    gaps: dict[str, float] = {}
+    for gap in proof.penetration.gaps:
+        for name in (gap.first, gap.second):
+            gaps[name] = min(gap.distance, gaps.get(name, gap.distance))
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("object", overflow="fold")
+    table.add_column("rests on", overflow="fold")
+    for title in ("mass kg", "drift mm", "drift deg", "unbalanced", "gap mm"):
+        table.add_column(title, justify="right")
+    for obj in scene.objects:
+        drift = drifts.get(obj.name)
+        residual = proof.certificate.residuals.get(obj.name)
+        table.add_row(
+            obj.name,
+            "fixed" if obj.fixed else scene.parent(obj.name),
+            f"{obj.asset.mass_properties.mass:.3g}",
+            "-" if drift is None else f"{max(drift.centre_mm, drift.origin_mm):.3f}",
+            "-" if drift is None else f"{drift.degrees:.3f}",
+            "-" if residual is None else f"{residual:.0e}",
+            f"{1e3 * gaps[obj.name]:.3f}" if obj.name in gaps else "-",
+        )
+    target.print(table)
+    target.print()
+    held = sum(found.holds for found in proof.relations)
+    least = proof.certificate.smallest_friction
+    lines = (
+        ("equilibrium", proof.certificate.passed,
+         f"unbalanced by at most {proof.certificate.worst:.0e} of the weight at friction "
+         f"{proof.certificate.friction:g}; holds down to {least:.3g}" if least is not None else ""),
+        ("intersections", proof.penetration.passed,
+         f"{len(proof.penetration.hulls)} pairs of hulls, {len(proof.penetration.visuals)} of surfaces; R = "
+         f"{proof.penetration.ratio:.2g}"),
+        ("MuJoCo", proof.mujoco.passed,
+         f"{proof.mujoco.version}, {proof.mujoco.seconds:g} s: at most {proof.mujoco.worst_mm:.3f} mm, "
+         f"{proof.mujoco.worst_degrees:.3f} degrees; {len(proof.mujoco.warnings)} warnings"),
+        ("relations", all(found.holds for found in proof.relations), f"{held} of {len(proof.relations)} hold"),
+    )  # fmt: skip
+    for name, good, text in lines:
+        mark = "[green]pass[/]" if good else "[red]FAIL[/]" if name != "relations" or proof.failures else "note"
+        target.print(f"{mark}  {name}: ", end="")
+        target.print(text, markup=False)
+    for line in proof.unmet:
+        target.print(f"      not met: {line}", markup=False)
+
+
+def show_report(target: Console, report: Report, folder: Path) -> None:
+    """The summary that ends a run."""
+    best = report.best
+    if best.scene is None or best.proof is None:
+        return
+    show_proof(target, best.scene, best.proof)
+    for note in (*report.order.get("notes", ()), *best.notes):
+        target.print(f"note  {note}", markup=False)
+    if len(report.tried) > 1:
+        target.print(f"note  attempt {best.number + 1} of {len(report.tried)} was kept", markup=False)
+    if report.reused:
+        target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
+    target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
+    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png"):
+        target.print(f"  {folder / name}", markup=False, soft_wrap=True)

@@ -1,0 +1,68 @@
+"""Warp, quiet and compiled before it is needed, so that a watcher sees why the first run takes longer."""
+
+from __future__ import annotations
+
+import os
+from importlib import import_module
+from pathlib import Path
+
+from pat3d.errors import SimulationError
+from pat3d.progress import Event, Progress, silent
+
+MODULES = (
+    "pat3d.sim.energies.inertia",
+    "pat3d.sim.energies.orthogonality",
+    "pat3d.sim.solvers.newton",
+    "pat3d.sim.potential",
+    "pat3d.sim.contact.intersection",
+    "pat3d.sim.contact.broad_phase",
+    "pat3d.sim.contact.ccd",
+    "pat3d.sim.energies.contact",
+    "pat3d.sim.energies.friction",
+)
+"""Modules with kernels, quick ones first."""
+
+
+def prepare(device: str, progress: Progress = silent) -> str:
+    """Load every kernel for `device` ("cpu" or "cuda"), compiling what no earlier run has compiled.
+
+    Returns:
+        Warp's name of the device.
+
+    Raises:
+        SimulationError: there is no such device here.
+    """
+    import warp as wp
+
+    # Before the first use of Warp, which prints a banner, and a warning where there is no GPU, otherwise.
+    wp.config.log_level = max(wp.config.log_level, wp.LOG_ERROR)
+    wp.init()
+    known = [str(found.alias) for found in wp.get_devices()]
+    name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
+    if name is None:
+        raise SimulationError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
+    detail = "" if is_warm() else "compiling kernels, once, about a minute"
+    for number, module in enumerate(MODULES):
+        progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))
+        wp.load_module(import_module(module), device=name)
+    return name
+
+
+def cache_folder() -> Path:
+    """Where Warp keeps compiled kernels; it need not exist."""
+    import warp as wp
+
+    wp.config.log_level = max(wp.config.log_level, wp.LOG_ERROR)
+    root = os.environ.get("WARP_CACHE_PATH") or wp.config.kernel_cache_dir
+    if root is None:
+        root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "warp"
+    return Path(root) / wp.config.version
+
+
+def is_warm() -> bool:
+    """Whether every module was compiled by an earlier run (of any version of its kernels)."""
+    try:
+        compiled = [entry.name for entry in cache_folder().iterdir()]
+    except OSError:
+        return False
+    return all(any(name.startswith(f"wp_{module}_") for name in compiled) for module in MODULES)
