@@ -129,7 +129,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
         if id(obj.asset) not in stored:
             stored[id(obj.asset)] = name
             _write_asset(obj.asset, name, assets, folder, as_mesh=id(obj.asset) in flush)
-        body = ET.SubElement(world, "body", name=name, **_placement(obj.pose))
+        body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
         ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
         if not obj.fixed:
             ET.SubElement(body, "freejoint", name=name)
@@ -181,7 +181,7 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
         ("fill", (1.5, -0.6, 1.5), "0.25 0.26 0.28", "false"),
     ):
         position = centre + 2.0 * reach * np.array(offset)
-        ET.SubElement(world, "light", name=name, type="directional", pos=_text(*position),
+        ET.SubElement(world, "light", name=name, directional="true", pos=_text(*position),
                       dir=_text(*(centre - position)), diffuse=diffuse, castshadow=shadow)  # fmt: skip
     # The viewer of the relations: from -y, a little above, looking at the middle of the scene.
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])

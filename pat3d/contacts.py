@@ -59,9 +59,7 @@ class WorldPart:
         """Place `part` at `pose`."""
         self.vertices = pose.apply(part.vertices)
         self.triangles = self.vertices[part.faces]
-        normal = np.cross(
-            self.triangles[:, 1] - self.triangles[:, 0], self.triangles[:, 2] - self.triangles[:, 0]
-        )
+        normal = np.cross(self.triangles[:, 1] - self.triangles[:, 0], self.triangles[:, 2] - self.triangles[:, 0])
         self.normals = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         self.offsets = np.einsum("fi,fi->f", self.normals, self.triangles[:, 0])
         self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
@@ -170,14 +168,10 @@ def _corners(points: NDArray[np.float64], members: NDArray[np.int64], normal: ND
 def _ground_rows(body: int, number: int, part: WorldPart, activation: float) -> list[tuple]:
     touching = part.vertices[part.vertices[:, 2] < activation]
     up = np.array([0.0, 0.0, 1.0])
-    return [
-        ((body, GROUND_INDEX), (number, -1), np.array([x, y, z / 2]), up, z) for x, y, z in touching.tolist()
-    ]
+    return [((body, GROUND_INDEX), (number, -1), np.array([x, y, z / 2]), up, z) for x, y, z in touching.tolist()]
 
 
-def _pair_rows(
-    i: int, first: list[WorldPart], j: int, second: list[WorldPart], activation: float
-) -> list[tuple]:
+def _pair_rows(i: int, first: list[WorldPart], j: int, second: list[WorldPart], activation: float) -> list[tuple]:
     """Contacts between two bodies."""
     rows = []
     for p, a in enumerate(first):

@@ -187,14 +187,15 @@ def _read_json(path: Path) -> Any:
 
 def _validate(document: Any, path: Path) -> None:
     """Check format, version, schema and that every number is finite."""
-    import jsonschema
+    from jsonschema import Draft202012Validator
+    from jsonschema.exceptions import best_match
 
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise SpecError(f'{path}: not a PAT3D scene ("format" must be "{FORMAT}").')
     version = document.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise SpecError(f"{path}: written in format version {version}; this PAT3D reads {VERSION}. Upgrade pat3d.")
-    error = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(SCENE_SCHEMA).iter_errors(document))
+    error = best_match(Draft202012Validator(SCENE_SCHEMA).iter_errors(document))
     if error is not None:
         message = error.message if len(error.message) < 200 else error.message[:200] + " ..."
         raise SpecError(f"{path}: {_place(error.absolute_path)}: {message}.")
@@ -312,7 +313,9 @@ def _mass(entry: Mapping[str, Any], place: str) -> MassProperties:
     if np.abs(inertia - inertia.T).max() > 1e-9 * np.abs(inertia).max() or moments[0] <= 0:
         raise SpecError(f"{place}.inertia: must be symmetric and positive definite.")
     if moments[2] > (moments[0] + moments[1]) * (1 + 1e-6):
-        raise SpecError(f"{place}.inertia: no body has principal moments {moments}; the largest exceeds the others' sum.")
+        raise SpecError(
+            f"{place}.inertia: no body has principal moments {moments}; the largest exceeds the others' sum."
+        )
     return MassProperties(
         mass=float(entry["mass"]),
         volume=float(entry["volume"]),

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -125,7 +126,7 @@ class _Problem:
         self.weight = np.array([obj.asset.mass_properties.mass * GRAVITY for obj in scene.objects])
         self.size = np.array([float(obj.asset.size.max()) for obj in scene.objects])
         self.groups = [
-            (bodies, contacts.pick(np.isin(contacts.bodies, bodies).any(axis=1)))
+            (bodies, contacts.pick(np.flatnonzero(np.isin(contacts.bodies, bodies).any(axis=1))))
             for bodies in _groups(free, contacts)
         ]
 
@@ -168,9 +169,7 @@ class _Problem:
         # One unit of force is the load of the lighter body of a contact, so that pens on a table stay visible.
         wrench = np.zeros((6 * len(bodies), 3 * len(contacts)))
         unit = np.array([min(self.weight[b] for b in pair if b in rows) for pair in contacts.bodies.tolist()])
-        for k, (pair, point, frame) in enumerate(
-            zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)
-        ):
+        for k, (pair, point, frame) in enumerate(zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)):
             for body, sign in zip(pair, (1.0, -1.0), strict=True):
                 if body not in rows:
                     continue
@@ -203,9 +202,9 @@ def _groups(free: list[int], contacts: Contacts) -> list[list[int]]:
 def _frames(normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotation of every contact with columns (normal, tangent, tangent), shape (contacts, 3, 3)."""
     axis = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    first = np.cross(normals, axis)
+    first = np.asarray(np.cross(normals, axis), dtype=np.float64)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack([normals, first, np.cross(normals, first)], axis=2)
+    return np.asarray(np.stack([normals, first, np.cross(normals, first)], axis=2), dtype=np.float64)
 
 
 def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: float) -> NDArray[np.float64] | None:
@@ -214,9 +213,9 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
     Variables are the forces and the bound t; the cones are |f_tangent| <= friction f_normal for every contact and
     |residual| <= t for the force and the torque of every body.
     """
-    import clarabel
     from scipy import sparse
 
+    clarabel: Any = import_module("clarabel")
     count, rows = wrench.shape[1] // 3, wrench.shape[0]
     scale = sparse.diags(np.tile([friction, 1.0, 1.0], count)) if friction > 0 else None
     if scale is None:
@@ -230,8 +229,8 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
         residual[4 * block, -1] = -1.0
         residual[4 * block + 1 : 4 * block + 4, :-1] = -wrench[3 * block : 3 * block + 3]
         target[4 * block + 1 : 4 * block + 4] = gravity[3 * block : 3 * block + 3]
-    height = cone_block.shape[0]
-    matrix = sparse.vstack(
+    height = count if scale is None else 3 * count
+    matrix: Any = sparse.vstack(
         [sparse.hstack([-cone_block, sparse.csc_matrix((height, 1))]), residual.tocsc()], format="csc"
     )
     cones = [*cones, *([clarabel.SecondOrderConeT(4)] * (rows // 3))]
@@ -242,7 +241,12 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
     settings.verbose = False
     settings.max_iter = 100
     solution = clarabel.DefaultSolver(
-        sparse.csc_matrix((width, width)), objective, matrix, np.concatenate([np.zeros(height), target]), cones, settings
+        sparse.csc_matrix((width, width)),
+        objective,
+        matrix,
+        np.concatenate([np.zeros(height), target]),
+        cones,
+        settings,
     ).solve()
     found = np.asarray(solution.x)[:-1]
     if not np.isfinite(found).all():
@@ -259,4 +263,3 @@ def _inside_cones(forces: NDArray[np.float64], friction: float) -> NDArray[np.fl
     size = np.linalg.norm(tangent, axis=1)
     shrink = np.minimum(1.0, friction * normal / np.maximum(size, 1e-300))
     return np.column_stack([normal, tangent * shrink[:, None]])
-

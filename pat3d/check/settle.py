@@ -1,10 +1,11 @@
-"""Does the written scene stay still? MuJoCo loads it as any user would, runs it, and every object's drift is measured."""
+"""Does the written scene stay still? MuJoCo loads it as any user would, runs it, and every drift is measured."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -60,9 +61,7 @@ class SettleReport:
     def moved(self, *, mm: float = 1.0, degrees: float = 1.0) -> tuple[ObjectDrift, ...]:
         """The objects that strayed by `mm` or `degrees` or more (or to nowhere)."""
         return tuple(
-            obj
-            for obj in self.objects
-            if not (obj.centre_mm < mm and obj.origin_mm < mm and obj.degrees < degrees)
+            obj for obj in self.objects if not (obj.centre_mm < mm and obj.origin_mm < mm and obj.degrees < degrees)
         )
 
     @property
@@ -85,8 +84,7 @@ def settle_in_mujoco(mjcf_path: str | Path, seconds: float = 5.0) -> SettleRepor
     Raises:
         CheckError: MuJoCo refuses the file; the message is MuJoCo's.
     """
-    import mujoco
-
+    mujoco: Any = import_module("mujoco")
     messages: list[str] = []
     before = mujoco.get_mju_user_warning()
     # Without a handler MuJoCo appends its warnings to a log file in the working directory.
@@ -125,7 +123,7 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrif
     origin, centre, quat = data.xpos[bodies].copy(), data.xipos[bodies].copy(), data.xquat[bodies].copy()
     worst = np.zeros((3, len(bodies)))
     left = max(1, round(seconds / model.opt.timestep))
-    while left > 0 and len(bodies):
+    while left > 0:
         mujoco.mj_step(model, data, nstep=min(SAMPLE_STEPS, left))
         left -= SAMPLE_STEPS
         # The positions that a step leaves behind lag half a step; the joint state does not.

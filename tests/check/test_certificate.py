@@ -1,0 +1,142 @@
+import math
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pat3d.assets.shapes import box, cylinder, vessel
+from pat3d.check.certificate import FRICTION_STEP, TOLERANCE, certify, smallest_friction
+from pat3d.errors import CheckError
+from pat3d.scene import Pose
+from tests.scenes import GAP, asset_of, placed, scene_of, tower
+
+
+def _on_slope(degrees: float):
+    """A block on a fixed ramp."""
+    turn = Rotation.from_euler("y", degrees, degrees=True)
+
+    def pose(x, y, z):
+        return Pose.from_matrix(turn.as_matrix(), turn.apply([x, y, z]) + (0, 0, 1))
+
+    return scene_of(
+        placed("ramp", asset_of(box(1, 1, 0.2)), pose=pose(0, 0, 0), fixed=True),
+        placed("block", asset_of(box(0.05, 0.05, 0.02)), pose=pose(0, 0, 0.2 + GAP)),
+    )
+
+
+@pytest.mark.parametrize("degrees", [5, 20, 35])
+def test_a_block_holds_on_a_slope_from_the_tangent_of_its_angle(degrees):
+    scene = _on_slope(degrees)
+    least = math.tan(math.radians(degrees))
+    assert certify(scene, friction=least * 1.001).passed
+    assert not certify(scene, friction=least * 0.98).passed
+    assert smallest_friction(scene) == pytest.approx(least, abs=FRICTION_STEP)
+
+
+def test_the_residual_below_the_slope_is_the_force_that_is_missing():
+    """Sliding without friction on 30 degrees leaves g sin(30) along the slope; the least residual is that distance."""
+    certificate = certify(_on_slope(30), friction=0.0)
+    assert certificate.worst == pytest.approx(0.5, abs=1e-6)
+    assert certificate.unbalanced == ("block",)
+
+
+def test_a_tower_needs_no_friction():
+    assert smallest_friction(tower(8)) == 0.0
+    assert certify(tower(8), friction=0.0).worst < 1e-6
+
+
+@pytest.mark.parametrize(("factor", "stands"), [(0.99, True), (1.02, False)])
+def test_bricks_overhang_up_to_the_harmonic_limit(factor, stands):
+    """The k-th brick from the top of a pile may jut out by L / 2k."""
+    length, height, count = 0.2, 0.05, 5
+    asset = asset_of(box(length, 0.1, height))
+    x, objects = 0.0, []
+    for level in range(count):
+        objects.append(placed(f"brick {level}", asset, (x, 0, GAP + level * (height + GAP))))
+        x += factor * length / (2 * (count - 1 - level)) if level < count - 1 else 0.0
+    assert certify(scene_of(*objects), friction=0.2).passed is stands
+
+
+@pytest.mark.parametrize("degrees", [50, 65])
+def test_a_plank_leans_on_a_wall_from_the_friction_of_the_ladder_formula(degrees):
+    length, thickness = 0.5, 0.02
+    angle = math.radians(degrees)
+    turn = Rotation.from_euler("y", -degrees, degrees=True)
+    plank = asset_of(box(length, 0.1, thickness).moved(x=length / 2))
+    reach = length * math.cos(angle)
+    scene = scene_of(
+        placed("plank", plank, pose=Pose.from_matrix(turn.as_matrix(), np.array([0.0, 0.0, GAP]))),
+        placed("wall", asset_of(box(0.1, 1, 1)), (reach + GAP + 0.05, 0, 0), fixed=True),
+    )
+    # Both contacts slip at once: x_c (1 + mu^2) = mu L (mu cos + sin), with the centre of mass at x_c.
+    centre = reach / 2 - thickness / 2 * math.sin(angle)
+    least = min(root for root in np.roots([centre - reach, -length * math.sin(angle), centre]).real if root > 0)
+    assert smallest_friction(scene) == pytest.approx(least, abs=2 * FRICTION_STEP)
+
+
+def test_lifting_one_object_by_5_mm_convicts_it_and_only_it():
+    scene = tower(4)
+    top = scene.objects[-1]
+    raised = replace(top, pose=Pose(position=(0, 0, top.pose.position[2] + 0.005)))
+    certificate = certify(replace(scene, objects=(*scene.objects[:-1], raised)))
+    assert certificate.unbalanced == ("box 4",)
+    assert certificate.residuals["box 4"] == 1.0
+
+
+def test_taking_away_the_middle_of_a_tower_convicts_what_stood_on_it():
+    scene = tower(4)
+    certificate = certify(replace(scene, objects=(scene.objects[0], *scene.objects[2:])))
+    assert set(certificate.unbalanced) == {"box 3", "box 4"}
+
+
+def test_a_block_with_its_centre_beyond_the_edge_is_convicted_and_a_fixed_one_is_not():
+    table, block = asset_of(box(0.4, 0.4, 0.05)), asset_of(box(0.1, 0.1, 0.1))
+
+    def scene(x, fixed=False):
+        return scene_of(
+            placed("table", table, (0, 0, GAP)), placed("block", block, (x, 0, 0.05 + 2 * GAP), fixed=fixed)
+        )
+
+    assert certify(scene(0.199)).passed
+    assert not certify(scene(0.201)).passed
+    assert list(certify(scene(0.201, fixed=True)).residuals) == ["table"]
+
+
+def test_light_objects_count_as_much_as_heavy_ones():
+    """A floating 2 g cup beside a 20 kg table is found, and the certificate says how bad in units of its own weight."""
+    table = asset_of(box(1, 1, 0.03))
+    cup = asset_of(vessel([(0.02, 0), (0.025, 0.04)], [(0.0195, 0.0005), (0.0245, 0.04)], segments=12))
+    standing = scene_of(placed("table", table, (0, 0, GAP)), placed("cup", cup, (0.2, 0, 0.03 + 2 * GAP)))
+    assert certify(standing).passed
+    floating = scene_of(placed("table", table, (0, 0, GAP)), placed("cup", cup, (0.2, 0, 0.031)))
+    assert certify(floating).unbalanced == ("cup",)
+
+
+def test_twenty_bodies_take_under_a_second():
+    cylinder_asset = asset_of(cylinder(0.03, 0.05))
+    objects = [placed("table", asset_of(box(1, 1, 0.03)), (0, 0, GAP))]
+    rng = np.random.default_rng(0)
+    for k in range(20):
+        column, level = k % 4, k // 4
+        position = (0.2 * column - 0.3, *rng.uniform(-0.005, 0.005, 1), 0.03 + 2 * GAP + level * (0.05 + GAP))
+        objects.append(placed(f"can {k}", cylinder_asset, pose=Pose.from_yaw(rng.uniform(0, 6), position)))
+    start = time.perf_counter()
+    certificate = certify(scene_of(*objects))
+    assert certificate.passed
+    assert certificate.worst < TOLERANCE / 10
+    assert certificate.contacts > 300
+    assert time.perf_counter() - start < 3.0  # 0.4 s on an idle core.
+
+
+def test_friction_must_be_a_number():
+    with pytest.raises(CheckError, match="friction"):
+        certify(tower(1), friction=float("nan"))
+
+
+def test_an_overhanging_object_alone_has_no_smallest_friction():
+    asset = asset_of(box(0.1, 0.1, 0.1))
+    scene = scene_of(placed("hovering", asset, (0, 0, 1)))
+    assert math.isinf(smallest_friction(scene))
+    assert certify(scene, margin=True).as_dict()["smallest_friction"] is None

@@ -1,0 +1,190 @@
+import os
+import xml.etree.ElementTree as ET
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pat3d.assets.catalogue import make
+from pat3d.assets.shapes import box, cylinder, ellipsoid, join, vessel
+from pat3d.errors import ExportError
+from pat3d.exporters.mjcf import body_names, write_mjcf
+from pat3d.scene import Pose
+from tests.scenes import GAP, asset_of, placed, scene_of, tower
+
+
+def _lopsided():
+    """A pencil-like asset of 2 g whose principal axes are none of the frame's."""
+    pencil = join(cylinder(0.0035, 0.17), box(0.02, 0.004, 0.01)).turned("y", 70).turned("z", 20).moved(z=0.05)
+    return asset_of(pencil)
+
+
+@pytest.fixture
+def scene():
+    rng = np.random.default_rng(1)
+    quat = tuple(Rotation.random(random_state=rng).as_quat(scalar_first=True))
+    mug = asset_of(vessel([(0.03, 0), (0.04, 0.09)], [(0.026, 0.006), (0.036, 0.09)]))
+    return scene_of(
+        placed("wooden table", asset_of(box(0.8, 0.5, 0.04)), (0, 0, GAP), fixed=True),
+        placed("red mug 1", mug, (0.1, 0, 0.04 + 2 * GAP)),
+        placed("red mug 2", mug, (-0.1, 0.1, 0.04 + 2 * GAP)),
+        placed("pencil & <co>", _lopsided(), pose=Pose(position=(0.3, 0.2, 0.4), quat_wxyz=quat)),  # type: ignore[arg-type]
+        placed("ball", make("ball"), (0, -0.2, 0.3)),
+    )
+
+
+@pytest.fixture
+def model(scene, tmp_path):
+    return mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "mjcf")))
+
+
+def test_mass_centre_and_inertia_reload_to_rounding(scene, model):
+    for obj in scene.objects:
+        body = model.body(body_names(scene)[obj.name])
+        properties = obj.asset.mass_properties
+        axes = Rotation.from_quat(body.iquat, scalar_first=True).as_matrix()
+        inertia = axes @ np.diag(body.inertia) @ axes.T
+        assert np.isclose(body.mass[0], properties.mass, rtol=1e-12)
+        np.testing.assert_allclose(body.ipos, properties.centre_of_mass, atol=1e-12)
+        np.testing.assert_allclose(inertia, properties.inertia, atol=1e-9 * np.abs(properties.inertia).max())
+
+
+def test_hull_vertices_are_in_the_world_where_the_scene_has_them(scene, model):
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    checked = 0
+    for obj in scene.objects:
+        name = body_names(scene)[obj.name]
+        for number, part in enumerate(obj.asset.parts):
+            geom = model.geom(f"{name}/part_{number:03d}")
+            expected = obj.pose.apply(part.vertices)
+            rotation = data.geom_xmat[geom.id].reshape(3, 3)
+            if geom.type[0] == mujoco.mjtGeom.mjGEOM_BOX:
+                signs = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
+                local = signs * geom.size
+                tolerance = 1e-12
+            else:
+                mesh = geom.dataid[0]
+                start, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+                local = model.mesh_vert[start : start + count].astype(np.float64)
+                tolerance = 1e-7  # MuJoCo keeps mesh vertices in single precision.
+            found = local @ rotation.T + data.geom_xpos[geom.id]
+            assert len(found) == len(expected)
+            distance = np.linalg.norm(found[:, None] - expected[None], axis=2)
+            assert distance.min(axis=0).max() < tolerance
+            checked += 1
+    assert checked == sum(len(obj.asset.parts) for obj in scene.objects)
+
+
+def test_boxes_are_box_primitives_and_the_rest_are_meshes(scene, model):
+    assert model.geom("wooden_table/part_000").type[0] == mujoco.mjtGeom.mjGEOM_BOX
+    assert model.geom("red_mug_1/part_000").type[0] == mujoco.mjtGeom.mjGEOM_MESH
+
+
+def test_only_collision_geoms_collide_and_only_they_are_in_group_3(scene, model):
+    for geom in map(model.geom, range(model.ngeom)):
+        visual = geom.name.endswith("/visual")
+        assert bool(geom.contype[0]) == bool(geom.conaffinity[0]) == (not visual)
+        assert geom.group[0] == (3 if not visual else 0 if geom.name == "ground/visual" else 2)
+
+
+def test_keyframe_and_body_poses_agree(scene, model):
+    data = mujoco.MjData(model)
+    start = data.qpos.copy()
+    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
+    np.testing.assert_array_equal(data.qpos, start)
+    for obj in scene.objects:
+        if not obj.fixed:
+            address = model.jnt_qposadr[model.joint(body_names(scene)[obj.name]).id]
+            np.testing.assert_allclose(start[address : address + 3], obj.pose.position, atol=0)
+            np.testing.assert_allclose(start[address + 3 : address + 7], obj.pose.quat_wxyz, atol=1e-15)
+
+
+def test_fixed_objects_have_no_joint(scene, model):
+    assert model.body("wooden_table").dofnum[0] == 0
+    assert model.nv == 6 * 4
+
+
+def test_contact_settings_are_the_measured_ones(model):
+    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert (model.opt.impratio, model.opt.timestep) == (10, 0.002)
+    assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_MULTICCD
+    geom = model.geom("red_mug_1/part_000")
+    np.testing.assert_allclose(geom.solref, (0.004, 1))
+    np.testing.assert_allclose(geom.solimp[:3], (0.99, 0.999, 0.0001))
+    assert geom.friction[0] == 0.5
+
+
+def test_mujoco_adds_the_margins_of_a_pair():
+    """The exporter splits the gap of a pair over its two bodies; an engine that took the larger would drop them."""
+    xml = """<mujoco><worldbody><geom type="sphere" size="1" margin="0.1"/>
+      <body pos="0 0 2.15"><freejoint/><geom type="sphere" size="1" margin="0.1"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert data.ncon == 1
+    assert data.contact.includemargin[0] == pytest.approx(0.2)
+
+
+def test_margins_cover_the_gaps_of_every_supporting_pair(tmp_path):
+    """Two bodies 20 um apart under load feel each other in the first step."""
+    model = mujoco.MjModel.from_xml_path(str(write_mjcf(tower(4), tmp_path / "m")))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    pairs = {tuple(sorted(model.geom_bodyid[pair])) for pair in data.contact.geom[data.contact.efc_address >= 0]}
+    assert pairs == {(0, 1), (1, 2), (2, 3), (3, 4)}
+    assert max(data.contact.includemargin) < 2 * GAP
+
+
+def test_flush_boxes_become_meshes_and_offset_ones_stay_boxes(tmp_path):
+    assert 'type="box" pos' not in write_mjcf(tower(2), tmp_path / "flush").read_text().split("<body", 1)[1]
+    asset = asset_of(box(0.06, 0.06, 0.06))
+    offset = scene_of(placed("a", asset, (0, 0, GAP)), placed("b", asset, (1e-4, 2e-4, 0.06 + 2 * GAP)))
+    assert 'type="mesh"' not in write_mjcf(offset, tmp_path / "offset").read_text().split("<body", 1)[1].replace(
+        'class="visual"', ""
+    )
+
+
+def test_it_loads_from_any_working_directory_after_being_moved(scene, tmp_path, monkeypatch):
+    write_mjcf(scene, tmp_path / "here")
+    os.rename(tmp_path / "here", tmp_path / "there")
+    monkeypatch.chdir("/")
+    mujoco.MjModel.from_xml_path(str(tmp_path / "there" / "scene.xml"))
+    monkeypatch.chdir(tmp_path / "there")
+    mujoco.MjModel.from_xml_path("scene.xml")
+
+
+def test_shared_assets_are_written_once(scene, tmp_path):
+    path = write_mjcf(scene, tmp_path / "m")
+    assert sorted(os.listdir(path.parent / "meshes")) == ["ball", "pencil_co", "red_mug_1", "wooden_table"]
+    assert ET.parse(path).find(".//body[@name='red_mug_2']/geom").get("mesh") == "red_mug_1/visual"  # type: ignore[union-attr]
+
+
+def test_texture_and_normals_reach_mujoco(model):
+    mesh = model.mesh("red_mug_1/visual")
+    assert model.mesh_texcoordadr[mesh.id] >= 0
+    assert model.mat_texid[model.material("red_mug_1").id].max() >= 0
+
+
+def test_writing_again_replaces_the_export_and_other_folders_are_refused(scene, tmp_path):
+    write_mjcf(scene, tmp_path / "m")
+    path = write_mjcf(tower(2), tmp_path / "m")
+    assert os.listdir(path.parent / "meshes") == ["box_1"]
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.tex").write_text("")
+    with pytest.raises(ExportError, match="not empty"):
+        write_mjcf(scene, tmp_path / "mine")
+    assert os.listdir(tmp_path / "mine") == ["thesis.tex"]
+    assert sorted(os.listdir(tmp_path)) == ["m", "mine"]
+
+
+def test_a_table_top_ball_of_a_gram_keeps_its_inertia(tmp_path):
+    """Inertias of 1e-8 kg m^2, where MuJoCo's own diagonalisation of fullinertia would stop short."""
+    asset = asset_of(ellipsoid(0.004, 0.006, 0.02).turned("x", 33).turned("z", 50).moved(z=0.03))
+    model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene_of(placed("bean", asset)), tmp_path / "m")))
+    axes = Rotation.from_quat(model.body("bean").iquat, scalar_first=True).as_matrix()
+    inertia = axes @ np.diag(model.body("bean").inertia) @ axes.T
+    expected = np.array(asset.mass_properties.inertia)
+    np.testing.assert_allclose(inertia, expected, atol=1e-9 * expected.max())
