@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
+from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.drop import clear, fall
 from pat3d.layout.group import Group, yaw_matrix
@@ -22,8 +23,12 @@ from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
 
 CELLS = 36
 """Positions tried across the cavity."""
-CENTRING = 0.05
+COARSEST = 90
+"""Cells across twice the reach of the largest thing to place, so that large things in small cavities stay cheap."""
+CENTRING = 0.03
 """Height [m] that one metre off the cavity's axis costs when places are ranked."""
+BALANCING = 0.1
+"""The same for the common centre of mass of everything inside, so that light containers do not tip."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +78,7 @@ def pack(
     obstacles: Sequence[Placed],
     rng: np.random.Generator,
     gap: float,
+    steady: bool = False,
 ) -> list[Group]:
     """Place every group inside the container's cavity.
 
@@ -83,6 +89,7 @@ def pack(
         obstacles: further bodies in the way.
         rng: orders equal places.
         gap: distance kept from everything [m].
+        steady: whether to accept only places where nothing tips: there are no walls to lean on.
 
     Raises:
         LayoutError: one is larger than the cavity, or the cavity is full.
@@ -91,100 +98,137 @@ def pack(
     refusals = []
     # Large before small packs densest; small below large lets the large ones form the heap's top.
     for order in (bulky, bulky[::-1]):
-        placed: list[Group] = []
-        settled = [container, *obstacles]
+        heap = _Heap(container, column, obstacles, reach=max(_reach(group) for group in order), gap=gap, steady=steady)
         for group in order:
-            found = _best_place(container, column, group, settled, heap=bool(placed), rng=rng, gap=gap)
+            found = next(
+                (
+                    found
+                    for rotations in (orientations(group, column, rng), other_faces(group, rng))
+                    if (found := heap.place(group, list(rotations), rng)) is not None
+                ),
+                None,
+            )
             if found is None:
-                refusals.append(_refusal(container, column, group, [other.name for other in placed]))
+                refusals.append(_refusal(container, column, group, [other.name for other in heap.placed]))
                 break
-            placed.append(found)
-            settled.extend(found.members)
+            heap.add(found)
         else:
-            return placed
-        if not placed:
+            return heap.placed
+        if not heap.placed:
             break
     raise refusals[-1]
 
 
-def _best_place(
-    container: Placed,
-    column: Column,
-    group: Group,
-    settled: list[Placed],
-    *,
-    heap: bool,
-    rng: np.random.Generator,
-    gap: float,
-) -> Group | None:
-    for rotations in (list(orientations(group, column, rng)), list(other_faces(group, rng))):
-        found = _best_turned(container, column, group, rotations, settled, heap=heap, rng=rng, gap=gap)
-        if found is not None:
-            return found
-    return None
+def _reach(group: Group) -> float:
+    """Largest distance of the group from its root's origin [m]."""
+    return max(float(np.linalg.norm(member.vertices, axis=1).max()) for member in group.members)
 
 
-def _best_turned(
-    container: Placed,
-    column: Column,
-    group: Group,
-    rotations: list[Array],
-    settled: list[Placed],
-    *,
-    heap: bool,
-    rng: np.random.Generator,
-    gap: float,
-) -> Group | None:
-    cell = float(2 * column.reach.max() / CELLS)
-    counts = np.maximum(1, np.round(2 * column.reach / cell).astype(int))
-    corner = column.centre[:2] - cell * (counts - 1) / 2
-    x, y = (corner[k] + cell * np.arange(counts[k]) for k in range(2))
-    spots = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
-    ranked: list[tuple[float, int, Group, Array]] = []
-    for turned in (group.turned(rotation) for rotation in rotations):
-        low, high = turned.low, turned.high
-        centre = turned.centre_of_mass
-        before = np.ceil((-low[:2] + gap + cell) / cell).astype(int)
-        after = np.ceil((high[:2] + gap + cell) / cell).astype(int)
+class _Heap:
+    """What is in the container so far, its height map, and the search for the next place."""
+
+    def __init__(
+        self,
+        container: Placed,
+        column: Column,
+        obstacles: Sequence[Placed],
+        *,
+        reach: float,
+        gap: float,
+        steady: bool,
+    ) -> None:
+        self.container, self.column, self.gap, self.steady = container, column, gap, steady
+        self.placed: list[Group] = []
+        self.settled = [container, *obstacles]
+        self.cell = max(float(2 * column.reach.max()) / CELLS, 2 * reach / COARSEST)
+        self.counts = np.maximum(1, np.round(2 * column.reach / self.cell).astype(int))
+        self.corner = column.centre[:2] - self.cell * (self.counts - 1) / 2
+        x, y = (self.corner[k] + self.cell * np.arange(self.counts[k]) for k in range(2))
+        self.spots = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+        """Positions tried for the root's origin [m], shape (columns, rows, 2)."""
+        self.border = int(np.ceil((reach + gap) / self.cell)) + 2
+        """Cells of the height map around the spots."""
+        columns, rows = (int(count) + 2 * self.border for count in self.counts)
+        self.top = np.full((columns, rows), -np.inf)
+        self._raise(self.settled)
+
+    def add(self, group: Group) -> None:
+        """Count `group` among what is settled."""
+        self.placed.append(group)
+        self.settled.extend(group.members)
+        self._raise(group.members)
+
+    def place(self, group: Group, rotations: Sequence[Array], rng: np.random.Generator) -> Group | None:
+        """`group` at the lowest place found over all `rotations`, or None."""
+        ranked: list[tuple[float, int, Group, Array]] = []
+        for rotation in rotations:
+            turned = group.turned(rotation)
+            heights, cost = self._survey(turned, rng)
+            for index in np.argsort(cost, axis=None)[: 60 if self.steady else 3 : 4 if self.steady else 1]:
+                i, j = np.unravel_index(index, cost.shape)
+                if np.isfinite(cost[i, j]):
+                    spot = np.array([*self.spots[i, j], heights[i, j]])
+                    ranked.append((float(cost[i, j]), len(ranked), turned, spot))
+        best: tuple[float, Group] | None = None
+        for attempt, (_, _, turned, spot) in enumerate(sorted(ranked, key=lambda item: item[:2])):
+            if attempt >= (40 if self.steady else 16) or (attempt >= 3 and best is not None):
+                break
+            lowered = lower(turned, spot, self.settled, floor=float(self.container.low[2]), gap=self.gap)
+            if lowered is None or not self._deep_enough(np.array(lowered.low[2]), lowered):
+                continue
+            if self.steady and support_margin(lowered, self.settled, gap=self.gap) <= 0.0:
+                continue
+            energy = float(lowered.centre_of_mass[2])
+            if best is None or energy < best[0]:
+                best = energy, lowered
+        return None if best is None else best[1]
+
+    def _survey(self, turned: Group, rng: np.random.Generator) -> tuple[Array, Array]:
+        """Resting height [m] and cost of every spot for one orientation; costs are inf where it may not go."""
+        low, high, centre = turned.low, turned.high, turned.centre_of_mass
+        before = np.ceil((-low[:2] + self.gap + self.cell) / self.cell).astype(int)
+        after = np.ceil((high[:2] + self.gap + self.cell) / self.cell).astype(int)
         shape = tuple(before + after + 1)
-        underside = bottom_map(turned.members, -cell * before, cell, shape, gap + cell / 2)
-        span = tuple(counts + np.array(shape) - 1)
-        top = top_map(settled, corner - cell * before, cell, span, cell / 2)
-        heights = np.maximum(resting_heights(top, underside), container.low[2] - low[2]) + gap
-        lowest = heights + low[2]
-        allowed = column.holds(spots + centre[:2], 0.95 if not heap else 0.85)
-        allowed &= _deep_enough(lowest, turned, column, heap)
-        if column.capped:
-            allowed &= heights + high[2] + gap < column.rim
-        if not allowed.any():
-            continue
-        off_axis = np.linalg.norm(spots + centre[:2] - column.centre[:2], axis=-1)
-        cost = heights + centre[2] + CENTRING * off_axis + 1e-4 * rng.random(heights.shape)
-        cost = np.where(allowed, cost, np.inf)
-        for index in np.argsort(cost, axis=None)[:3]:
-            i, j = np.unravel_index(index, cost.shape)
-            if np.isfinite(cost[i, j]):
-                spot = np.array([*spots[i, j], heights[i, j]])
-                ranked.append((float(cost[i, j]), len(ranked), turned, spot))
-    best: tuple[float, Group] | None = None
-    for attempt, (_, _, turned, spot) in enumerate(sorted(ranked, key=lambda item: item[:2])):
-        if attempt >= 16 or (attempt >= 3 and best is not None):
-            break
-        lowered = lower(turned, spot, settled, floor=float(container.low[2]), gap=gap)
-        if lowered is None or not _deep_enough(np.array(lowered.low[2]), lowered, column, heap):
-            continue
-        energy = float(lowered.centre_of_mass[2])
-        if best is None or energy < best[0]:
-            best = energy, lowered
-    return None if best is None else best[1]
+        underside = bottom_map(turned.members, -self.cell * before, self.cell, shape, self.gap + self.cell / 2)
+        # What is above everything even when the body stands on the floor never decides its height.
+        underside[underside > low[2] + float(self.top.max()) - self.container.low[2]] = np.inf
+        (i, j), (m, n) = self.border - before, self.counts + np.array(shape) - 1
+        heights = resting_heights(self.top[i : i + m, j : j + n], underside)
+        heights = np.maximum(heights, self.container.low[2] - low[2]) + self.gap
+        reach = self.spots + centre[:2]
+        allowed = self.column.holds(reach, 0.85 if self.placed else 0.95)
+        allowed &= self._deep_enough(heights + low[2], turned)
+        if self.steady:
+            # Not beside what carries.
+            allowed &= heights + low[2] > self.container.low[2] + 2 * self.gap
+        if self.column.capped:
+            allowed &= heights + high[2] + self.gap < self.column.rim
+        off_axis = np.linalg.norm(reach - self.column.centre[:2], axis=-1)
+        cost = heights + centre[2] + CENTRING * off_axis + BALANCING * self._imbalance(turned, reach)
+        cost += 1e-4 * rng.random(heights.shape)
+        return heights, np.where(allowed, cost, np.inf)
 
+    def _imbalance(self, turned: Group, reach: Array) -> Array:
+        """How far off the axis the common centre of mass of the contents would be [m]."""
+        moment, mass = np.zeros(2), 0.0
+        for member in (member for group in self.placed for member in group.members):
+            own = member.body.asset.mass_properties.mass
+            moment, mass = moment + own * (member.centre_of_mass[:2] - self.column.centre[:2]), mass + own
+        own = sum(member.body.asset.mass_properties.mass for member in turned.members)
+        return np.linalg.norm((moment + own * (reach - self.column.centre[:2])) / (mass + own), axis=-1)
 
-def _deep_enough(lowest: Array, group: Group, column: Column, heap: bool) -> NDArray[np.bool_]:
-    """Whether a body with its lowest point at `lowest` [m] is in the cavity, or on a heap that stays in it."""
-    inside = lowest <= column.rim - 0.25 * column.height
-    if heap and not column.capped and group.size[:2].max() <= 2.1 * column.half_size.max():
-        inside |= lowest <= column.rim + 0.5 * float(group.size[2])
-    return inside
+    def _deep_enough(self, lowest: Array, group: Group) -> NDArray[np.bool_]:
+        """Whether a body with its lowest point at `lowest` [m] is in the cavity, or on a heap that stays in it."""
+        column = self.column
+        inside = lowest <= column.rim - 0.25 * column.height
+        if self.placed and not column.capped and group.size[:2].max() <= 2.1 * column.half_size.max():
+            inside |= lowest <= column.rim + 0.5 * float(group.size[2])
+        return inside
+
+    def _raise(self, bodies: Sequence[Placed]) -> None:
+        origin = self.corner - self.cell * self.border
+        columns, rows = (int(count) + 2 * self.border for count in self.counts)
+        np.maximum(self.top, top_map(bodies, origin, self.cell, (columns, rows), self.cell / 2), out=self.top)
 
 
 def lower(group: Group, spot: Array, settled: Sequence[Placed], *, floor: float, gap: float) -> Group | None:
@@ -214,7 +258,7 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
         yield yaw_matrix(yaw)
     if upright or long < 2.2 * wide:
         return
-    on_end = _onto_end(group, int(order[2]), _wide_end(group.root, int(order[2])))
+    on_end = _onto_end(group, int(order[2]), _upper_end(group.root, int(order[2]), column.height))
     steepest = min(math.atan2(max(0.0, 2 * column.half_size.min() - 1.2 * wide), column.height), math.radians(50))
     spins = (0.0, math.pi / 2) if thin < 0.6 * wide else (0.0,)
     for share in (1.0, 0.85, 0.6, 0.0):
@@ -243,18 +287,23 @@ def _onto_end(group: Group, axis: int, end: float) -> Array:
     return _about("y", -end * math.pi / 2) if axis == 0 else _about("x", end * math.pi / 2)
 
 
-def _wide_end(body: Placed, axis: int) -> float:
-    """Which end (+1 or -1) of a long thing is wider: brush heads, spoon bowls and scissor handles belong up."""
+def _upper_end(body: Placed, axis: int, deep: float) -> float:
+    """Which end (+1 or -1) of a long thing belongs up in a cavity `deep` [m].
+
+    The wider one (brush heads, spoon bowls, scissor handles), unless the centre of mass would then stand above the
+    rim and the thing could fall out.
+    """
     along = body.vertices[:, axis]
     across = np.delete(body.vertices, axis, axis=1)
     middle = (along.min() + along.max()) / 2
+    heavy = float(body.centre_of_mass[axis]) - middle
     reach = 0.25 * (along.max() - along.min())
     top, bottom = (
         float(np.prod(np.ptp(across[end * (along - middle) >= reach], axis=0) + 1e-6)) for end in (1.0, -1.0)
     )
-    if axis == 2 and abs(top - bottom) < 0.1 * max(top, bottom):
-        return 1.0
-    return 1.0 if top >= bottom else -1.0
+    as_made = axis == 2 and abs(top - bottom) < 0.1 * max(top, bottom)
+    wide = 1.0 if as_made or top >= bottom else -1.0
+    return -wide if heavy * wide > 0.0 and 2 * reach + heavy * wide > deep else wide
 
 
 def _about(axis: str, angle: float) -> Array:

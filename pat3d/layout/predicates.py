@@ -7,9 +7,10 @@ exported parts, and the viewer at -y:
   carried by the parent and whose centre of mass is over the parent's footprint.
 - on: carried, the child's centre of mass over the parent's footprint, and the child's lowest point above the
   parent's lowest point (a ball leaning on a table leg is not on the table).
-- in: carried, the centre of mass in the column over the parent's cavity, and the lowest point below the rim, or,
-  on a heap, above the rim by at most half the child's own height. Without a cavity: the centre of mass and
-  the lowest point inside the bounding box.
+- in: carried, the lowest point below the rim, or, on a heap, above the rim by at most half the child's own
+  height; and the centre of mass in the column over the cavity's floor, or, for what stands or leans on that
+  floor (lowest point in the column and below the rim: a pen in a mug), over the parent's footprint. Without a
+  cavity: the centre of mass and the lowest point inside the bounding box.
 - left_of, right_of, in_front_of, behind: along the axis the centres are in that order and the boxes overlap
   by at most half of the smaller one; and the offset is mostly along that axis (within 60 degrees of it), or
   the boxes overlap across it.
@@ -131,6 +132,9 @@ class _View:
             inside = bool(np.all((points >= holder.low - self.touch) & (points <= holder.high + self.touch)))
             return carried and inside, f"{how}, centre {'inside' if inside else 'outside'} the bounding box"
         within = bool(column.holds(body.centre_of_mass[:2]))
+        if not within and body.low[2] < column.rim:
+            foot = body.vertices[int(np.argmin(body.vertices[:, 2])), :2]
+            within = bool(column.holds(foot)) and self._over(child, parent)
         depth = column.rim - float(body.low[2])
         tall = float(body.high[2] - body.low[2])
         deep = depth > 0.0 or (depth > -0.5 * tall and not column.capped)

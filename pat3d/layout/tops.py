@@ -12,7 +12,7 @@ import numpy as np
 from pat3d.errors import LayoutError
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
-from pat3d.layout.containers import listed, lower
+from pat3d.layout.containers import Column, listed, lower, pack
 from pat3d.layout.frames import FlatRegion, outline
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.surfaces import Item, Lateral, arrange_flat
@@ -70,8 +70,21 @@ def spread(
                 placed.extend(found)
                 break
             overflow.insert(0, share.pop())
-    if overflow:
-        raise _refusal(top, overflow[0], [group.name for group in (*top.given, *placed)])
+    held = {lat.child for lat in laterals} | {lat.parent for lat in laterals}
+    if overflow or not all(_carried(top, group, placed) for group in placed):
+        piled = None if any(group.name in held for group in groups) else _pile(top, groups, rng)
+        if piled is not None:
+            placed = piled
+            if overflow:
+                notes.append(f'"{top.name}" is too small for all that is on it side by side: it is piled up.')
+        elif overflow:
+            raise _refusal(top, overflow[0], [group.name for group in (*top.given, *placed)])
+        else:
+            notes.extend(
+                f'"{group.name}" may tip or fall off "{top.name}".'
+                for group in placed
+                if not _carried(top, group, placed) and not any(f'"{group.name}"' in note for note in notes)
+            )
     order = {group.name: k for k, group in enumerate(groups)}
     return sorted(placed, key=lambda group: order[group.name]), notes
 
@@ -115,6 +128,32 @@ def _shares(top: Top, groups: Sequence[Group], laterals: Sequence[Lateral]) -> l
             home[label] = next((k for k in itertools.islice(turn, len(top.regions)) if _low_enough(top, k, group)), 0)
         shares[home[label]].append(group)
     return shares
+
+
+def _carried(top: Top, group: Group, placed: Sequence[Group]) -> bool:
+    """Whether a placed group rests on something and its centre of mass is not beside that."""
+    others = [member for other in placed if other is not group for member in other.members]
+    if group.low[2] <= top.root.low[2] + 2 * top.gap:
+        return False
+    return support_margin(group, [*top.supports, *others], gap=top.gap) > -0.05 * float(group.size[:2].max())
+
+
+def _pile(top: Top, groups: Sequence[Group], rng: np.random.Generator) -> list[Group] | None:
+    """All groups heaped on the best region, each where it does not tip, or None."""
+    region = top.regions[0]
+    column = Column(
+        centre=region.centre,
+        half_size=np.minimum(np.array(region.surface.half_size), 1e3),
+        yaw=0.0,
+        disc=region.surface.disc,
+        height=region.height if region.enclosed else 1.3 * max(float(group.size[2]) for group in groups),
+        capped=region.enclosed,
+    )
+    obstacles = [*top.supports[1:], *(member for group in top.given for member in group.members)]
+    try:
+        return pack(top.root, column, groups, obstacles=obstacles, rng=rng, gap=top.gap, steady=True)
+    except LayoutError:
+        return None
 
 
 def _low_enough(top: Top, region: int, group: Group) -> bool:
@@ -162,7 +201,7 @@ def _alone(
 ) -> Group | None:
     """One group in the middle of a region, or at the nearest place where it does not tip."""
     base = _base_centre(group)
-    middle = region.centre[:2] - base
+    middle = _middle(top.root, region) - base
     size = float(group.size[:2].max())
     straight = _set_down(top, region, group, middle, obstacles)
     shaken = _set_down(top, region, group, middle + JITTER * size * rng.uniform(-1, 1, 2), obstacles)
@@ -198,6 +237,14 @@ def _set_down(top: Top, region: FlatRegion, group: Group, xy: Array, obstacles: 
     if found is None or (region.enclosed and found.high[2] > region.centre[2] + region.height):
         return None
     return found
+
+
+def _middle(root: Placed, region: FlatRegion) -> Array:
+    """Middle of the region [m], shape (2,); of the rim where it is the top of a box around handle and all."""
+    if region.centre[2] < root.high[2] - 1e-6:
+        return region.centre[:2]
+    rim = root.vertices[root.vertices[:, 2] > root.high[2] - 0.002, :2]
+    return (rim.min(axis=0) + rim.max(axis=0)) / 2
 
 
 def _base_centre(group: Group) -> Array:
