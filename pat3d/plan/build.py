@@ -239,6 +239,7 @@ def _surface_below(draft: Draft, group: Group) -> Group | None:
         edge = draft.supports.get(id(carrier))
         if edge is None or edge.kind == "hangs_from":
             return None
-        if edge.kind == "on" and draft.is_a(edge.parent, lexicon.LEVEL + lexicon.SEATS) and edge.parent.height == 1:
+        wide = draft.is_a(edge.parent, lexicon.LEVEL + lexicon.SEATS) and not draft.is_a(edge.parent, lexicon.DISHES)
+        if edge.kind == "on" and wide and edge.parent.height == 1:
             return edge.parent
     return None

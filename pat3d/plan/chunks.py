@@ -188,7 +188,9 @@ class _Chunker:
                     continue
                 self._add("link", size, link=link)
                 return True
-            if key in SIDES:
+            follower = self._tokens[min(self._at + size, len(self._tokens) - 1)]
+            whole = key[-1] == "side" or follower.mark or not self._phrases.goes_on(self._at + size)
+            if key in SIDES and whole and follower.text != "of":
                 side = SIDES[key]
                 self._add("side", size)
                 self._chunks[-1] = Chunk(kind="side", text=side)

@@ -144,6 +144,10 @@ class Context:
                 return plural[-1:]
         for options in (self.subject, self.before, self.draft.groups[::-1]):
             chosen = [group for group in options if group is not child and group not in children]
+            if phrase.head in ("it", "its", "itself"):
+                chosen = [group for group in chosen if group.count == 1 or group.height > 1] or (
+                    chosen if options is not self.subject else []
+                )
             if chosen:
                 return chosen[:1]
         return []

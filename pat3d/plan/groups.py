@@ -34,6 +34,9 @@ class GroupMaker:
             clash = clash or (group.member_colours and wanted and (wanted[0],) not in group.member_colours)
             if same and not clash and (phrase.count is None or phrase.count <= group.count):
                 return group
+        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1):
+            storage = [group for group in self._draft.groups if self._draft.is_a(group, lexicon.STORAGE)]
+            return storage[-1] if storage else None
         return None
 
     def make(self, phrase: Phrase, *, filling: bool = False) -> Group:
@@ -48,7 +51,8 @@ class GroupMaker:
         count, height = self._count(phrase, filling)
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
-            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, row=phrase.row, proxy=proxy,
+            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, row=phrase.row,
+            proxy=proxy,
         )  # fmt: skip
         self._share_colours(group)
         if self._inherited is not None:

@@ -129,8 +129,8 @@ PORTIONS = frozenset({
 SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "bouquet", "model", "block", "ball"})
 """X in "X of Y" where X is the form that Y has."""
 PICTURES = frozenset({
-    "photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration", "display", "scene",
-    "arrangement", "painting", "drawing", "depiction",
+    "photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration", "display",
+    "scene", "arrangement", "painting", "drawing", "depiction",
 })  # fmt: skip
 """X in "X of Y" where only Y is there to be placed."""
 SUBSTANCES = frozenset({
@@ -185,12 +185,12 @@ SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushio
 DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat")
 """What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
 HOLLOW = (
-    "colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", 
-    "pot", "crate", "bin", "glass", "soap dish", "pan", "saucepan", "wine glass", "teacup", "planter",
-    "flowerpot", "trash can", "wastebasket", "storage box", "pencil case", "pencil cup", "tumbler", 
-    "storage bin", "laundry basket", 
-    "goblet", "pitcher", "jug", "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl",
-    "mixing bowl", "hamper", "picnic basket", "pail", "casserole", "frying pan", "cooking pot", "flower pot",
+    "colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box",
+    "pen holder", "bucket", "jar", "pool", "inflatable pool", "pot", "crate", "bin", "glass", "soap dish", "pan",
+    "saucepan", "wine glass", "teacup", "planter", "flowerpot", "trash can", "wastebasket", "storage box",
+    "pencil case", "pencil cup", "tumbler", "storage bin", "laundry basket", "goblet", "pitcher", "jug",
+    "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl", "mixing bowl", "hamper",
+    "picnic basket", "pail", "casserole", "frying pan", "cooking pot", "flower pot",
 )  # fmt: skip
 OPENED = {"box": "storage box"}
 """What a closed thing becomes when the prompt puts something in it."""
@@ -210,5 +210,8 @@ THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet"
         "cutting board", "table", "towel", "pillow", "cushion")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
+STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")
+STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
+"""Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""

@@ -192,12 +192,10 @@ class PhraseReader:
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
             follower = self._tokens[at + 1]
             runs_on = not follower.mark and follower.text not in ("and", "or", "of")
-            verb = word.endswith("ly") or (
-                word.endswith(("ing", "ed")) and runs_on and not self._phrase_goes_on(at + 1)
-            )
+            verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
         return bool(verb) and not self._extends(words, word)
 
-    def _phrase_goes_on(self, at: int) -> bool:
+    def goes_on(self, at: int) -> bool:
         """Whether token `at` may be the noun that a participle before it describes."""
         word = self._tokens[at].text
         function = word in JOINERS or word in lexicon.DETERMINERS or word in lexicon.NUMBERS or word in _ALWAYS_BREAK
@@ -245,11 +243,11 @@ class PhraseReader:
                     if not is_colour_word(self._tokens[onward].text):
                         return None
                     look = onward
-                elif self._phrase_goes_on(look):
+                elif self.goes_on(look):
                     return first
             return None
         words: list[str] = []
-        while not self._tokens[look].mark and self._phrase_goes_on(look) and len(words) < 5:
+        while not self._tokens[look].mark and self.goes_on(look) and len(words) < 5:
             words.append(self._tokens[look].text)
             look += 1
         return first if words and self._ends_in_noun(words) else None
@@ -341,7 +339,12 @@ class PhraseReader:
             return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
-        part = known is None and any(word in lexicon.PARTS for word in singular) and (inner.definite or not plural)
+        part = any(word in lexicon.PARTS for word in singular)
+        if known is None:
+            part = part and (inner.definite or not plural)
+        else:
+            # "one of the shelves of a bookcase", but not "a shelf of books".
+            part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
         if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
             return replace(inner, count=inner.count if inner.kind == "object" else None), after
         if inner.kind == "background" and inner.substance:

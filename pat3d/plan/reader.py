@@ -311,7 +311,7 @@ class Reader:
         for child in children:
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
-            if child is not parent:
+            if child is not parent or phrase.kind == "object":
                 self._now.relate(child, link, parent)
                 self._now.carried[id(parent)] = [child]
         self._now.top = []

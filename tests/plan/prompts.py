@@ -125,6 +125,11 @@ PROMPTS = (
         {"red cap": "cap", "basket": "basket", "bookcase": "bookshelf"},
         "red cap on bookcase", "basket on bookcase",
     ),
+    expect(
+        "A bookcase with a red cap on one of the shelves and a basket on top",
+        {"bookcase": "bookshelf", "red cap": "cap", "basket": "basket"},
+        "red cap on bookcase", "basket on bookcase",
+    ),
     # Vessels
     expect(
         "In a bowl of fruit, there are three fruits.",
@@ -150,7 +155,8 @@ PROMPTS = (
         "A brown glass holds two red and yellow pencils, a white and black pen, and a green-handled spoon, while a "
         "gray soap dish next to it holds two bars of soap - one green and one pink.",
         {"brown glass": "glass", "red pencil": "pencil", "yellow pencil": "pencil", "white and black pen": "pen",
-         "green spoon": "spoon", "gray soap dish": "soap dish", "green bar of soap": "soap", "pink bar of soap": "soap"},
+         "green spoon": "spoon", "gray soap dish": "soap dish", "green bar of soap": "soap",
+         "pink bar of soap": "soap"},
         "red pencil in brown glass", "yellow pencil in brown glass", "white and black pen in brown glass",
         "green spoon in brown glass", "gray soap dish next_to brown glass", "green bar of soap in gray soap dish",
         "pink bar of soap in gray soap dish",
@@ -188,7 +194,11 @@ PROMPTS = (
         "red hat on teddy bear", "teddy bear on bed", "pillow 1 on bed", "pillow 2 on bed",
         "pillow 1 left_of teddy bear", "pillow 2 right_of teddy bear",
     ),
-    expect("two dogs, each wearing a hat", same("dog 1", "dog 2", "hat 1", "hat 2"), "hat 1 on dog 1", "hat 2 on dog 2"),
+    expect(
+        "two dogs, each wearing a hat",
+        same("dog 1", "dog 2", "hat 1", "hat 2"),
+        "hat 1 on dog 1", "hat 2 on dog 2",
+    ),
     expect(
         "A chair hanging from a big tree, with a ball under it",
         {"chair": "chair", "big tree": "tree", "ball": "ball"},
@@ -196,7 +206,8 @@ PROMPTS = (
     ),
     # Tables
     expect(
-        "A round table with a bowl of two oranges, a white cup and a stack of three plates on it, surrounded by four chairs",
+        "A round table with a bowl of two oranges, a white cup and a stack of three plates on it, "
+        "surrounded by four chairs",
         {"table": "table", "bowl": "bowl", "white cup": "cup",
          **same("orange 1", "orange 2", "plate 1", "plate 2", "plate 3", "chair 1", "chair 2", "chair 3", "chair 4")},
         "bowl on table", "orange 1 in bowl", "orange 2 in bowl", "white cup on table", "plate 1 on table",
@@ -255,6 +266,7 @@ PROMPTS = (
     expect(
         "A photo of a bowl with six lemons on a cutting board. Behind it is a teapot.",
         {**same("bowl", "cutting board", "teapot"), **{f"lemon {i}": "lemon" for i in range(1, 7)}},
-        *(f"lemon {i} in bowl" for i in range(1, 7)), "bowl on cutting board", "teapot behind bowl",
+        *(f"lemon {i} in bowl" for i in range(1, 7)), "bowl on cutting board",
+        "teapot behind cutting board",
     ),
 )  # fmt: skip

@@ -102,7 +102,8 @@ def test_unknown_adjective_is_kept_not_refused(planner: GrammarPlanner):
     ("prompt", "why"),
     [
         ("", "empty"), ("  \n", "empty"), ("mug " * 600, "2000"), ("61 mugs", "60"), ("40 mugs and 40 plates", "60"),
-        ("zero mugs", "1 to 60"), ("the background is plain white", "no object"), ("a mug on the mug", "rest on itself"),
+        ("zero mugs", "1 to 60"), ("the background is plain white", "no object"),
+        ("a mug on the mug", "rest on itself"),
         ("a lamp on a table. The table is on the lamp.", "rest on itself"), ("99999999999999999999 mugs", "60"),
         ("...", "no object"),
     ],
@@ -114,7 +115,8 @@ def test_impossible_prompts_are_refused_with_the_reason(planner: GrammarPlanner,
 
 def test_background_camera_and_mood_place_nothing(planner: GrammarPlanner):
     plan = planner.plan(
-        "Top view, showing the entire objects. A mug on the floor of a cozy kitchen with soft lighting, creating a sense of calm."
+        "Top view, showing the entire objects. A mug on the floor of a cozy kitchen with soft lighting, "
+        "creating a sense of calm."
     )
     assert [obj.name for obj in plan.objects] == ["mug"]
     assert plan.relations == ()

@@ -107,7 +107,8 @@ def test_any_text_is_planned_or_refused(text):
 
 WORDS = [
     *NOUNS, *lexicon.NUMBERS, *(" ".join(key) for key in (*LINKS, *SIDES)), *lexicon.PRONOUNS, *lexicon.PARTS,
-    *lexicon.GENERICS, *lexicon.STACK_NOUNS, *lexicon.COLLECTIVES, *COLOURS, *[",", "and", ".", "a", "the", "each", "'s"] * 9,
+    *lexicon.GENERICS, *lexicon.STACK_NOUNS, *lexicon.COLLECTIVES, *COLOURS,
+    *[",", "and", ".", "a", "the", "each", "'s"] * 9,
     "stacked", "in a row", "rainbow", "is", "there is", "including", "one", "wooden", "zither", "without", "while",
 ]  # fmt: skip
 
