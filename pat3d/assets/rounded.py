@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.spatial import HalfspaceIntersection
 
-from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex, join
+from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex
 
 Profile = Sequence[tuple[float, float]]
 
@@ -82,6 +82,14 @@ def lathe(
     return Shape(_revolved(outline), tuple(hulls))
 
 
+def envelope(points: ArrayLike, angles: Sequence[float] = (-45.0, 0.0, 45.0)) -> NDArray[np.float64]:
+    """Corners of a convex part of revolution about z around `points` [m], shape (n, 3), as in `lathe`."""
+    array = np.asarray(points, dtype=np.float64)
+    reach = np.column_stack([np.hypot(array[:, 0], array[:, 1]), array[:, 2]])
+    low, high = float(reach[:, 1].min()), float(reach[:, 1].max())
+    return _rings(_tangent_polygon(reach, low, high, angles), 32 // (len(angles) + 1))
+
+
 def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> Shape:
     """An open vessel of revolution about z, smooth to see: bowls, plates, mugs, vases.
 
@@ -110,6 +118,15 @@ def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segment
             spokes = [(math.cos(a), math.sin(a)) for a in (k * step, (k + 1) * step)]
             hulls.append(np.array([(r * c, r * s, z) for c, s in spokes for r, z in corners]))
     return Shape(solid, tuple(hulls))
+
+
+def clear_radius(inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> float:
+    """Radius [m] of the widest upright cylinder inside the cavity of `hollow`, from its floor to its rim."""
+    heights = [inner[0][1], *levels, inner[-1][1]]
+    fine = _sampled(_radius_of(inner), inner, heights[0], heights[-1])
+    bands = zip(heights, heights[1:], strict=False)
+    narrowest = min(float(_chord(_between(fine, *band), outward=False).min()) for band in bands)
+    return narrowest * math.cos(math.pi / segments)
 
 
 def tube(
@@ -182,7 +199,13 @@ def rounded_rectangle(x: float, y: float, corner: float) -> NDArray[np.float64]:
 
 def ring_of(shape: Shape, radius: float, count: int, start: float = 0.0) -> Shape:
     """`count` copies of `shape` around z at `radius` [m], turned outwards, the first at `start` [degrees]."""
-    return join(*(shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)))
+    return merged([shape.moved(x=radius).turned("z", start + 360.0 * k / count) for k in range(count)])
+
+
+def merged(shapes: Sequence[Shape]) -> Shape:
+    """The same as `join`, in one go: fast for hundreds of small shapes."""
+    solid = manifold3d.Manifold.batch_boolean([shape.solid for shape in shapes], manifold3d.OpType.Add)
+    return Shape(solid, tuple(points for shape in shapes for points in shape.hulls))
 
 
 def taper(bottom: tuple[float, float], top: tuple[float, float], height: float) -> Shape:

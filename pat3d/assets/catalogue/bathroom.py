@@ -238,8 +238,7 @@ def bucket(style: Style) -> Build:
     out = r + 0.012
     bail = tube(np.column_stack([out * np.cos(turn), 1.02 * out * np.sin(turn), h - 0.03 + tilt * out * np.sin(turn)]),
                 0.0032, 4, up=(0, -tilt, 1))  # fmt: skip
-    lugs = join(*(box(0.026, 0.02, 0.03).moved(x=s * (r - 0.001), z=h - 0.046) for s in (-1, 1)))
-    lugs = Shape(lugs.solid - lathe([(base - wall / 2, 0), (r - wall / 2, h + 0.001)]).solid, ())
+    lugs = join(*(box(0.018, 0.02, 0.03).moved(x=s * (r + 0.005), z=h - 0.046) for s in (-1, 1)))
     return Build(
         parts=((body, style.colour()), (rim, style.colour()), (bail, style.colour(1)), (lugs, style.colour())),
         regions=(cavity(inner, 12),),

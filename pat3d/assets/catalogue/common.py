@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import Style
-from pat3d.assets.shapes import Shape
+from pat3d.assets.rounded import clear_radius, unseen
+from pat3d.assets.shapes import Shape, box
 
 CREAM = (244, 236, 214)
 LEAF = (86, 134, 62)
@@ -36,13 +37,13 @@ def length(style: Style, value: float, spread: float = 0.06) -> float:
     return style.vary(value * factor, spread)
 
 
-def cavity(inner: Sequence[tuple[float, float]], segments: int, lift: float = 0.0) -> Region:
-    """The free cylinder inside a vessel whose cavity has the (radius, z) points `inner` [m]."""
-    radius = min(r for r, _ in inner) * math.cos(math.pi / segments)
+def cavity(inner: Sequence[tuple[float, float]], segments: int, levels: Sequence[float] = ()) -> Region:
+    """The free cylinder inside a vessel made by `hollow` with the same arguments."""
+    radius = clear_radius(inner, levels, segments)
     return Region(
         kind="in",
         shape="disc",
-        floor=(0.0, 0.0, inner[0][1] + lift),
+        floor=(0.0, 0.0, inner[0][1]),
         half_size=(radius, radius),
         height=inner[-1][1] - inner[0][1],
     )
@@ -58,6 +59,11 @@ def rectangle(kind: Literal["on", "in"], z: float, x: float, y: float, height: f
     return Region(kind=kind, shape="rectangle", floor=(0.0, 0.0, z), half_size=(x / 2, y / 2), height=height)
 
 
+def band(low: float, high: float) -> Shape:
+    """Everything between two heights [m], as paint."""
+    return unseen(box(1, 1, high - low).moved(z=low))
+
+
 def level_lean(first: Shape, second: Shape) -> float:
     """Angle about y [degrees, 45 to 135] that lays two shapes on an axis along z with equal lowest points."""
 
@@ -65,4 +71,4 @@ def level_lean(first: Shape, second: Shape) -> float:
         low = [np.concatenate(shape.turned("y", degrees).hulls)[:, 2].min() for shape in (first, second)]
         return float(low[0] - low[1])
 
-    return float(brentq(gap, 45.0, 135.0, xtol=1e-13))
+    return float(root_scalar(gap, bracket=(45.0, 135.0), xtol=1e-13).root)

@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import DARK, LEAF, cavity, height, level_lean
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
-from pat3d.assets.rounded import covered, hollow, lathe, ring_of, spot, unseen
+from pat3d.assets.rounded import covered, envelope, hollow, lathe, ring_of, spot, unseen
 from pat3d.assets.shapes import Shape, convex, cylinder, join, rod
 
 BLOSSOMS: tuple[RGB, ...] = ((236, 152, 174), (241, 200, 58), (240, 238, 233), (190, 45, 62), (150, 104, 184))
@@ -23,7 +23,7 @@ def vase(style: Style) -> Build:
     bands = join(*(cylinder(0.3, 0.012 * h / 0.22).moved(z=part * h) for part in (0.24, 0.48)))
     return Build(
         parts=((body, style.colour()),),
-        regions=(cavity(inner, 8),),
+        regions=(cavity(inner, 8, (0.36 * h, 0.8 * h)),),
         paint=((unseen(bands), style.colour(1)),) if style.colour(1) != style.colour() else (),
     )
 
@@ -40,18 +40,21 @@ def _daisy(r: float, colour: RGB, heart: RGB) -> tuple[tuple[Shape, RGB], ...]:
        colours=("pink", "yellow", "red", "purple"))  # fmt: skip
 def bouquet(style: Style) -> Build:
     """Blossoms and leaves above a tied bunch of stems that goes into a vase."""
-    n, r = style.vary(0.2, 0.02), style.vary(0.085, 0.04)
+    n, r = style.vary(0.228, 0.02), style.vary(0.085, 0.04)
     stems = [rod((0, 0, 0), (0.0, 0.0, n + 0.03), 0.0035)]
     for a in np.arange(7) * 2 * np.pi / 7:
-        foot, head = (0.009 * np.cos(a), 0.009 * np.sin(a), 0.0), (0.009 * np.cos(a + 0.4), 0.009 * np.sin(a + 0.4), n)
+        foot, head = (
+            (0.009 * np.cos(a), 0.009 * np.sin(a), 0.0004),
+            (0.009 * np.cos(a + 0.4), 0.009 * np.sin(a + 0.4), n),
+        )
         stems.append(rod(foot, head, 0.0035))
     bunch = covered(stems, cylinder(0.0145, n + 0.03, sides=12))
     tie = unseen(cylinder(0.0138, 0.016).moved(z=0.72 * n))
     leaf = spot(0.034, 0.017, 0.003).turned("y", -38).moved(x=0.04)
     leaves = join(ring_of(leaf, 0.0, 7).moved(z=n + 0.026), ring_of(leaf, 0.012, 6, 25).moved(z=n + 0.044))
     heads: list[tuple[Shape, RGB]] = []
-    places = [(0.0, 0, 1)] + [(36.0, 72 * k, 1) for k in range(5)] + [(70.0, 40 * k + 20, 1) for k in range(9)]
-    for index, (lean, turn, _) in enumerate(places):
+    places = [(0.0, 0), *((36.0, 72 * k) for k in range(5)), *((70.0, 40 * k + 20) for k in range(9))]
+    for index, (lean, turn) in enumerate(places):
         size = 0.031 * float(style.rng.uniform(0.9, 1.1))
         palette = (style.colour(), style.colour(), *BLOSSOMS)
         colour = palette[int(style.rng.integers(len(palette)))] if index else style.colour()
@@ -61,20 +64,12 @@ def bouquet(style: Style) -> Build:
     green = spot(0.7 * r, 0.7 * r, 0.6 * r, 24).moved(z=n + 0.05)
     seen = [shape for shape, _ in heads]
     rims = np.concatenate([_points(shape) for shape in (*seen, leaves, green)])
-    reach = np.column_stack([np.hypot(rims[:, 0], rims[:, 1]), rims[:, 2]])
-    crown = lathe(reach[np.argsort(reach[:, 1])])
-    parts = [(Shape(green.solid, _lifted(crown, reach)), LEAF), *((stem, LEAF) for stem in bunch), (leaves, LEAF)]
+    parts = [(Shape(green.solid, (envelope(rims),)), LEAF), *((stem, LEAF) for stem in bunch), (leaves, LEAF)]
     return Build(parts=(*parts, (tie, (214, 190, 150)), *heads), mass=0.22)
 
 
 def _points(shape: Shape) -> np.ndarray:
     return np.asarray(shape.solid.to_mesh64().vert_properties)[:, :3]
-
-
-def _lifted(crown: Shape, reach: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The convex part of a crown of blossoms, which starts at the lowest of its points `reach`."""
-    points = crown.hulls[0]
-    return (points + (0.0, 0.0, float(reach[:, 1].min()) - float(points[:, 2].min())),)
 
 
 @entry("flower", family="decor", synonyms=("daisy", "sunflower", "gerbera"), plurals=("daisies",), material="foliage",

@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import CREAM, DARK, GOLDEN_CRUST, LEAF, WHITE, disc, height, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import arc, covered, extruded, lathe, lobed, ring_of, spot, tube, unseen
+from pat3d.assets.rounded import arc, covered, extruded, lathe, lobed, ring_of, spot, tube, unseen, wrapped
 from pat3d.assets.shapes import Shape, box, cylinder, ellipsoid, frustum, join, prism
 
 CRUMB = (244, 222, 176)
@@ -113,7 +113,9 @@ def cake_slice(style: Style) -> Build:
     """A wedge of layer cake, its layers showing."""
     r, h = style.vary(0.1), height(style, 0.075)
     outline = np.concatenate([[(0, 0)], arc(r, -20, 20, 9)])
-    wedge = Shape(prism(outline, h).solid, (_prism_corners(outline, h),))
+    walls = [(np.cos(angle), np.sin(angle), 0.0) for angle in np.radians((110, -110, -14, 0, 14))]
+    block = prism([(float(x), float(y)) for x, y in outline], h).solid
+    wedge = wrapped(block, [*walls, (0, 0, 1), (0, 0, -1)])
     creams = join(*(box(0.4, 0.4, 0.006).moved(z=part * h) for part in (0.27, 0.56)))
     coat = box(0.4, 0.4, 0.1).moved(z=0.86 * h)
     back = ring_of(box(0.05, 0.2, 0.3).moved(z=-0.1), r + 0.018, 1)
@@ -125,11 +127,6 @@ def cake_slice(style: Style) -> Build:
             (unseen(back).turned("z", 105), style.colour()),
         ),
     )
-
-
-def _prism_corners(outline: np.ndarray, h: float) -> np.ndarray:
-    """Corners [m] of the prism of height `h` over a convex outline, shape (n, 2)."""
-    return np.concatenate([np.column_stack([outline, np.full(len(outline), z)]) for z in (0.0, h)])
 
 
 def _case(style: Style, r: float, h: float) -> Shape:
@@ -276,7 +273,9 @@ def burger(style: Style) -> Build:
     tomato = cylinder(0.93 * r, 0.006).moved(z=0.0405)
     dome = np.array([0, 0.046]) + np.concatenate([[(0.96 * r, 0)], arc(r, 8, 85, 16) * (1, 0.62)])
     bun = lathe(dome)
-    cover = lathe([(0.9 * r, 0), (1.1 * r, 0.03), (1.1 * r, 0.041), *map(tuple, dome)], angles=(-40, 20, 55))
+    cover = lathe(
+        [(0.9 * r, 0), (r, 0.006), (1.1 * r, 0.03), (1.1 * r, 0.041), *map(tuple, dome)], angles=(-40, 20, 55)
+    )
     pieces = covered([bottom, patty, slice_, lettuce, tomato, bun], cover)
     seeds = []
     for k in range(1, 22):

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.assets.catalogue.common import STEEL, cavity, disc, height, length, level_lean, rectangle
+from pat3d.assets.catalogue.common import STEEL, band, cavity, disc, height, length, level_lean, rectangle
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.catalogue.tableware import ear, strap
 from pat3d.assets.rounded import covered, curve, hollow, lathe, lobed, slab, tube, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, rod
-
-
-def _band(low: float, high: float) -> Shape:
-    """Everything between two heights [m], as paint."""
-    return unseen(box(1, 1, high - low).moved(z=low))
 
 
 @entry("bottle", family="kitchen", synonyms=("water bottle", "plastic bottle", "drink bottle"), material="plastic",
@@ -25,7 +20,7 @@ def bottle(style: Style) -> Build:
     points = [(0.9 * r, 0), (r, 0.006), (r, 0.62 * h), (0.86 * r, 0.73 * h), (neck + 0.004, 0.85 * h), (neck, 0.9 * h)]
     body = lathe(points, cuts=(0.73 * h,))
     cap = cylinder(neck + 0.002, 0.085 * h, sides=12).moved(z=0.9 * h)
-    label = (_band(0.3 * h, 0.55 * h), style.colour(1))
+    label = (band(0.3 * h, 0.55 * h), style.colour(1))
     return Build(parts=((body, style.colour()), (cap, style.colour(1))), paint=(label,), mass=0.55 * (r / 0.035) ** 2)
 
 
@@ -39,7 +34,7 @@ def wine_bottle(style: Style) -> Build:
               (0.43 * r, 0.975 * h), (0.43 * r, h)]  # fmt: skip
     body = lathe(points, cuts=(0.75 * h,))
     dark = style.shade(style.colour(), 0.8)
-    label, foil = _band(0.15 * h, 0.45 * h), _band(0.8 * h, 1.1 * h)
+    label, foil = band(0.15 * h, 0.45 * h), band(0.8 * h, 1.1 * h)
     return Build(parts=((body, dark),), paint=((label, style.colour(1)), (foil, style.colour(2))), mass=1.25)
 
 
@@ -53,7 +48,7 @@ def jar(style: Style) -> Build:
     outer = [(r - 0.003, 0), (r, 0.005), (r, 0.76 * h), (0.87 * r, 0.87 * h), (0.87 * r, h)]
     body = hollow(outer, inner, levels=(0.78 * h,))
     label = (unseen(box(0.6 * r * 2, r, 0.34 * h).moved(y=-r, z=0.22 * h)), style.colour(1))
-    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12),), paint=(label,))
+    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.78 * h,)),), paint=(label,))
 
 
 @entry("cookie jar", family="kitchen", synonyms=("jam jar", "honey jar", "jar of jam", "spice jar"), material="glass",
@@ -65,7 +60,7 @@ def closed_jar(style: Style) -> Build:
     lid = lobed(cylinder(0.95 * r, 0.018).moved(z=h - 0.001), 30, 0.02)
     return Build(
         parts=((body, style.colour()), (lid, style.colour(2))),
-        paint=((_band(0.22 * h, 0.66 * h), style.colour(1)),),
+        paint=((band(0.22 * h, 0.66 * h), style.colour(1)),),
         mass=0.42,
     )
 
@@ -116,7 +111,7 @@ def pitcher(style: Style) -> Build:
                   (-1.22 * r, -0.006, h), (-0.8 * r, 0, 0.84 * h), (-0.785 * r, 0.3 * r, h - 0.006),
                   (-0.785 * r, -0.3 * r, h - 0.006))])  # fmt: skip
     handle = ear(0.76 * r, 0.3 * h, 0.92 * h, 0.75 * r, 0.012)
-    free = cavity(inner, 8)
+    free = cavity(inner, 8, (0.5 * h,))
     return Build(parts=((body, style.colour()), (lip, style.colour()), (handle, style.colour())), regions=(free,))
 
 

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.assets.catalogue.common import DARK, STEEL, WHITE, cavity, disc, height, length
+from pat3d.assets.catalogue.common import DARK, STEEL, WHITE, band, cavity, disc, height, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import curve, hollow, lathe, ring_of, slab, tube, unseen
+from pat3d.assets.rounded import curve, hollow, lathe, merged, ring_of, slab, tube, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box
-
-
-def _band(low: float, high: float) -> Shape:
-    """Everything between two heights [m], as paint."""
-    return unseen(box(1, 1, high - low).moved(z=low))
 
 
 @entry("toaster", family="kitchen", material="steel", colours=("steel", "red", "mint", "cream"),
@@ -77,7 +72,7 @@ def can(style: Style) -> Build:
     return Build(
         parts=((body, STEEL),),
         regions=(disc("on", h, r),),
-        paint=((_band(0.006, h - 0.006), style.colour()), (_band(0.42 * h, 0.64 * h), style.colour(1))),
+        paint=((band(0.006, h - 0.006), style.colour()), (band(0.42 * h, 0.64 * h), style.colour(1))),
         mass=0.42 * (r / 0.0375) ** 2 * h / 0.108,
     )
 
@@ -93,7 +88,7 @@ def soda_can(style: Style) -> Build:
     wave = unseen(tube([(-0.1, -0.05, 0.25 * h), (0, -0.04, 0.5 * h), (0.1, -0.05, 0.75 * h)], 0.017, 1, up=(0, 1, 0)))
     return Build(
         parts=((lathe(profile), STEEL), (unseen(tab), style.shade(STEEL, 0.8))),
-        paint=((_band(0.006, h - 0.008), style.colour()), (wave, style.colour(1))),
+        paint=((band(0.006, h - 0.008), style.colour()), (wave, style.colour(1))),
         mass=0.36,
     )
 
@@ -110,7 +105,7 @@ def milk_carton(style: Style) -> Build:
     fin = box(w, 0.005, 0.016).moved(z=h + 0.034)
     cap = cylinder(0.014, 0.012, sides=8).turned("x", 45).moved(y=-0.018, z=h + 0.016)
     other = style.colour(1) if style.colour(1) != style.colour() else style.colour(2)
-    paint = (_band(-0.01, 0.24 * h), other), (unseen(ellipsoid(0.023, 0.1, 0.032)).moved(z=0.62 * h), other)
+    paint = (band(-0.01, 0.24 * h), other), (unseen(ellipsoid(0.023, 0.1, 0.032)).moved(z=0.62 * h), other)
     main = style.colour()
     return Build(
         parts=((body, main), (gable, main), (fin, main), (cap, other)), paint=paint, mass=1.03 * (w / 0.072) ** 2
@@ -148,7 +143,7 @@ def tissue_box(style: Style) -> Build:
                      (-0.02, -0.004, 0.06)])  # fmt: skip
     return Build(
         parts=((box(x, y, z), style.colour()), (tissue.moved(z=z), WHITE)),
-        paint=((_band(-0.01, 0.16 * z), style.colour(1)),),
+        paint=((band(-0.01, 0.16 * z), style.colour(1)),),
         mass=0.19,
     )
 
@@ -174,14 +169,14 @@ def basket(style: Style) -> Build:
     for k in range(rows):
         block = box(0.1, 0.086 * r, h / rows - 0.0006).moved(z=k * h / rows + 0.0003)
         blocks.append(ring_of(unseen(block), r, 24, 7.5 * (k % 2)))
-    rim_path = np.column_stack([(r - wall / 2) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
-                                (r - wall / 2) * np.sin(t), np.full(48, h - 0.004)])  # fmt: skip
-    rim = tube(rim_path, wall / 2 - 0.0002, 12, closed=True)
+    rim_path = np.column_stack([(r - wall / 2 - 0.0008) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
+                                (r - wall / 2 - 0.0008) * np.sin(t), np.full(48, h - 0.004)])  # fmt: skip
+    rim = tube(rim_path, wall / 2 - 0.0010, 12, closed=True)
     dark = style.shade(style.colour(), 0.72)
     return Build(
         parts=((Shape(rippled, body.hulls), style.colour()), (unseen(rim), dark)),
         regions=(cavity(inner, 12),),
-        paint=((unseen(join(*blocks)), dark),),
+        paint=((merged(blocks), dark),),
     )
 
 
@@ -203,9 +198,9 @@ def colander(style: Style) -> Build:
         bow = [(side * (r - 0.002), -0.04, 0.9 * h), (side * (r + 0.026), -0.026, 0.92 * h),
                (side * (r + 0.026), 0.026, 0.92 * h), (side * (r - 0.002), 0.04, 0.9 * h)]  # fmt: skip
         grips.append(tube(curve(bow, 17), 0.005, 3))
-    solid = body.solid - join(*holes).solid
+    solid = body.solid - merged(holes).solid
     return Build(
         parts=((Shape(solid, body.hulls), style.colour()), (join(*grips), style.colour())),
-        regions=(cavity(inner, 8),),
+        regions=(cavity(inner, 8, (0.5 * h,)),),
         mass=0.42,
     )

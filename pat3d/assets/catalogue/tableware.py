@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.assets.catalogue.common import STEEL, WHITE, cavity, disc, height, length, rectangle
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
@@ -84,7 +85,7 @@ def teacup(style: Style) -> Build:
     rim = box(0.3, 0.3, 0.05).moved(z=0.93 * h)
     return Build(
         parts=((body, style.colour()), (handle, style.colour())),
-        regions=(cavity(inner, 8),),
+        regions=(cavity(inner, 8, (0.4 * h,)),),
         paint=((rim, style.colour(1)),),
     )
 
@@ -132,7 +133,7 @@ def _bowl(style: Style, r: float, h: float, well: float) -> Build:
     inner = [(well, 0.011), (0.55 * well + 0.42 * r, 0.32 * h + 0.006), (r - 0.004, h)]
     outer = [(well - 0.006, 0), (well + 0.001, 0.008), (0.55 * well + 0.42 * r + 0.006, 0.32 * h), (r, h)]
     body = hollow(outer, inner, levels=(0.35 * h,))
-    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12),), paint=stripes(style, r, h))
+    return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.35 * h,)),), paint=stripes(style, r, h))
 
 
 @entry("bowl", family="tableware", synonyms=("cereal bowl", "soup bowl", "rice bowl"), material="ceramic",
@@ -168,9 +169,9 @@ def wine_glass(style: Style) -> Build:
     tulip = hollow([(0.16 * r, 0), (0.6 * r, 0.008), (r, 0.45 * h), (0.8 * r, h)], inner, (0.45 * h,), 8)
     foot = join(cylinder(0.036, 0.003), frustum(0.03, 0.006, 0.007).moved(z=0.003))
     shape = join(tulip.moved(z=stem), cylinder(0.0042, stem).moved(z=0.002), foot)
+    bowl_region = cavity(inner, 8, (0.45 * h,))
     return Build(
-        parts=((shape, style.colour()),),
-        regions=(cavity([(r, z + stem) if z == 0.45 * h else (r0, z + stem) for r0, z in inner], 8),),
+        parts=((shape, style.colour()),), regions=(replace(bowl_region, floor=(0.0, 0.0, stem + inner[0][1])),)
     )
 
 
