@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from pat3d.errors import SimulationError
 from pat3d.progress import Event, Progress, silent
@@ -32,11 +37,7 @@ def prepare(device: str, progress: Progress = silent) -> str:
     Raises:
         SimulationError: there is no such device here.
     """
-    import warp as wp
-
-    # Before the first use of Warp, which prints a banner, and a warning where there is no GPU, otherwise.
-    wp.config.log_level = max(wp.config.log_level, wp.LOG_ERROR)
-    wp.init()
+    wp = quiet_warp()
     known = [str(found.alias) for found in wp.get_devices()]
     name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
     if name is None:
@@ -48,15 +49,37 @@ def prepare(device: str, progress: Progress = silent) -> str:
     return name
 
 
-def cache_folder() -> Path:
-    """Where Warp keeps compiled kernels; it need not exist."""
+def quiet_warp() -> Any:
+    """The initialised `warp` module, without its banner."""
     import warp as wp
 
-    wp.config.log_level = max(wp.config.log_level, wp.LOG_ERROR)
-    root = os.environ.get("WARP_CACHE_PATH") or wp.config.kernel_cache_dir
-    if root is None:
-        root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "warp"
-    return Path(root) / wp.config.version
+    wp.config.log_level = max(wp.config.log_level, wp.LOG_WARNING)
+    with _no_gpu_notice():
+        wp.init()
+    return wp
+
+
+@contextmanager
+def _no_gpu_notice() -> Iterator[None]:
+    """Keep back what Warp's library prints where there is no GPU; it writes past Python, to the descriptor."""
+    sys.stderr.flush()
+    with tempfile.TemporaryFile() as caught:
+        terminal = os.dup(2)
+        os.dup2(caught.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(terminal, 2)
+            os.close(terminal)
+            caught.seek(0)
+            rest = b"".join(line for line in caught if b"NVIDIA CUDA driver" not in line)
+            if rest:
+                os.write(2, rest)
+
+
+def cache_folder() -> Path:
+    """Where Warp keeps compiled kernels; it need not exist."""
+    return Path(quiet_warp().config.kernel_cache_dir)
 
 
 def is_warm() -> bool:
