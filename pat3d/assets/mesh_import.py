@@ -291,10 +291,11 @@ def _record(
 
 
 def _moved(part: ConvexPart, offset: NDArray[np.float64]) -> ConvexPart:
-    if not offset.any():
-        return part
+    """The part moved by `offset` [m], with what is on the base to rounding exactly there."""
+    vertices = part.vertices + offset
+    vertices[np.abs(vertices[:, 2]) < 1e-9, 2] = 0.0
     box = part.box and (tuple(float(v) for v in np.array(part.box[0]) + offset), *part.box[1:])
-    return replace(part, vertices=part.vertices + offset, box=box)
+    return replace(part, vertices=vertices, box=box)
 
 
 def _placed(

@@ -124,7 +124,7 @@ def _check_size(path: Path, kind: str) -> None:
         raise AssetError(f'"{path}" is empty.')
     try:
         faces = _count_faces(path, kind, size)
-    except (OSError, ValueError, KeyError, TypeError, IndexError, struct.error, RecursionError):
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, struct.error, RecursionError):
         faces = None  # The parser says what is wrong with the file.
     if faces is not None and faces > MAX_FACES:
         raise AssetError(f'"{path}" has {faces:,} triangles; at most {MAX_FACES:,} are read. Simplify it first.')

@@ -10,6 +10,7 @@ At last every corner moves in as far as the faces around it stay outside the ori
 from __future__ import annotations
 
 import functools
+import heapq
 import itertools
 from dataclasses import dataclass
 from typing import Any
@@ -28,7 +29,13 @@ SHORT_EDGE = 0.01
 _COPLANAR = 1e-7
 """Planes of a hull of unit size closer than this are one."""
 
-_SWEEPS = 8
+_NEAR_LEVEL = 0.05
+"""Edges closer than this to the lowest or highest level may be replaced by a point on it (unit size)."""
+
+_DEAR = 1e-4
+"""Cost above which a short edge stays (unit size)."""
+
+_SWEEPS = 6
 
 _START_PLANES = 80
 """Hulls with more corners than twice this start from that many of their supporting planes."""
@@ -75,9 +82,12 @@ def reduce_hull(points: NDArray[np.float64], max_vertices: int = 64, max_faces: 
     if len(corners) > 2 * _START_PLANES:
         start = _few_planes(corners, hull, supports)
     reduced = _collapse(start, supports, bounds, limit, short)
-    while len(supports) and (len(reduced) > limit or _edge_lengths(reduced, ConvexHull(reduced)).min() < short):
-        # The least important support face gives way.
+    slack = 0.0
+    while _unfinished(reduced, limit, short) and not slack:
+        # The least important support face gives way; at last, by a hair, the lowest and highest levels.
+        slack = 0.0 if len(supports) else 0.1 * short
         supports = supports[:-1]
+        bounds = (bounds[0] - slack, bounds[1] + slack)
         reduced = _collapse(reduced, supports, bounds, limit, short)
     if len(reduced) > limit:
         reduced = _bounding_box(corners)
@@ -117,18 +127,8 @@ def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:
 
 def _merged_planes(equations: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Distinct planes and, for each equation, the index of its plane."""
-    order = np.lexsort(np.round(equations, 5).T)
-    group = np.full(len(equations), -1)
-    planes: list[NDArray[np.float64]] = []
-    for index in order:
-        if planes:
-            near = np.abs(np.array(planes) - equations[index]).max(axis=1) < _COPLANAR
-            if near.any():
-                group[index] = int(np.argmax(near))
-                continue
-        group[index] = len(planes)
-        planes.append(equations[index])
-    return np.array(planes), group
+    _, first, group = np.unique(np.round(equations, 6), axis=0, return_index=True, return_inverse=True)
+    return equations[first], group.reshape(-1)
 
 
 def _few_planes(corners: NDArray[np.float64], hull: ConvexHull, supports: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -152,7 +152,8 @@ def _few_planes(corners: NDArray[np.float64], hull: ConvexHull, supports: NDArra
 
 def _short_edge(corners: NDArray[np.float64], hull: ConvexHull) -> float:
     """Length below which an edge of a hull of unit size is removed; well below the thickness of a thin hull."""
-    depth = -(corners @ hull.equations[:, :3].T + hull.equations[:, 3]).min(axis=0)
+    largest = np.argsort(-_areas(corners[hull.simplices]))[:200]
+    depth = -(corners @ hull.equations[largest, :3].T + hull.equations[largest, 3]).min(axis=0)
     return min(SHORT_EDGE, 0.2 * float(depth.min()))
 
 
@@ -166,22 +167,27 @@ def _edge_lengths(corners: NDArray[np.float64], hull: ConvexHull) -> NDArray[np.
     return np.linalg.norm(corners[edges[:, 0]] - corners[edges[:, 1]], axis=1)
 
 
+def _unfinished(corners: NDArray[np.float64], limit: int, short: float) -> bool:
+    return len(corners) > limit or bool(_edge_lengths(corners, ConvexHull(corners)).min() < short)
+
+
 def _collapse(
     corners: NDArray[np.float64], supports: NDArray[np.float64], bounds: tuple[float, float], limit: int, short: float
 ) -> NDArray[np.float64]:
     """Corners left once `limit` holds and no edge below `short` can go (unit size), shape (n, 3)."""
     points = dict(enumerate(corners))
-    fresh = itertools.count(len(corners))
-    found: dict[tuple[int, int], tuple[float, NDArray[np.float64] | None]] = {}
+    changed = dict.fromkeys(points, 0)
+    found: dict[tuple[int, int], tuple[float, NDArray[np.float64] | None, int]] = {}
+    step = 0
     while len(points) > 4:
-        names = np.array(list(points))
+        names = list(points)
         array = np.array(list(points.values()))
         try:
             hull = ConvexHull(array)
         except QhullError:
             break
         if len(hull.vertices) < len(names):
-            points = {int(names[k]): array[k] for k in hull.vertices}
+            points = {names[k]: array[k] for k in hull.vertices}
             continue
         edges = _edges(hull)
         if len(points) <= limit:
@@ -191,23 +197,46 @@ def _collapse(
             for corner in triangle:
                 incident[corner].add(face)
         held = np.abs(array @ supports[:, :3].T + supports[:, 3]) < _COPLANAR
-        best = (np.inf, None, (0, 0))
+
+        def evaluate(i: int, j: int, array=array, hull=hull, incident=incident, held=held, step=step):
+            around = sorted(incident[i] | incident[j])
+            cost, point = _outer_point(
+                array[hull.simplices[around]], hull.equations[around], supports[held[i] | held[j]], bounds
+            )
+            return cost, point, step
+
+        # Costs of edges whose surroundings changed are estimates until such an edge comes first.
+        queue = []
         for i, j in edges.tolist():
-            key = (int(names[i]), int(names[j]))
-            if key not in found:
-                around = sorted(incident[i] | incident[j])
-                fixed = supports[held[i] | held[j]]
-                found[key] = _outer_point(array[hull.simplices[around]], hull.equations[around], fixed, bounds)
-            if found[key][0] < best[0]:
-                best = (*found[key], (i, j))
-        _, point, pair = best
-        if point is None:
+            key = (names[i], names[j])
+            if key not in found or (
+                not np.isfinite(found[key][0]) and found[key][2] < max(changed[key[0]], changed[key[1]])
+            ):
+                found[key] = evaluate(i, j)
+            queue.append((found[key][0], i, j))
+        heapq.heapify(queue)
+        best = None
+        while queue:
+            cost, i, j = heapq.heappop(queue)
+            key = (names[i], names[j])
+            if found[key][2] < max(changed[key[0]], changed[key[1]]):
+                found[key] = evaluate(i, j)
+                heapq.heappush(queue, (found[key][0], i, j))
+                continue
+            best = (i, j) if np.isfinite(cost) else None
             break
-        touched = set(names[hull.simplices[sorted(incident[pair[0]] | incident[pair[1]])]].reshape(-1).tolist())
-        found = {key: value for key, value in found.items() if not touched.intersection(key)}
-        for index in pair:
-            del points[int(names[index])]
-        points[next(fresh)] = point
+        if best is None:
+            break
+        if len(points) <= limit and found[names[best[0]], names[best[1]]][0] > _DEAR:
+            break
+        step += 1
+        point = found[names[best[0]], names[best[1]]][1]
+        for corner in np.unique(hull.simplices[sorted(incident[best[0]] | incident[best[1]])]):
+            changed[names[corner]] = step
+        for corner in best:
+            del points[names[corner]]
+        name = len(corners) + step
+        points[name], changed[name] = point, step
     return np.array(list(points.values()))
 
 
@@ -230,14 +259,17 @@ def _outer_point(
     free = planes
     if len(fixed):
         free = planes[np.abs(planes[:, None] - fixed[None]).max(axis=2).min(axis=1) > _COPLANAR]
-    candidates = _feasible_corners(free, fixed)
+    level = np.array([[0.0, 0.0, 1.0, -bounds[0]], [0.0, 0.0, -1.0, bounds[1]]])
+    heights = triangles[:, :, 2]
+    close = [heights.min() - bounds[0] < _NEAR_LEVEL, bounds[1] - heights.max() < _NEAR_LEVEL]
+    candidates = _feasible_corners(np.concatenate([free, level[close]]), fixed)
     candidates = candidates[(candidates[:, 2] >= bounds[0] - 1e-12) & (candidates[:, 2] <= bounds[1] + 1e-12)]
     if not len(candidates):
         return np.inf, None
     gap = candidates @ planes[:, :3].T + planes[:, 3]
     added = (candidates @ equations[:, :3].T + equations[:, 3]) @ areas / 3
     # Needles add little volume and reach far: the squared distance keeps them out.
-    cost = added + 0.05 * gap.max(axis=1) ** 2
+    cost = added + 0.15 * gap.max(axis=1) ** 2
     best = int(np.argmin(cost))
     return float(cost[best]), _snapped(candidates[best], fixed)
 
@@ -253,7 +285,9 @@ def _feasible_corners(free: NDArray[np.float64], fixed: NDArray[np.float64]) -> 
     if not len(systems):
         return np.zeros((0, 3))
     corners = np.linalg.solve(systems[:, :, :3], -systems[:, :, 3:])[:, :, 0]
-    return np.asarray(corners[(corners @ free[:, :3].T + free[:, 3]).min(axis=1, initial=0.0) > -1e-12])
+    return np.asarray(
+        corners[(corners @ free[:, :3].T + free[:, 3]).min(axis=1, initial=0.0) > -1e-12], dtype=np.float64
+    )
 
 
 @functools.cache

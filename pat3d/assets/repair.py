@@ -35,6 +35,8 @@ WELD = 1e-5
 """Vertices on open edges closer than this fraction of the longest side are joined."""
 
 MAX_SHEETS = 500
+MAX_OPEN = 32
+"""Pieces, and open shells among them, beyond which a mesh is a soup to be wrapped."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -111,6 +113,8 @@ def repair(vertices: Points, faces: Indices, *, thickness: float | None = None) 
     source: VolumeSource = "closed surface"
     if not watertight and pieces:
         source = _close(pieces, size, thickness, repairs)
+        if any(piece.loops for piece in pieces):
+            pieces = []
     pieces = _solid_pieces(pieces, size, repairs)
     union = _union(pieces)
     if union is None:
@@ -185,7 +189,7 @@ def _close(pieces: list[_Piece], size: float, thickness: float | None, repairs: 
             repairs.append(reasons[why].format(count))
             source = "hole filled"
     open_pieces = [piece for piece in pieces if piece.loops]
-    if open_pieces:
+    if 0 < len(open_pieces) <= MAX_OPEN:
         depth = thickness if thickness is not None else min(0.002, 0.02 * size)
         for piece in open_pieces:
             _thicken(piece, depth)

@@ -83,9 +83,12 @@ def split_sheets(vertices: Points, faces: Indices) -> Sheets:
     place = np.where(flip[face], 3 * face + (1 - edge) % 3, half)
     pairs = [np.stack([place[first], place[second]], axis=1)]
     cut = np.zeros(3 * count, dtype=bool)
+    known = components(count, pairs[0] // 3)
     for start, size in zip(bounds[:-1][sizes > 2], sizes[sizes > 2], strict=True):
         around = place[order[start : start + size]]
-        matched = _pair_around(vertices, turned, around)
+        matched = _pair_within(turned, around, known[around // 3])
+        if not len(matched):
+            matched = _pair_around(vertices, turned, around)
         cut[around] = not len(matched)
         pairs.append(matched)
     joined = np.concatenate(pairs).astype(np.int64)
@@ -181,6 +184,18 @@ def _winding(faces: Indices, first: Indices, second: Indices) -> tuple[NDArray[n
         if 2 * flip[order].sum() > len(order):
             flip[order] = ~flip[order]
     return flip, bool((flip[one] ^ flip[two] == differ).all())
+
+
+def _pair_within(faces: Indices, halves: Indices, label: Indices) -> Indices:
+    """Pairs of half-edges of one edge that belong to the same piece, where every piece has exactly one pair."""
+    order = np.argsort(label, kind="stable")
+    halves, label = halves[order].reshape(-1), label[order]
+    none = np.zeros((0, 2), dtype=np.int64)
+    if len(halves) % 2 or (label[::2] != label[1::2]).any() or (label[1:-1:2] == label[2::2]).any():
+        return none
+    first, second = halves[::2], halves[1::2]
+    flat = faces.reshape(-1)
+    return none if (flat[first] == flat[second]).any() else np.stack([first, second], axis=1)
 
 
 def _pair_around(vertices: Points, faces: Indices, halves: Indices) -> Indices:
