@@ -15,10 +15,13 @@ from pat3d.kernels import prepare
 from pat3d.progress import Event, Progress
 from pat3d.report import Clock
 from pat3d.rest import Rest, come_to_rest
-from pat3d.scene import Scene, SceneObject
+from pat3d.scene import GROUND, Pose, Relation, Scene, SceneObject, parent_of
 from pat3d.scene_folder import key_of
 from pat3d.versions import versions
 from pat3d.workspace import Workspace
+
+CLEARANCE = 1e-5
+"""Gap between a fixed object and the ground [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -145,13 +148,7 @@ class Attempts:
                 seed=layout_seed,
                 fixed_poses={one.name: one.pose for one in self._ingredients if one.pose is not None},
             )
-        objects = tuple(
-            SceneObject(
-                name=one.name, phrase=one.phrase, asset=one.asset, pose=layout.poses[one.name],
-                initial_pose=layout.poses[one.name], fixed=one.fixed,
-            )
-            for one in self._ingredients
-        )  # fmt: skip
+        objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
         scene = Scene(
             objects=objects, relations=self.order.relations, prompt=self.order.prompt, seed=self.seed,
             settling_friction=self.friction, provenance=self._provenance(layout_seed),
@@ -181,7 +178,18 @@ class Attempts:
 
     def _provenance(self, layout_seed: int) -> dict[str, Any]:
         return {
-            "source": self.order.source,
+            **self.order.provenance,
             "versions": versions(),
             "settings": {"layout_seed": layout_seed, "friction": self.friction, "device": self.device},
         }
+
+
+def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
+    """An ingredient where the layout put it; fixed ones never fall, so they are set down on the ground."""
+    if one.fixed and one.pose is None and parent_of(one.name, relations) == GROUND:
+        lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
+        x, y, z = pose.position
+        pose = Pose(position=(x, y, z - lowest + CLEARANCE), quat_wxyz=pose.quat_wxyz)
+    return SceneObject(
+        name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed
+    )  # fmt: skip

@@ -42,7 +42,8 @@ class Order:
     """Makes the ingredients, in the order of `names`, for a seed."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """What the report says about how this was understood; JSON-serialisable."""
-    source: str = "prompt"
+    provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
+    """Where it came from; JSON-serialisable."""
 
 
 def derived_seed(seed: int, *words: str | int) -> int:
