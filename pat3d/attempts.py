@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pat3d.check.proof import Proof, prove, relations_at_rest
+from pat3d.check.proof import Proof, broken, prove, relations_at_rest
 from pat3d.errors import LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf import write_mjcf
 from pat3d.gather import Ingredient, Order, derived_seed
@@ -22,6 +22,17 @@ from pat3d.workspace import Workspace
 
 CLEARANCE = 1e-5
 """Gap between a fixed object and the ground [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Checked:
+    """A settled scene, exported and checked; it may have failed."""
+
+    scene: Scene
+    rest: Rest
+    proof: Proof
+    mjcf: Path
+    """Folder of the export that was checked."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,9 +51,8 @@ class Attempt:
     """Fingerprints of the stages' inputs."""
     broken: tuple[str, ...] = ()
     """Support relations that do not hold at rest."""
-    proof: Proof | None = None
-    mjcf: Path | None = None
-    """Folder of the export that was proved."""
+    checked: Checked | None = None
+    """None where an earlier fault made the checks pointless."""
     error: Pat3dError | None = None
 
     @property
@@ -50,7 +60,7 @@ class Attempt:
         """What is wrong with it, a line each."""
         if self.error is not None:
             return (str(self.error),)
-        lines = self.proof.failures if self.proof is not None else self.broken
+        lines = self.checked.proof.failures if self.checked is not None else self.broken
         if self.rest is not None and not self.rest.at_rest:
             frames, steps = self.rest.record["frames"], self.rest.record["polish_steps"]
             still = f"settling did not come to rest in {frames} frames and {steps} steps of polish (unbalanced by "
@@ -59,8 +69,8 @@ class Attempt:
 
     @property
     def passed(self) -> bool:
-        """Proved, with nothing wrong."""
-        return self.proof is not None and not self.failures
+        """Checked, with nothing wrong."""
+        return self.checked is not None and not self.failures
 
     @property
     def rank(self) -> tuple[bool, bool, int]:
@@ -72,8 +82,20 @@ class Attempt:
         settling = dict(self.rest.record) if self.rest is not None else None
         return {
             "attempt": self.number + 1, "layout_seed": self.layout_seed, "passed": self.passed,
-            "proved": self.proof is not None, "failures": list(self.failures), "settling": settling,
+            "checked": self.checked is not None, "failures": list(self.failures), "settling": settling,
         }  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Delivery:
+    """The attempt that becomes the scene folder."""
+
+    best: Attempt
+    checked: Checked
+    tried: tuple[Attempt, ...]
+    """All attempts, the best among them."""
+    key: str
+    """Fingerprint of the order and the settings."""
 
 
 class Attempts:
@@ -87,28 +109,32 @@ class Attempts:
         self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
         self._ingredients: tuple[Ingredient, ...] = ()
         self._made = False
+        self.key = key_of(versions(), order.fingerprint, seed, friction, device)
 
-    def best_of(self, count: int) -> tuple[Attempt, tuple[Attempt, ...]]:
-        """The first attempt that passes, else the best of `count`, proved; and all that were made.
+    def best_of(self, count: int) -> Delivery:
+        """The first attempt that passes, else the best of `count` with its faults.
 
         Raises:
             LayoutError: no attempt found a layout.
             SimulationError: no attempt could be simulated.
         """
         made: list[Attempt] = []
-        for number in range(count):
+        known = self.workspace.delivered(self.key)
+        for number in range(count) if known is None else (known,):
             attempt = self._attempt(number)
             if not attempt.failures:
-                attempt = self._proved(attempt)
+                attempt = self._checked(attempt)
             made.append(attempt)
             if attempt.passed:
-                return attempt, tuple(made)
+                break
         best = min(made, key=lambda attempt: attempt.rank)
         if best.error is not None:
             raise best.error
-        if best.proof is None:
-            made[best.number] = best = self._proved(best)
-        return best, tuple(made)
+        place = made.index(best)
+        made[place] = best = self._checked(best)
+        if best.checked is None:
+            raise SimulationError("; ".join(best.failures))
+        return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
 
     def _attempt(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
@@ -121,12 +147,8 @@ class Attempts:
         except (LayoutError, SimulationError) as error:
             return replace(attempt, error=error)
         scene = rest.of(scene)
-        broken = tuple(
-            f"broken: {found.relation} ({found.detail})."
-            for found in relations_at_rest(scene)
-            if found.relation.supports and not found.holds
-        )
-        return replace(attempt, scene=scene, rest=rest, notes=notes, inputs=inputs, broken=broken)
+        faults = broken(relations_at_rest(scene))
+        return replace(attempt, scene=scene, rest=rest, notes=notes, inputs=inputs, broken=faults)
 
     def _laid_out(self, number: int, layout_seed: int, inputs: Mapping[str, str]) -> tuple[Scene, tuple[str, ...]]:
         """The order's objects at poses where nothing touches, and the layout's notes."""
@@ -167,14 +189,16 @@ class Attempts:
         self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
         return rest
 
-    def _proved(self, attempt: Attempt) -> Attempt:
-        if attempt.scene is None:
+    def _checked(self, attempt: Attempt) -> Attempt:
+        if attempt.checked is not None or attempt.scene is None or attempt.rest is None:
             return attempt
         mjcf = self.scratch / f"mjcf_{attempt.number + 1}"
         with self.clock("export"):
             path = write_mjcf(attempt.scene, mjcf)
         with self.clock("proof"):
-            return replace(attempt, mjcf=mjcf, proof=prove(attempt.scene, path, self.progress))
+            proof = prove(attempt.scene, path, self.progress)
+        checked = Checked(scene=attempt.scene, rest=attempt.rest, proof=proof, mjcf=mjcf)
+        return replace(attempt, checked=checked)
 
     def _provenance(self, layout_seed: int) -> dict[str, Any]:
         return {

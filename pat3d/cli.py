@@ -12,10 +12,10 @@ import pat3d
 from pat3d.errors import Pat3dError
 
 EXAMPLES = {
-    "generate": '''
+    "generate": """
   pat3d generate "a red mug on a wooden table" --out scenes/mug
   pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
-''',
+""",
     "build": """
   pat3d build scene.yaml --out scenes/mine
   pat3d build --schema > scene.schema.json

@@ -81,3 +81,21 @@ def check(options: argparse.Namespace) -> int:
         failures += [f'{delivered}: "{name}" moves in one of scene.json and the MJCF only.' for name in lost]
         failures += [line for line in replace(proof, mujoco=found).failures if line not in failures]
     return _verdict(tuple(failures))
+
+
+def catalogue(options: argparse.Namespace) -> int:
+    """`pat3d catalogue`."""
+    from pat3d import browse
+
+    if options.name is not None:
+        return browse.one(options.name, seed=options.seed, out=options.out)
+    if options.out is not None:
+        raise SpecError("--out is the picture of one object; name it, or use --sheet for pictures of everything.")
+    return browse.everything(seed=options.seed, sheet=options.sheet)
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """`pat3d doctor`."""
+    from pat3d.doctor import examine
+
+    return examine(console())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -117,38 +118,41 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         )
     target.print(table)
     target.print()
-    held = sum(found.holds for found in proof.relations)
-    least = proof.certificate.smallest_friction
-    lines = (
-        ("equilibrium", proof.certificate.passed,
-         f"unbalanced by at most {proof.certificate.worst:.0e} of the weight at friction "
-         f"{proof.certificate.friction:g}; holds down to {least:.3g}" if least is not None else ""),
-        ("intersections", proof.penetration.passed,
-         f"{len(proof.penetration.hulls)} pairs of hulls, {len(proof.penetration.visuals)} of surfaces; R = "
-         f"{proof.penetration.ratio:.2g}"),
-        ("MuJoCo", proof.mujoco.passed,
-         f"{proof.mujoco.version}, {proof.mujoco.seconds:g} s: at most {proof.mujoco.worst_mm:.3f} mm, "
-         f"{proof.mujoco.worst_degrees:.3f} degrees; {len(proof.mujoco.warnings)} warnings"),
-        ("relations", all(found.holds for found in proof.relations), f"{held} of {len(proof.relations)} hold"),
-    )  # fmt: skip
-    for name, good, text in lines:
-        mark = "[green]pass[/]" if good else "[red]FAIL[/]" if name != "relations" or proof.failures else "note"
-        target.print(f"{mark}  {name}: ", end="")
-        target.print(text, markup=False)
+    certificate, overlaps, mujoco = proof.certificate, proof.penetration, proof.mujoco
+    least = certificate.smallest_friction
+    margin = "" if least is None else f"; holds down to {least:.3g}" if math.isfinite(least) else "; holds at none"
+    held = [found for found in proof.relations if found.holds]
+    verdicts = {
+        "equilibrium": "pass" if certificate.passed else "FAIL",
+        "intersections": "pass" if overlaps.passed else "FAIL",
+        "MuJoCo": "pass" if mujoco.passed else "FAIL",
+        "relations": "FAIL" if proof.broken else "part" if proof.unmet else "pass",
+    }
+    texts = {
+        "equilibrium": f"unbalanced by at most {certificate.worst:.0e} of the weight at friction "
+        f"{certificate.friction:g}{margin}",
+        "intersections": f"{len(overlaps.hulls)} pairs of hulls, {len(overlaps.visuals)} of surfaces; "
+        f"R = {overlaps.ratio:.2g}",
+        "MuJoCo": f"{mujoco.version}, {mujoco.seconds:g} s: at most {mujoco.worst_mm:.3f} mm and "
+        f"{mujoco.worst_degrees:.3f} degrees; {len(mujoco.warnings)} warnings",
+        "relations": f"{len(held)} of {len(proof.relations)} hold",
+    }
+    for name, verdict in verdicts.items():
+        target.print(verdict, style={"pass": "green", "FAIL": "bold red", "part": "yellow"}[verdict], end="  ")
+        target.print(f"{name}: {texts[name]}", markup=False)
     for line in proof.unmet:
         target.print(f"      not met: {line}", markup=False)
 
 
 def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
-    best = report.best
-    if best.scene is None or best.proof is None:
-        return
-    show_proof(target, best.scene, best.proof)
+    delivery = report.delivery
+    best = delivery.best
+    show_proof(target, delivery.checked.scene, delivery.checked.proof)
     for note in (*report.order.get("notes", ()), *best.notes):
         target.print(f"note  {note}", markup=False)
-    if len(report.tried) > 1:
-        target.print(f"note  attempt {best.number + 1} of {len(report.tried)} was kept", markup=False)
+    if len(delivery.tried) > 1:
+        target.print(f"note  attempt {best.number + 1} of {len(delivery.tried)} was kept", markup=False)
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)

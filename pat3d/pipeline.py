@@ -13,7 +13,6 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from pat3d.attempts import Attempts
 from pat3d.errors import SpecError
@@ -206,22 +205,20 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
             order, seed=settings.seed, friction=settings.friction, device=settings.device,
             workspace=workspace, clock=clock, progress=progress, scratch=fresh.parent,
         )  # fmt: skip
-        best, tried = attempts.best_of(ATTEMPTS)
-        if best.scene is None or best.rest is None or best.mjcf is None:
-            raise AssertionError("an attempt that was proved has a scene")
-        scene, rest = best.scene, best.rest
+        delivery = attempts.best_of(ATTEMPTS)
+        scene, rest = delivery.checked.scene, delivery.checked.rest
         with clock("files"):
             progress(Event(stage="writing the folder"))
             save_scene(scene, fresh)
-            best.mjcf.rename(fresh / "mjcf")
+            delivery.checked.mjcf.rename(fresh / "mjcf")
             names = tuple(obj.name for obj in scene.objects)
             write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
         with clock("preview"):
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
         report = Report(
-            order=order.record, best=best, tried=tried, reused=tuple(workspace.reused), seconds=clock.seconds
-        )
+            order=order.record, delivery=delivery, reused=tuple(workspace.reused), seconds=clock.seconds
+        )  # fmt: skip
         write_json(fresh / "report.json", report.as_dict())
     workspace.clear()
     return Outcome(scene=scene, report=report, folder=folder)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pat3d.attempts import Attempt
+    from pat3d.attempts import Delivery
 
 FORMAT = "pat3d-report"
 VERSION = 1
@@ -43,9 +43,7 @@ class Report:
 
     order: Mapping[str, Any]
     """How the prompt or the specification was understood."""
-    best: Attempt
-    """The attempt that was delivered."""
-    tried: tuple[Attempt, ...]
+    delivery: Delivery
     reused: tuple[str, ...] = ()
     """Stages taken from an earlier run."""
     seconds: Mapping[str, float]
@@ -53,18 +51,17 @@ class Report:
     @property
     def passed(self) -> bool:
         """Whether the scene is proven."""
-        return self.best.passed
+        return self.delivery.best.passed
 
     @property
     def failures(self) -> tuple[str, ...]:
         """What disproves the scene, a line each."""
-        return self.best.failures
+        return self.delivery.best.failures
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
-        scene, proof, rest = self.best.scene, self.best.proof, self.best.rest
-        if scene is None or proof is None or rest is None:
-            raise ValueError("only an attempt that was proved can be reported.")
+        best, checked = self.delivery.best, self.delivery.checked
+        scene, proof, rest = checked.scene, checked.proof, checked.rest
         drifts = {obj.name: obj for obj in proof.mujoco.objects}
         objects = []
         for obj in scene.objects:
@@ -93,10 +90,11 @@ class Report:
             "versions": scene.provenance.get("versions", {}),
             "objects": objects,
             "understood": dict(self.order),
-            "layout": {"seed": self.best.layout_seed, "notes": list(self.best.notes)},
+            "layout": {"seed": best.layout_seed, "notes": list(best.notes)},
             "settling": {**rest.record, "friction": scene.settling_friction},
             "proof": proof.as_dict(),
-            "attempts": [attempt.as_dict() for attempt in self.tried],
-            "inputs": dict(self.best.inputs),
+            "attempts": [attempt.as_dict() for attempt in self.delivery.tried],
+            "delivered_attempt": best.number + 1,
+            "inputs": {"order": self.delivery.key, **best.inputs},
             "reused": list(self.reused),
         }

@@ -31,6 +31,15 @@ class Workspace:
         if keep and self.partial.exists() and any(self.partial.iterdir()) and not (self.partial / _MARKER).is_file():
             raise ExportError(f"{self.partial} is needed for unfinished work but holds something else; move it away.")
 
+    def delivered(self, key: str) -> int | None:
+        """The attempt that an earlier run of the same order delivered in the finished folder, from 0."""
+        if not self.keep:
+            return None
+        report = read_json(self.folder / "report.json")
+        attempt = report.get("delivered_attempt")
+        same = _inputs(report).get("order") == key and isinstance(attempt, int) and 1 <= attempt <= 100
+        return attempt - 1 if same else None
+
     def layout(self, attempt: int, key: str) -> tuple[Scene, tuple[str, ...]] | None:
         """The scene laid out by an earlier run, and the layout's notes."""
         for folder, report in self._candidates(attempt):

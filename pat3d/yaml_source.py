@@ -119,10 +119,11 @@ def _value(path: Path, node: yaml.Node, place: Place, lines: dict[Place, tuple[i
         for key_node, value_node in node.value:
             key = getattr(key_node, "value", None)
             mark = key_node.start_mark
+            here = f"{path}:{mark.line + 1}:{mark.column + 1}"
             if not isinstance(key_node, yaml.ScalarNode) or not isinstance(key, str):
-                raise SpecError(f"{path}:{mark.line + 1}:{mark.column + 1}: a key must be a word. Nothing was written.")
+                raise SpecError(f"{here}: a key must be a word. Nothing was written.")
             if key in found:
-                raise SpecError(f'{path}:{mark.line + 1}:{mark.column + 1}: the key "{key}" is repeated. Nothing was written.')
+                raise SpecError(f'{here}: the key "{key}" is repeated. Nothing was written.')
             lines[(*place, key)] = (mark.line + 1, mark.column + 1)
             found[key] = _value(path, value_node, (*place, key), lines)
         return found

@@ -44,9 +44,12 @@ class Proof:
             for obj in self.mujoco.moved()
         ]
         lines += [f"MuJoCo warns: {warning}" for warning in self.mujoco.warnings]
-        lines += [f"broken: {found.relation} ({found.detail})." for found in self.relations
-                  if found.relation.supports and not found.holds]  # fmt: skip
-        return tuple(lines)
+        return (*lines, *self.broken)
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """Support relations that do not hold, a line each."""
+        return broken(self.relations)
 
     @property
     def unmet(self) -> tuple[str, ...]:
@@ -80,6 +83,12 @@ class Proof:
                 ],
             },
         }  # fmt: skip
+
+
+def broken(relations: tuple[RelationResult, ...]) -> tuple[str, ...]:
+    """A line for every support relation that does not hold."""
+    return tuple(f"broken: {found.relation} ({found.detail})." for found in relations
+                 if found.relation.supports and not found.holds)  # fmt: skip
 
 
 def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
