@@ -1,6 +1,6 @@
 """How good and how fast is `pat3d generate`? Every prompt of a file with several seeds, each in a fresh process.
 
-    python benchmarks/generate.py --prompts benchmarks/prompts.txt --seeds 0 1 2 --out table.md
+python benchmarks/generate.py --prompts benchmarks/prompts.txt --seeds 0 1 2 --out table.md
 """
 
 from __future__ import annotations
