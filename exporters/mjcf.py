@@ -19,10 +19,12 @@ MuJoCo gives a pair of geoms the larger of their friction coefficients and the s
 from __future__ import annotations
 
 import shutil
+import sys
 import tempfile
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -100,7 +102,19 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
         except OSError:
             shutil.move(Path(temporary) / "old", folder)
             raise
+    forget_cached_meshes()
     return folder / "scene.xml"
+
+
+def forget_cached_meshes() -> None:
+    """Empty the mesh cache of a MuJoCo that this process has loaded.
+
+    MuJoCo keeps compiled meshes by path and modification time in whole seconds, so a mesh that is written again
+    within the second would be taken for the old one.
+    """
+    mujoco: Any = sys.modules.get("mujoco")
+    if mujoco is not None and hasattr(mujoco, "mj_clearCache"):
+        mujoco.mj_clearCache(mujoco.mj_getCache())
 
 
 def _document(scene: Scene, folder: Path) -> ET.Element:

@@ -48,14 +48,26 @@ def load_points(path: Path) -> list[NDArray[np.float64]] | None:
     return np.split(points, np.cumsum(counts)[:-1])
 
 
-def store_points(path: Path, parts: list[NDArray[np.float64]]) -> None:
-    """Write point sets to `path` atomically; a folder that cannot be written leaves no entry."""
+def load_record(path: Path) -> dict[str, Any]:
+    """What was stored beside the points at `path`; empty where there is nothing readable."""
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            record = json.loads(str(data["record"]))
+    except Exception:
+        # As for the points: damage raises anything.
+        return {}
+    return record if isinstance(record, dict) else {}
+
+
+def store_points(path: Path, parts: list[NDArray[np.float64]], record: Mapping[str, Any] | None = None) -> None:
+    """Write point sets, and a JSON-serialisable `record`, to `path` atomically; an unwritable folder is left alone."""
     temporary = None
+    counts = np.array([len(points) for points in parts])
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
         with os.fdopen(handle, "wb") as file:
-            np.savez(file, points=np.concatenate(parts), counts=np.array([len(points) for points in parts]))
+            np.savez(file, points=np.concatenate(parts), counts=counts, record=np.array(json.dumps(record or {})))
         os.replace(temporary, path)
     except OSError:
         if temporary is not None:

@@ -12,7 +12,7 @@ from pat3d.assets.topology import Indices
 TOLERANCE = 1e-5
 """Points of the visual mesh may stick out of the parts by this much [m]."""
 
-MAX_SAMPLES = 400_000
+MAX_SAMPLES = 100_000
 _CHUNK = 20_000
 
 

@@ -59,6 +59,14 @@ MATERIAL_WORDS: dict[str, str] = {
 }  # fmt: skip
 """Adjectives that name a material other than by its own name."""
 
+NATURAL_COLOURS: dict[str, tuple[str, ...]] = {
+    "wood": ("wood", "brown", "tan"), "bamboo": ("bamboo",), "cork": ("cork",), "cardboard": ("cardboard",),
+    "wicker": ("wicker", "tan"), "metal": ("steel", "silver", "gray"), "steel": ("steel", "silver"),
+    "iron": ("gray", "black"), "aluminium": ("silver", "steel"), "brass": ("gold", "bronze", "copper"),
+    "glass": ("glass",), "stone": ("gray", "white"), "leather": ("brown", "black", "tan"),
+}  # fmt: skip
+"""Colours that a thing has when its material is named and its colour is not."""
+
 
 def material(name: str) -> Material:
     """The material called `name`.

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from pat3d.assets.asset import Asset, ConvexPart, VisualMesh
-from pat3d.assets.cache import cache_root, content_key, load_points, store_points
-from pat3d.assets.cover import cover, outside, planes, surface_points
+from pat3d.assets.cache import cache_root, content_key, load_points, load_record, store_points
+from pat3d.assets.cover import cover, planes, surface_points
 from pat3d.assets.decompose import DEFAULT_OPTIONS, decompose
 from pat3d.assets.hull import convex_part
 from pat3d.assets.mass import mass_properties
@@ -182,9 +182,7 @@ def _make_parts(
     path = cache_root(cache_dir) / "parts" / f"{key}.npz"
     stored = load_points(path)
     if stored is not None:
-        parts = [convex_part(hull) for hull in stored]
-        after = float(outside(points, parts)[0].max())
-        return _Parts(parts=parts, record={"cached": True, **_record(parts, None, after, start)})
+        return _Parts(parts=[convex_part(hull) for hull in stored], record={**load_record(path), "cached": True})
     pit = cavity(mesh_height_map(fixed.solid.vertices, fixed.solid.faces))
     parts: list[ConvexPart] = []
     record: dict[str, Any] = {}
@@ -198,7 +196,7 @@ def _make_parts(
         record["cavity_loss"] = loss
         if loss <= MAX_CAVITY_LOSS or not options:
             break
-    store_points(path, [part.vertices for part in parts])
+    store_points(path, [part.vertices for part in parts], record)
     return _Parts(parts=parts, record=record)
 
 
@@ -272,9 +270,7 @@ def _simplified(piece: Solid) -> Solid:
     return solid_of(solid)
 
 
-def _record(
-    parts: list[ConvexPart], hulls: list[NDArray[np.float64]] | None, after: float, start: float
-) -> dict[str, Any]:
+def _record(parts: list[ConvexPart], hulls: list[NDArray[np.float64]], after: float, start: float) -> dict[str, Any]:
     """What the provenance says about parts; lengths in metres."""
     record: dict[str, Any] = {
         "count": len(parts),
@@ -283,10 +279,9 @@ def _record(
         "sticks_out": after,
         "seconds": round(time.monotonic() - start, 3),
     }
-    if hulls is not None:
-        grown = [inflation(part, hull) for part, hull in zip(parts, hulls, strict=True)]
-        record["inflation"] = max(item.distance for item in grown)
-        record["inflation_volume"] = float(np.mean([item.volume for item in grown]))
+    grown = [inflation(part, hull) for part, hull in zip(parts, hulls, strict=True)]
+    record["inflation"] = max(item.distance for item in grown)
+    record["inflation_volume"] = float(np.mean([item.volume for item in grown]))
     return record
 
 

@@ -227,10 +227,10 @@ def _collapse(
             break
         if best is None:
             break
-        if len(points) <= limit and found[names[best[0]], names[best[1]]][0] > _DEAR:
+        cost, point, _ = found[names[best[0]], names[best[1]]]
+        if point is None or (len(points) <= limit and cost > _DEAR):
             break
         step += 1
-        point = found[names[best[0]], names[best[1]]][1]
         for corner in np.unique(hull.simplices[sorted(incident[best[0]] | incident[best[1]])]):
             changed[names[corner]] = step
         for corner in best:

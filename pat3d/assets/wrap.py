@@ -64,7 +64,7 @@ def voxel_wrap(
 
     high = low + (shape - 1) * voxel
     bounds = [*map(float, low), *map(float, high)]
-    solid = manifold3d.Manifold.level_set(inside, bounds, voxel).simplify(0.1 * voxel)
+    solid = manifold3d.Manifold.level_set(inside, bounds, voxel).simplify(0.25 * voxel)
     if solid.status() != manifold3d.Error.NoError or solid.is_empty():
         raise AssetError("the mesh encloses nothing, even when wrapped in voxels.")
     mesh = solid.to_mesh64()

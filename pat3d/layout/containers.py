@@ -29,6 +29,13 @@ CENTRING = 0.03
 """Height [m] that one metre off the cavity's axis costs when places are ranked."""
 BALANCING = 0.1
 """The same for the common centre of mass of everything inside, so that light containers do not tip."""
+LONG = 2.2
+"""Things this many times longer than wide are stood on end in narrow cavities."""
+TIPPING = 1.0
+"""Height [m] that one metre of the centre of mass outside the contacts costs."""
+_PICKS = np.array([0, 1, 2])
+_SPREAD_PICKS = np.array([0, 1, 2, 4, 8, 16, 32, 48, 64, 96])
+"""Ranks of the places that are tried exactly, of each orientation."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,9 +103,13 @@ def pack(
     """
     bulky = sorted(groups, key=lambda group: -float(np.prod(np.sort(group.size)[1:])))
     refusals = []
-    # Large before small packs densest; small below large lets the large ones form the heap's top.
-    for order in (bulky, bulky[::-1]):
-        heap = _Heap(container, column, obstacles, reach=max(_reach(group) for group in order), gap=gap, steady=steady)
+    reach = max(_reach(group) for group in groups)
+    # Large before small packs densest; small below large lets the large ones form the heap's top. Only when
+    # neither stays within the walls may the heap rise above the rim.
+    small_first = bulky[::-1]
+    attempts = [(bulky, 0.0), (small_first, 0.0), (bulky, 0.5), (bulky, 1.0), (small_first, 1.0)]
+    for order, above_rim in attempts[3:] if steady else attempts:
+        heap = _Heap(container, column, obstacles, reach=reach, gap=gap, steady=steady, above_rim=above_rim)
         for group in order:
             found = next(
                 (
@@ -119,6 +130,12 @@ def pack(
     raise refusals[-1]
 
 
+def _compact(group: Group) -> bool:
+    """Whether the group is not long and thin."""
+    size = np.sort(group.size)
+    return bool(size[2] < LONG * size[1])
+
+
 def _reach(group: Group) -> float:
     """Largest distance of the group from its root's origin [m]."""
     return max(float(np.linalg.norm(member.vertices, axis=1).max()) for member in group.members)
@@ -136,8 +153,11 @@ class _Heap:
         reach: float,
         gap: float,
         steady: bool,
+        above_rim: float,
     ) -> None:
         self.container, self.column, self.gap, self.steady = container, column, gap, steady
+        self.above_rim = above_rim
+        """How much of the height of a thing on the heap may rise above the rim beyond its upper half."""
         self.placed: list[Group] = []
         self.settled = [container, *obstacles]
         self.cell = max(float(2 * column.reach.max()) / CELLS, 2 * reach / COARSEST)
@@ -160,25 +180,33 @@ class _Heap:
 
     def place(self, group: Group, rotations: Sequence[Array], rng: np.random.Generator) -> Group | None:
         """`group` at the lowest place found over all `rotations`, or None."""
+        # Long things lean on walls; whether others tip is asked of the few best places.
+        compact = _compact(group)
+        picks = _SPREAD_PICKS if self.steady or (compact and self.placed) else _PICKS
         ranked: list[tuple[float, int, Group, Array]] = []
         for rotation in rotations:
             turned = group.turned(rotation)
             heights, cost = self._survey(turned, rng)
-            for index in np.argsort(cost, axis=None)[: 60 if self.steady else 3 : 4 if self.steady else 1]:
+            order = np.argsort(cost, axis=None)
+            for index in order[picks[picks < len(order)]]:
                 i, j = np.unravel_index(index, cost.shape)
                 if np.isfinite(cost[i, j]):
                     spot = np.array([*self.spots[i, j], heights[i, j]])
                     ranked.append((float(cost[i, j]), len(ranked), turned, spot))
         best: tuple[float, Group] | None = None
+        tries = len(picks)
         for attempt, (_, _, turned, spot) in enumerate(sorted(ranked, key=lambda item: item[:2])):
-            if attempt >= (40 if self.steady else 16) or (attempt >= 3 and best is not None):
+            if attempt >= 4 * tries or (attempt >= tries and best is not None):
                 break
             lowered = lower(turned, spot, self.settled, floor=float(self.container.low[2]), gap=self.gap)
             if lowered is None or not self._deep_enough(np.array(lowered.low[2]), lowered):
                 continue
-            if self.steady and support_margin(lowered, self.settled, gap=self.gap) <= 0.0:
-                continue
             energy = float(lowered.centre_of_mass[2])
+            if self.steady or (compact and self.placed):
+                margin = support_margin(lowered, self.settled, gap=self.gap)
+                if self.steady and margin <= 0.0:
+                    continue
+                energy += TIPPING * float(np.clip(-margin, 0.0, 0.5 * np.sort(group.size)[1]))
             if best is None or energy < best[0]:
                 best = energy, lowered
         return None if best is None else best[1]
@@ -221,9 +249,10 @@ class _Heap:
         """Whether a body with its lowest point at `lowest` [m] is in the cavity, or on a heap that stays in it."""
         column = self.column
         inside = lowest <= column.rim - 0.25 * column.height
-        if self.placed and not column.capped and group.size[:2].max() <= 2.1 * column.half_size.max():
-            inside |= lowest <= column.rim + 0.5 * float(group.size[2])
-        return inside
+        if not self.placed or column.capped or group.size[:2].max() > 2.1 * column.half_size.max():
+            return inside
+        on_heap = lowest <= column.rim + (self.above_rim - 0.5) * float(group.size[2])
+        return on_heap if _compact(group) else inside | on_heap
 
     def _raise(self, bodies: Sequence[Placed]) -> None:
         origin = self.corner - self.cell * self.border
@@ -250,13 +279,13 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
     start = float(rng.uniform(-math.pi, math.pi))
     size = group.size
     order = np.argsort(size)
-    thin, wide, long = size[order]
+    thin, wide = size[order][:2]
     upright = len(group.members) > 1
     round_about = abs(size[0] - size[1]) < 0.05 * max(size[0], size[1])
     yaws = [start] if round_about and not upright else [0.1 * start / math.pi + k * math.pi / 4 for k in range(4)]
     for yaw in yaws:
         yield yaw_matrix(yaw)
-    if upright or long < 2.2 * wide:
+    if upright or _compact(group):
         return
     on_end = _onto_end(group, int(order[2]), _upper_end(group.root, int(order[2]), column.height))
     steepest = min(math.atan2(max(0.0, 2 * column.half_size.min() - 1.2 * wide), column.height), math.radians(50))

@@ -47,7 +47,17 @@ class _Chunker:
 
     @staticmethod
     def _repaired(tokens: list[Token], nouns: Nouns) -> list[Token]:
-        """A bare "beside table" is a bedside table: with a relation there would be a determiner."""
+        """The tokens without misleading ones.
+
+        A bare "beside table" is a bedside table: with a relation there would be a determiner. The owner in "a child's
+        desk" is no object.
+        """
+        plain = ("there", "here", "that", *lexicon.PRONOUNS)
+        tokens = [
+            token
+            for owner, token in zip([tokens[0], *tokens], tokens, strict=False)
+            if token.text != "'s" or owner.text in plain or nouns.match([owner.text])
+        ]
         if nouns.match(["bedside", "table"]) is None:
             return tokens
         return [
@@ -82,9 +92,19 @@ class _Chunker:
     def _opens_clause(self) -> bool:
         return not self._chunks or self._chunks[-1].kind in ("stop", "clause", "comma", "and", "dash")
 
+    @property
+    def _opens_sentence(self) -> bool:
+        return not self._chunks or self._chunks[-1].kind in ("stop", "clause")
+
+    def _finite_at(self, at: int) -> bool:
+        keys = (tuple(token.text for token in self._tokens[at : at + size]) for size in range(1, LONGEST_LINK + 1))
+        return any(key in LINKS and LINKS[key].finite for key in keys)
+
     def _step(self) -> None:
         token = self._tokens[self._at]
         word, follower = token.text, self._words(2)[-1]
+        if word == ":":
+            return self._add("link", link=LINKS[("with",)])
         if token.mark:
             return self._add({",": "comma", ".": "stop", "-": "dash"}[word])  # type: ignore[arg-type]
         if word in lexicon.MOOD_VERBS and self._chunks and self._chunks[-1].kind != "stop":
@@ -120,6 +140,9 @@ class _Chunker:
         if word == "each" and (follower in lexicon.COPULAS or follower == "of" or link_at(self._tokens, self._at + 1)
                                or self._tokens[self._at + 1].mark):  # fmt: skip
             return self._add("each")
+        relative = word in ("which", "that", "who") and not self._opens_sentence
+        if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
+            return self._add("phrase", phrase=Phrase(kind="pronoun", head="which", words=word, number=token.number))
         if word in lexicon.COPULAS or (word == "'s" and self._previous_word() in lexicon.PRONOUNS):
             self._add("verb")
             return self._quality()

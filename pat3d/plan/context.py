@@ -48,7 +48,9 @@ class Context:
     related: list[Group] = field(default_factory=list)
     """What the last relation was said of."""
     landmark: Group | None = None
-    """What "the left side" was last said of."""
+    """What "the left side of" or "to the left of" was last said of."""
+    landmark_is_surface: bool = True
+    """Whether it was "the left side of": on it rather than beside it."""
     mark: str = "start"
     """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
 
@@ -83,6 +85,11 @@ class Context:
         for index in range(len(self.frames) - 1, -1, -1):
             frame = self.frames[index]
             if frame.link.manner == "of" and (phrase.determined or self.mark != "and"):
+                continue
+            # "a lamp, a crate of toys, and a mug": the mug goes on the list that has commas already.
+            wider = (each for each in reversed(self.frames[:index]) if each.parents[0] is not frame.parents[0])
+            outer = next((each.members for each in wider), self.top)
+            if "comma" in self.mark and len(frame.members) < 2 <= len(outer) and frame.parents[0] in outer:
                 continue
             loose = frame.flank is not None or frame.link.manner in ("surround", "include")
             holders = frame.parents[:1]
@@ -137,6 +144,9 @@ class Context:
             return stacks[-1:]
         frame = self.holder.get(id(child)) if child is not None else None
         if frame is not None and frame.parents and frame.flank is None:
+            central = [group for group, side, _ in self.draft.sided if side == "centre" and group in frame.members]
+            if central and child not in central:
+                return central[-1:]
             return frame.parents[:1]
         if phrase.each or phrase.head in ("them", "they", "each"):
             plural = [group for group in self.draft.groups if group.count > 1 and group is not child]
@@ -163,7 +173,19 @@ class Context:
         floor = draft.on_floor(parent)
         if len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
             return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
-        child = children[-1]
+        child = self._carrier(children[-1], link, parent)
+        if child is not children[-1] and len(self.top) > 1 and child is self.top[-1]:
+            return self.climb([child], link, parent)
+        if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
+            return self.carried[id(child)]
+        return [child]
+
+    def _carrier(self, child: Group, link: Link, parent: Group) -> Group:
+        """What carries `child` and is itself what `link` speaks of."""
+        draft = self.draft
+        supports = link.kind in SUPPORT_KINDS
+        floor = draft.on_floor(parent)
+        seen = [child]
         while not draft.on_floor(child) or (floor and not supports):
             frame = self.holder.get(id(child))
             if not supports and id(child) in self.carried and not frame and not floor:
@@ -171,18 +193,19 @@ class Context:
             if frame is None or not frame.parents or frame.flank or not frame.link.inverse:
                 break
             above = frame.parents[0]
-            if above is parent:
+            # A prompt may list two groups in each other.
+            if above is parent or above in seen:
                 break
             if draft.on_floor(above) and (supports or not floor):
                 break
-            if supports and not floor and draft.is_a(above, lexicon.LEVEL + lexicon.DISHES):
+            dish = draft.is_a(above, lexicon.DISHES) and not draft.is_a(parent, lexicon.LEVEL)
+            if supports and not floor and (dish or draft.is_a(above, lexicon.LEVEL)):
                 break
             if supports and (draft.supports.get(id(above)) is not None and not draft.supports[id(above)].weak):
                 break
             child = above
-        if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
-            return self.carried[id(child)]
-        return [child]
+            seen.append(child)
+        return child
 
     def relate(self, child: Group, link: Link, parent: Group) -> None:
         """Record that `child` stands in relation `link` to `parent`."""
@@ -213,13 +236,15 @@ class Context:
             self.maker.settle_generic(child, parent)
             draft.place(child, kind, parent)
         else:
+            if link.kind in ("left_of", "right_of"):
+                self.landmark, self.landmark_is_surface = parent, False
             draft.beside(child, link.kind or "next_to", parent)
 
     def on_half(self, children: list[Group], side: str, parent: Group | None) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         for child in children:
             level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
-            self.landmark = parent or self.landmark
+            self.landmark, self.landmark_is_surface = parent or self.landmark, True
             if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
                 self.draft.place(child, self.draft.containment(parent), parent)
                 self.draft.sided.append((child, side, None))

@@ -94,7 +94,8 @@ BACKGROUND = frozenset({
     "nursery", "playroom", "classroom", "workshop", "garage", "library", "cafe", "restaurant", "shop", "sky", "wind",
     "quality", "resolution", "detail", "details", "workspace", "world", "corner", "tabletop scene", "still life",
     "living room", "dining room", "carpeted floor", "countertop scene", "foreground", "sun", "moonlight", "light",
-    "hallway", "yard", "backyard", "patio", "terrace", "balcony", "pair view",
+    "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains",
+    "yard", "backyard", "patio", "terrace", "balcony", "pair view",
 })  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 _TOKEN = re.compile(
     r"(?P<number>\d+[.]\d+)|(?P<word>[^\W_]+(?:[-'][^\W_]+)*)|(?P<dash>\u2014|\u2013|--+|(?<=\s)-(?=\s))"
-    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]:])"
+    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]])|(?P<colon>:)"
 )
 _IRREGULAR = {
     "mice": "mouse", "knives": "knife", "loaves": "loaf", "leaves": "leaf", "shelves": "shelf", "halves": "half",
@@ -23,7 +23,7 @@ class Token:
     """One word or mark."""
 
     text: str
-    """Lower case; ",", ".", "-" (a dash) or "'s" for marks."""
+    """Lower case; ",", ".", ":", "-" (a dash) or "'s" for marks."""
     start: int
     end: int
     """Span in the normalised prompt [characters]."""
@@ -53,7 +53,7 @@ def tokenise(text: str) -> list[Token]:
             else:
                 tokens.append(Token(text=word, start=start, end=end, number=words))
         else:
-            mark = {"dash": "-", "stop": ".", "comma": ","}[str(found.lastgroup)]
+            mark = {"dash": "-", "stop": ".", "comma": ",", "colon": ":"}[str(found.lastgroup)]
             tokens.append(Token(text=mark, start=start, end=end, number=words, mark=True))
     tokens.append(Token(text=".", start=len(text), end=len(text), number=words, mark=True))
     return tokens

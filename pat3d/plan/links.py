@@ -44,15 +44,16 @@ def _table() -> dict[tuple[str, ...], Link]:
 
     add(
         Link(kind="on"),
-        "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "along",
-        "leaning against", "up on", "above",
+        "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "up on",
+        "above",
     )  # fmt: skip
     add(Link(kind="in"), "in", "inside", "inside of", "into", "within", "amid")
     add(
         Link(kind="next_to"),
         "beside", "besides", "next to", "near", "near to", "nearby to", "by", "close to", "alongside", "adjacent to",
         "at", "against", "right next to", "to the side of", "on the side of", "at the side of", "off to the side of",
-        "close by", "with its side to", "across from", "opposite", "opposite to", "among", "amongst",
+        "close by", "with its side to", "across from", "along", "leaning against", "leaning on",
+        "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
     sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
     for side, kind in sides:

@@ -367,6 +367,8 @@ class PhraseReader:
             if compound:
                 return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
+            if portion and not holds and inner.kind == "pieces":
+                return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
                 return replace(inner, plural=plural, count=count, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):

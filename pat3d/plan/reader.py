@@ -26,6 +26,8 @@ class Reader:
         self._had_verb = False
         """The clause has its verb."""
         self._each = False
+        self._relative = False
+        """A relative pronoun stands before the verb: what was read last is its subject."""
         self._side = ""
 
     def read(self, chunks: Sequence[Chunk]) -> None:
@@ -118,7 +120,10 @@ class Reader:
                     self._now.maker.multiply(group, frame.parents[0].count)
 
     def _on_phrase(self, phrase: Phrase, at: int) -> None:
-        if phrase.kind == "pronoun":
+        if phrase.head == "which":
+            self._relative = True
+            return
+        if phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive and self._starts_clause(at)):
             if self._now.mark == "start" or not self._now.subject:
                 self._now.subject = self._now.last = list(self._now.before)
             return
@@ -212,7 +217,12 @@ class Reader:
             self._had_verb = True
         follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
         apart = link.finite or self._verb or "comma" in self._now.mark or self._now.mark == "dash"
-        near = self._now.subject if apart else self._now.last or self._now.subject
+        if self._relative:
+            apart, self._relative = False, False
+            near = self._now.last[-1:] or self._now.subject
+            self._now.top = []
+        else:
+            near = self._now.subject if apart else self._now.last or self._now.subject
         if link.manner == "include":
             near = self._now.last or self._now.subject
         elif self._now.mark in ("and", "comma and") and not link.inverse and not self._verb:
@@ -254,6 +264,9 @@ class Reader:
             return
         if not parents:
             return
+        content = self._now.holder.get(id(parents[-1]))
+        if link.manner == "with" and content and content.link.manner in ("of", "hold") and parents[-1].count > 1:
+            parents = content.parents or parents
         if link.manner == "include" and (holder := self._now.holder.get(id(parents[-1]))):
             holder.fresh = True
             return
@@ -357,8 +370,10 @@ class Reader:
                 self._end_clause()
             landmark = self._now.landmark
             if landmark is not None and side in ("left", "right", "centre"):
-                half = Link(manner="half", kind="on", side=side)
-                self._now.frames = [Frame(link=half, parents=[landmark])]
+                link = Link(manner="half", kind="on", side=side)
+                if not self._now.landmark_is_surface and side != "centre":
+                    link = Link(kind="left_of" if side == "left" else "right_of")
+                self._now.frames = [Frame(link=link, parents=[landmark])]
             else:
                 self._side = side
             return

@@ -48,6 +48,11 @@ class Potential:
         weight = np.where(self._free, mass * GRAVITY, 1.0)
         self._force_scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
 
+    @property
+    def vertex_positions(self) -> wp.array:
+        """Vertex positions of the state evaluated or covered last [m], shape (vertices,), vec3d."""
+        return self._position
+
     def positions(self, q: wp.array, out: wp.array) -> wp.array:
         """Vertex positions [m] at state q, shape (vertices,), vec3d, written to `out`."""
         model = self.model

@@ -8,7 +8,7 @@ fades, which ends at static equilibrium instead of creeping for ever.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import warp as wp
@@ -52,6 +52,33 @@ class SettleOptions:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class StepRecord:
+    """What one time step depended on besides the state it started from; enough to differentiate it."""
+
+    active: NDArray[np.bool_]
+    """Worlds that were stepped, shape (worlds,)."""
+    sigma: NDArray[np.float64]
+    """Inertia weight over the squared time step [1/s^2], shape (worlds,)."""
+    d_hat: float
+    """[m]"""
+    lag_d_hat: float
+    """Barrier activation distance at which friction was recorded [m]."""
+    epsilon: float
+    """[m]"""
+    reference: NDArray[np.int64]
+    """Index of the state from which friction displacements count, shape (worlds,)."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Tape:
+    """All states of a run and the steps between them, for the backward pass."""
+
+    states: list[NDArray[np.float64]] = field(default_factory=list)
+    """Shape (bodies, 4, 3) each; one more than steps."""
+    steps: list[StepRecord] = field(default_factory=list)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Settled:
     """How settling ended."""
 
@@ -74,18 +101,29 @@ Progress = Callable[[str, int, float], None]
 """Called with the phase, its step number and the largest vertex motion of the step [m]."""
 
 
+def barrier_stiffness(model: Model) -> NDArray[np.float64]:
+    """Barrier stiffness of every world [N], shape (worlds,).
+
+    At 100 times the heaviest body's weight, loads close gaps by a few per cent of d_hat.
+    """
+    return np.maximum(100.0 * model.weight, 1.0)
+
+
 class _Run:
     """The state of one settling run; every quantity that decides something is kept per world."""
 
-    def __init__(self, model: Model, options: SettleOptions, progress: Progress):
-        self.model, self.options, self.progress = model, options, progress
+    def __init__(self, model: Model, options: SettleOptions, progress: Progress, tape: Tape | None = None):
+        self.model, self.options, self.progress, self.tape = model, options, progress, tape
         self.q = wp.array(model.q0, dtype=wp.vec3d, device=model.device)
+        self.reference = np.zeros(model.worlds, dtype=np.int64)
+        self.lag_d_hat = options.d_hat
+        if tape is not None:
+            tape.states.append(self.state())
         self.potential = Potential(model)
         self.newton = Newton(self.potential)
-        self.frames = self.polish_steps = self.iterations = 0
+        self.frames = self.polish_steps = self.iterations = self.steps = 0
         self.trajectory = [model.q0.astype(np.float32)]
-        # At 100 times the heaviest body's weight, loads close gaps by a few per cent of d_hat.
-        self.potential.contact.stiffness.assign(np.maximum(100.0 * model.weight, 1.0))
+        self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
         self._slip = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
 
@@ -114,10 +152,20 @@ class _Run:
         potential.inertia.sigma.assign(weight / self.options.time_step**2)
         result = self.newton.minimise(self.q, active, **tolerances)
         self.iterations += int(result.iterations.max(initial=0))
+        self.steps += 1
+        if self.tape is not None:
+            self.tape.states.append(self.state())
+            self.tape.steps.append(
+                StepRecord(
+                    active=active.copy(), sigma=weight / self.options.time_step**2, d_hat=potential.contact.d_hat,
+                    lag_d_hat=self.lag_d_hat, epsilon=potential.friction.epsilon, reference=self.reference.copy(),
+                )
+            )  # fmt: skip
         return potential.motion(potential.inertia.start, self.q)
 
     def anchor(self, worlds: NDArray[np.bool_]) -> None:
         """Let the friction displacements of `worlds` count from the present state."""
+        self.reference[worlds] = self.steps
         reference = self.potential.friction.reference.numpy().reshape(-1, 4, 3)
         moved = worlds[self.model.body_world.numpy()]
         self.potential.friction.reference.assign(np.where(moved[:, None, None], self.state(), reference))
@@ -128,6 +176,10 @@ class _Run:
         self.potential.friction.largest_slip(self.q, self._slip)
         return self._slip.numpy().copy()
 
+    def record_friction(self) -> None:
+        self.potential.record_friction(self.q)
+        self.lag_d_hat = self.potential.contact.d_hat
+
     def drop(self) -> None:
         """Artificial time steps until nothing moves faster than friction creeps."""
         options, potential = self.options, self.potential
@@ -136,7 +188,7 @@ class _Run:
         while self.frames < options.max_frames and np.any(still < STILL_FRAMES):
             active = still < STILL_FRAMES
             self.anchor(active)
-            potential.record_friction(self.q)
+            self.record_friction()
             move = self.step(
                 active, np.ones(self.model.worlds), move_tolerance=0.1 * options.d_hat, max_iterations=100
             )  # fmt: skip
@@ -149,7 +201,7 @@ class _Run:
         """Shrink the barrier and converge to static equilibrium; returns which worlds did and their residuals."""
         options, potential, worlds = self.options, self.potential, self.model.worlds
         # The first step closes gaps at the new reach, held by the friction of the old one.
-        potential.record_friction(self.q)
+        self.record_friction()
         self.set_reach(options.final_d_hat)
         potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, options.final_d_hat)
         weight = np.ones(worlds)
@@ -163,7 +215,7 @@ class _Run:
             )  # fmt: skip
             self.polish_steps += 1
             # The next step's friction acts with the normal forces of this state, so rest is judged with them.
-            potential.record_friction(self.q)
+            self.record_friction()
             now = potential.residual(potential.gradient(self.q, inertia=False))
             residual = np.where(active, now, residual)
             active &= ~(anchored & (residual < options.residual) & (move < options.move))

@@ -96,7 +96,7 @@ def test_a_hanging_worker_is_stopped_and_said_so(bracket, tmp_path, monkeypatch)
     script = tmp_path / "hang.py"
     script.write_text("import time\ntime.sleep(60)\n")
     monkeypatch.setattr(coacd_worker, "__file__", str(script))
-    with pytest.raises(AssetError, match="did not end within 0.3 s"):
+    with pytest.raises(AssetError, match=r"did not end within 0\.3 s"):
         decompose(*bracket, cache_dir=tmp_path / "cache", timeout=0.3)
 
 

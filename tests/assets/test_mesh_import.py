@@ -1,6 +1,5 @@
 """Mesh files to assets: formats and limits, frames and units, repair, mass, looks, parts."""
 
-import io
 import json
 import struct
 
@@ -35,6 +34,10 @@ def _box(x=0.3, y=0.2, z=0.1):
     mesh = trimesh.creation.box((x, y, z))
     mesh.apply_translation((x / 2, y / 2, z / 2))
     return mesh
+
+
+def _picture(image):
+    return trimesh.visual.material.PBRMaterial(baseColorTexture=image)
 
 
 def _edges_closed(faces):
@@ -92,7 +95,7 @@ def test_units_scale_and_target_sizes(write):
     ("options", "message"),
     [
         ({"units": "feet"}, "Valid: m, cm, mm, in"),
-        ({"up": "w"}, "Valid: x, -x"),
+        ({"up": "w"}, "Valid: z, -z"),
         ({"size": 0.0}, "positive"),
         ({"size": (None, None, None)}, "one length or three"),
         ({"size": 1.0, "units": "m"}, "not both"),
@@ -157,7 +160,7 @@ def test_missing_base_and_small_holes_are_capped():
     assert signed_volume(fixed.solid.vertices, fixed.solid.faces) == pytest.approx(0.006)
     assert fixed.repairs == ("closed the open base",)
     ball = trimesh.creation.icosphere(3, radius=0.1)
-    fixed = repair(ball.vertices, np.delete(ball.faces, [7, 300, 301], axis=0))
+    fixed = repair(ball.vertices, np.delete(ball.faces, [7, 300], axis=0))
     assert fixed.volume_source == "hole filled"
     assert not fixed.watertight
     assert signed_volume(fixed.solid.vertices, fixed.solid.faces) == pytest.approx(ball.volume, rel=2e-3)
@@ -192,10 +195,10 @@ def test_edge_shared_by_four_faces_is_paired_not_broken():
 def test_inner_wall_between_two_solids_is_closed_on_both_sides():
     """Three faces meet along each edge of a partition: every chamber is closed, the union weighs all."""
     lower, upper = _box(1, 1, 1), _box(1, 1, 1)
+    upper.update_faces(upper.triangles_center[:, 2] > 0.01)
     upper.apply_translation((0, 0, 1))
     both = trimesh.util.concatenate([lower, upper])
     both.merge_vertices()
-    both.update_faces(np.unique(np.sort(both.faces, axis=1), axis=0, return_index=True)[1])
     fixed = repair(both.vertices, both.faces)
     assert signed_volume(fixed.solid.vertices, fixed.solid.faces) == pytest.approx(2)
     assert fixed.volume_source == "hole filled"
@@ -207,7 +210,7 @@ def test_a_soup_of_triangles_is_wrapped_and_says_so():
     soup = (ball.triangles * (1 + rng.normal(scale=5e-3, size=(len(ball.faces), 1, 1)))).reshape(-1, 3)
     fixed = repair(soup, np.arange(len(soup)).reshape(-1, 3))
     assert fixed.volume_source == "voxel wrap"
-    assert trimesh.Trimesh(fixed.solid.vertices, fixed.solid.faces).is_watertight
+    assert _edges_closed(fixed.solid.faces)
     # The wrap stands 0.6 voxels, 2 mm, outside a ball of radius 100 mm.
     assert signed_volume(fixed.solid.vertices, fixed.solid.faces) == pytest.approx(ball.volume * 1.02**3, rel=0.03)
 
@@ -231,7 +234,7 @@ def test_texture_and_coordinates_survive_a_glb_round_trip(write):
     mesh = _box()
     mesh.unmerge_vertices()
     uv = np.random.default_rng(0).uniform(size=(len(mesh.vertices), 2))
-    mesh.visual = trimesh.visual.TextureVisuals(uv=uv, image=image)
+    mesh.visual = trimesh.visual.TextureVisuals(uv=uv, material=_picture(image))
     asset = import_mesh(write(mesh, "box.glb"), up="z", parts="box")
     assert np.array_equal(asset.visual.texture, np.asarray(image))
     # Every corner keeps the coordinate of its place.
@@ -264,10 +267,8 @@ def test_scene_graph_is_merged_with_the_colours_of_its_pieces(tmp_path):
     asset = import_mesh(path, up="z", parts="box")
     assert asset.size == pytest.approx([1.5, 0.5, 0.5])
     assert asset.mass_properties.volume == pytest.approx(0.25)
-    colours = {
-        (_colour_at(asset.visual, k), c[0] < 0)
-        for k, c in enumerate(asset.visual.vertices[asset.visual.faces].mean(axis=1))
-    }
+    centres = asset.visual.vertices[asset.visual.faces].mean(axis=1)
+    colours = {(_colour_at(asset.visual, k), bool(centre[0] < 0)) for k, centre in enumerate(centres)}
     assert colours == {((255, 0, 0), True), ((0, 0, 255), False)}
 
 
@@ -332,7 +333,7 @@ def test_nan_vertices_zero_area_and_wrong_indices_are_named(tmp_path):
     ("name", "head", "size"),
     [
         ("huge.stl", bytes(80) + struct.pack("<I", 10_000_000), 84 + 50 * 10_000_000),
-        ("huge.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nelement face 10000000\nend_header\n", 1000),
+        ("huge.ply", b"ply\nformat ascii 1.0\nelement vertex 3\nelement face 10000000\nend_header\n", 1000),
         ("huge.off", b"OFF # big\n5000000 10000000 0\n", 1000),
         ("huge.gltf", json.dumps({"accessors": [{"count": 30_000_000}],
                                   "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}).encode(), None),
@@ -391,10 +392,23 @@ def test_obj_texture_outside_the_folder_is_left_out_unless_allowed(tmp_path):
 # Parts
 
 
+def test_bracket_of_two_arms_is_decomposed_and_stands_on_its_base(write, tmp_path):
+    solid = manifold3d.Manifold.cube((0.1, 0.02, 0.02)) + manifold3d.Manifold.cube((0.02, 0.02, 0.08))
+    surface = solid.to_mesh64()
+    mesh = trimesh.Trimesh(np.asarray(surface.vert_properties)[:, :3], np.asarray(surface.tri_verts).astype(int))
+    asset = import_mesh(write(mesh, "bracket.ply"), cache_dir=tmp_path / "cache")
+    assert 2 <= len(asset.parts) <= 4
+    assert asset.bounds == pytest.approx(np.array([[-0.05, -0.01, 0.0], [0.05, 0.01, 0.08]]), abs=1e-5)
+    assert asset.bounds[0, 2] == 0.0
+    assert asset.mass_properties.volume == pytest.approx(6.4e-5, rel=1e-5)
+    assert asset.provenance["parts"]["options"]["seed"] == 0
+
+
+@pytest.mark.slow
 def test_cup_is_decomposed_with_its_cavity_open_and_the_visual_mesh_inside(write, tmp_path):
-    """A cup of 24 sides, closed surface: weight of the wall, not of the hulls; room inside."""
-    outer = manifold3d.Manifold.cylinder(0.09, 0.035, 0.04, 24)
-    cup = (outer - manifold3d.Manifold.cylinder(0.09, 0.031, 0.036, 24).translate((0, 0, 0.005))).to_mesh64()
+    """A cup of 16 sides, closed surface: weight of the wall, not of the hulls; room inside."""
+    outer = manifold3d.Manifold.cylinder(0.09, 0.035, 0.04, 16)
+    cup = (outer - manifold3d.Manifold.cylinder(0.09, 0.031, 0.036, 16).translate((0, 0, 0.005))).to_mesh64()
     mesh = trimesh.Trimesh(np.asarray(cup.vert_properties)[:, :3], np.asarray(cup.tri_verts).astype(int))
     path = write(mesh, "cup.stl")
     asset = import_mesh(path, material="ceramic", cache_dir=tmp_path / "cache")
@@ -419,12 +433,3 @@ def test_closed_boxes_in_one_file_stay_boxes(write, tmp_path):
     asset = import_mesh(write(tray, "corner.off"), cache_dir=tmp_path)
     assert len(asset.parts) == 3
     assert all(part.box is not None for part in asset.parts)
-
-
-def test_texture_is_read_from_memory_not_from_lazy_files(write):
-    image = Image.new("RGBA", (4, 4), (10, 20, 30, 255))
-    mesh = _box()
-    mesh.visual = trimesh.visual.TextureVisuals(uv=np.full((8, 2), 0.5), image=image)
-    buffer = io.BytesIO(write(mesh, "box.glb").read_bytes())
-    assert buffer.getbuffer().nbytes > 0
-    assert _colour_at(import_mesh(write(mesh, "rgba.glb"), parts="box").visual, 3) == (10, 20, 30)

@@ -188,3 +188,13 @@ def test_a_table_top_ball_of_a_gram_keeps_its_inertia(tmp_path):
     inertia = axes @ np.diag(model.body("bean").inertia) @ axes.T
     expected = np.array(asset.mass_properties.inertia)
     np.testing.assert_allclose(inertia, expected, atol=1e-9 * expected.max())
+
+
+def test_a_mesh_written_again_within_the_second_is_not_taken_for_the_old_one(tmp_path):
+    """MuJoCo caches meshes by path and whole seconds; a stale hull under new poses explodes."""
+    counts = []
+    for sides in (8, 12):
+        scene = scene_of(placed("can", asset_of(cylinder(0.03, 0.08, sides)), (0, 0, GAP)))
+        model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m")))
+        counts.append(int(model.mesh_vertnum[model.mesh("can/part_000").id]))
+    assert counts == [16, 24]

@@ -259,6 +259,17 @@ PROMPTS = (
         "red book on bench", "blue book 1 on bench", "blue book 2 on bench",
     ),
     expect(
+        "To the left of the sofa is a chair, and to the right is a red apple which is on a tray.",
+        {"sofa": "sofa", "chair": "chair", "red apple": "apple", "tray": "tray"},
+        "chair left_of sofa", "tray right_of sofa", "red apple on tray",
+    ),
+    expect(
+        "A tidy desk: a lamp, a crate full of oranges with a dog on top, and two glasses of milk",
+        same("desk", "lamp", "crate", "dog", "glass 1", "glass 2", *(f"orange {i}" for i in range(1, 9))),
+        "lamp on desk", "crate on desk", "dog on crate", "glass 1 on desk", "glass 2 on desk",
+        *(f"orange {i} in crate" for i in range(1, 9)),
+    ),
+    expect(
         "A desk with a lamp on two books, without a computer",
         same("desk", "lamp", "book 1", "book 2"),
         "book 1 on desk", "book 2 on desk", "lamp on book 1",

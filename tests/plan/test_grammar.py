@@ -140,5 +140,14 @@ def test_description_draws_the_tree(planner: GrammarPlanner):
     ]
 
 
+@pytest.mark.parametrize("link", ["next to", "on", "in", "behind"])
+def test_groups_listed_in_each_other_end_the_reading(planner: GrammarPlanner, link: str):
+    try:
+        plan = planner.plan(f"a basket with a crate and the crate with the basket {link} a mug")
+    except PromptError:
+        return
+    assert len(plan.objects) == 3
+
+
 def test_the_default_vocabulary_is_the_catalogue():
     assert [obj.noun for obj in GrammarPlanner().plan("three wooden cubes").objects] == ["block"] * 3

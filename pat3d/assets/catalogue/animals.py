@@ -89,8 +89,8 @@ def _sitting(style: Style, coat: RGB, *, head: Shape, high: float, ruff: float) 
     ]
 
 
-@entry("dog", family="animals", synonyms=("puppy", "small dog", "pup", "little dog"), plurals=("puppies",),
-       material="wool", colours=("tan", "brown", "golden", "white"))  # fmt: skip
+@entry("dog", family="animals", synonyms=("puppy", "small dog", "pup", "little dog"),
+       plurals=("puppies",), material="wool", colours=("tan", "brown", "golden", "white"))  # fmt: skip
 def dog(style: Style) -> Build:
     """A small sitting dog with drooping ears, 36 cm tall."""
     coat = style.colour()
@@ -120,8 +120,8 @@ def dog(style: Style) -> Build:
     )
 
 
-@entry("cat", family="animals", synonyms=("kitten", "kitty", "house cat"), plurals=("kitties",), material="wool",
-       colours=("gray", "orange", "black", "white"))  # fmt: skip
+@entry("cat", family="animals", synonyms=("kitten", "kitty", "house cat"), plurals=("kitties",),
+       material="wool", colours=("gray", "orange", "black", "white"))  # fmt: skip
 def cat(style: Style) -> Build:
     """A sitting cat with pricked ears and its tail around its feet, 34 cm tall."""
     coat = style.colour()

@@ -68,8 +68,8 @@ def blue_jay(style: Style) -> Build:
     )
 
 
-@entry("bird", family="animals", synonyms=("songbird", "small bird", "robin", "sparrow", "canary", "toy bird",
-       "parrot"), material="wool", colours=("yellow", "red", "teal", "brown"))  # fmt: skip
+@entry("bird", family="animals", synonyms=("songbird", "small bird", "robin", "sparrow", "canary",
+       "toy bird", "parrot"), material="wool", colours=("yellow", "red", "teal", "brown"))  # fmt: skip
 def bird(style: Style) -> Build:
     """A small songbird with a light breast."""
     coat = style.colour()
@@ -109,8 +109,8 @@ def rubber_duck(style: Style) -> Build:
     )
 
 
-@entry("duck", family="animals", synonyms=("mallard", "duckling", "goose"), plurals=("geese",), material="wool",
-       colours=("brown", "white"), accents=("green",))  # fmt: skip
+@entry("duck", family="animals", synonyms=("mallard", "duckling", "goose"), plurals=("geese",),
+       material="wool", colours=("brown", "white"), accents=("green",))  # fmt: skip
 def duck(style: Style) -> Build:
     """A resting mallard with a green head, 40 cm long (a baby one 12 cm)."""
     coat = style.colour()
@@ -128,8 +128,8 @@ def duck(style: Style) -> Build:
     )
 
 
-@entry("penguin", family="animals", synonyms=("plush penguin", "toy penguin", "stuffed penguin"), material="plush",
-       colours=("black", "navy"), accents=("orange",))  # fmt: skip
+@entry("penguin", family="animals", synonyms=("plush penguin", "toy penguin", "stuffed penguin"),
+       material="plush", colours=("black", "navy"), accents=("orange",))  # fmt: skip
 def penguin(style: Style) -> Build:
     """An upright plush penguin with a white front, 28 cm tall."""
     coat, beak = style.colour(), style.colour(1)
@@ -339,8 +339,8 @@ def fish(style: Style) -> Build:
     )
 
 
-@entry("octopus", family="animals", synonyms=("plush octopus", "toy octopus"), plurals=("octopuses", "octopi"),
-       material="plush", colours=("purple", "pink", "teal"))  # fmt: skip
+@entry("octopus", family="animals", synonyms=("plush octopus", "toy octopus"), plurals=("octopuses",
+       "octopi"), material="plush", colours=("purple", "pink", "teal"))  # fmt: skip
 def octopus(style: Style) -> Build:
     """A plush octopus on eight arms, 20 cm tall."""
     coat = style.colour()

@@ -112,7 +112,7 @@ def limb(start: Sequence[float], end: Sequence[float], radius: float, end_radius
     helper = np.array([1.0, 0.0, 0.0]) if abs(direction[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     side = np.cross(direction, helper)
     side /= np.linalg.norm(side)
-    return shape.transformed(np.column_stack([np.cross(side, direction), side, direction]), a)
+    return shape.transformed(np.column_stack([np.cross(side, direction), side, direction]), a.tolist())
 
 
 def _extreme(points: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Standing figures: wizard, doll, robot, snowman, statuette, chess pieces, trophy."""
+"""Standing figures: wizard, doll, robot, snowman, statuette, chess pieces."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ SKIN: RGB = (232, 190, 160)
 BOOT: RGB = (84, 52, 34)
 
 
-@entry("wizard", family="toys", synonyms=("sorcerer", "mage", "magician", "wizard figure"), material="fabric",
-       colours=("purple", "navy", "blue"), accents=("gold",))  # fmt: skip
+@entry("wizard", family="toys", synonyms=("sorcerer", "mage", "magician", "wizard figure"),
+       material="fabric", colours=("purple", "navy", "blue"), accents=("gold",))  # fmt: skip
 def wizard(style: Style) -> Build:
     """A bearded wizard in a robe and pointed hat who leans on a staff, 1.95 m with the hat."""
     robe, trim = style.colour(), style.colour(1)
@@ -61,8 +61,8 @@ def wizard(style: Style) -> Build:
     )
 
 
-@entry("doll", family="toys", synonyms=("baby doll", "rag doll", "toy doll"), material="fabric", colours=("pink",
-       "blue", "red"), accents=("brown",))  # fmt: skip
+@entry("doll", family="toys", synonyms=("baby doll", "rag doll", "toy doll"), material="fabric",
+       colours=("pink", "blue", "red"), accents=("brown",))  # fmt: skip
 def doll(style: Style) -> Build:
     """A doll in a wide dress, 36 cm tall."""
     dress, hair = style.colour(), style.colour(1)
@@ -95,8 +95,8 @@ def doll(style: Style) -> Build:
     )
 
 
-@entry("robot", family="toys", synonyms=("toy robot", "tin robot", "robot toy"), material="steel", colours=("silver",
-       "red", "blue"), accents=("yellow",))  # fmt: skip
+@entry("robot", family="toys", synonyms=("toy robot", "tin robot", "robot toy"), material="steel",
+       colours=("silver", "red", "blue"), accents=("yellow",))  # fmt: skip
 def robot(style: Style) -> Build:
     """A square toy robot with an antenna and a panel of buttons, 25 cm tall."""
     colour, lamp = style.colour(), style.colour(1)
@@ -191,7 +191,8 @@ def snowman(style: Style) -> Build:
     )
 
 
-@entry("figurine", family="toys", synonyms=("statuette", "small statue", "action figure"), material="ceramic", colours=("white", "bronze", "gray"))  # fmt: skip
+@entry("figurine", family="toys", synonyms=("statuette", "small statue", "action figure"),
+       material="ceramic", colours=("white", "bronze", "gray"))  # fmt: skip
 def figurine(style: Style) -> Build:
     """A small statue of a standing figure in a long gown on a round plinth, 24 cm tall."""
     colour = style.colour()

@@ -261,6 +261,8 @@ def bench(style: Style) -> Build:
 def ottoman(style: Style) -> Build:
     """An upholstered footrest on wooden feet."""
     x, y, z = style.vary(0.6), style.vary(0.45), style.vary(0.42)
+    if "square" in style.adjectives:
+        y = x
     colour, dark = style.colour(), style.shade(style.colour(), 0.8)
     if "round" in style.adjectives:
         body = puck(x / 2, z - 0.06, 0.035).moved(z=0.06)

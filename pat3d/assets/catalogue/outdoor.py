@@ -25,8 +25,8 @@ SOIL: RGB = (74, 52, 38)
 STEEL: RGB = (176, 180, 186)
 
 
-@entry("inflatable pool", family="outdoor", synonyms=("pool", "kiddie pool", "paddling pool", "wading pool",
-       "swimming pool", "inflatable swimming pool"), colours=("blue", "turquoise"))  # fmt: skip
+@entry("inflatable pool", family="outdoor", synonyms=("pool", "kiddie pool", "paddling pool",
+       "wading pool", "swimming pool", "inflatable swimming pool"), colours=("blue", "turquoise"))  # fmt: skip
 def inflatable_pool(style: Style) -> Build:
     """A round paddling pool of two inflated rings, 1.2 m wide and 0.2 m high, open at the top."""
     colour = style.colour()
@@ -56,8 +56,8 @@ def inflatable_pool(style: Style) -> Build:
     )
 
 
-@entry("tree", family="outdoor", synonyms=("oak tree", "apple tree", "big tree", "garden tree"), material="wood",
-       colours=("green",), accents=("brown",))  # fmt: skip
+@entry("tree", family="outdoor", synonyms=("oak tree", "apple tree", "big tree", "garden tree"),
+       material="wood", colours=("green",), accents=("brown",))  # fmt: skip
 def tree(style: Style) -> Build:
     """A broad tree, 4 m tall, with wide roots and one level branch 2.2 m up that a swing can hang from."""
     leaves, bark = style.colour(), style.colour(1)

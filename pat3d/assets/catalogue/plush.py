@@ -58,7 +58,8 @@ def _seated_bear(style: Style, coat: RGB, limbs: RGB, ears: RGB, patches: RGB | 
 
 
 @entry("teddy bear", family="plush", synonyms=("bear", "plush bear", "teddy", "stuffed bear", "toy bear",
-       "bear plush", "bear toy"), plurals=("teddies",), material="plush", colours=("brown", "tan", "golden"))  # fmt: skip
+       "bear plush", "bear toy"), plurals=("teddies",), material="plush", colours=("brown", "tan",
+       "golden"))  # fmt: skip
 def teddy_bear(style: Style) -> Build:
     """A seated bear with a light muzzle."""
     coat = style.colour()
@@ -72,8 +73,8 @@ def panda(style: Style) -> Build:
     return _seated_bear(style, style.colour(), style.colour(1), style.colour(1), style.colour(1))
 
 
-@entry("elephant", family="plush", synonyms=("plush elephant", "toy elephant", "stuffed elephant", "elephant plush",
-       "elephant toy"), material="plush", colours=("gray",))  # fmt: skip
+@entry("elephant", family="plush", synonyms=("plush elephant", "toy elephant", "stuffed elephant",
+       "elephant plush", "elephant toy"), material="plush", colours=("gray",))  # fmt: skip
 def elephant(style: Style) -> Build:
     """A standing elephant with large ears and a hanging trunk, 28 cm tall."""
     coat = style.colour()
@@ -102,9 +103,9 @@ def elephant(style: Style) -> Build:
     )
 
 
-@entry("rabbit", family="plush", synonyms=("bunny", "plush rabbit", "plush bunny", "toy rabbit", "stuffed rabbit",
-       "stuffed bunny", "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit", "hare"), plurals=("bunnies",),
-       material="plush", colours=("white", "tan", "gray"))  # fmt: skip
+@entry("rabbit", family="plush", synonyms=("bunny", "plush rabbit", "plush bunny", "toy rabbit",
+       "stuffed rabbit", "stuffed bunny", "bunny rabbit", "rabbit plush", "baby bunny", "baby rabbit",
+       "hare"), plurals=("bunnies",), material="plush", colours=("white", "tan", "gray"))  # fmt: skip
 def rabbit(style: Style) -> Build:
     """A crouching rabbit with upright ears, 26 cm tall (a baby one 15 cm)."""
     coat, grow = style.colour(), 1.18 if young(style) else 1.0
@@ -139,8 +140,8 @@ def rabbit(style: Style) -> Build:
     )
 
 
-@entry("giraffe", family="plush", synonyms=("plush giraffe", "toy giraffe", "stuffed giraffe", "giraffe plush",
-       "giraffe toy"), material="plush", colours=("yellow",), accents=("brown",))  # fmt: skip
+@entry("giraffe", family="plush", synonyms=("plush giraffe", "toy giraffe", "stuffed giraffe",
+       "giraffe plush", "giraffe toy"), material="plush", colours=("yellow",), accents=("brown",))  # fmt: skip
 def giraffe(style: Style) -> Build:
     """A standing giraffe with a long neck and brown patches, 50 cm tall."""
     coat, patch = style.colour(), style.colour(1)
@@ -189,8 +190,9 @@ def _side_eyes(size, at):
     return pair(ellipsoid(0.007).moved(0.93 * size[0], at[1] - 0.25 * size[1], at[2] + 0.30 * size[2]))
 
 
-@entry("plush dog", family="plush", synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush", "dog toy",
-       "plush puppy", "plushie"), plurals=("plush puppies",), material="plush", colours=("tan", "brown", "cream"))  # fmt: skip
+@entry("plush dog", family="plush", synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush",
+       "dog toy", "plush puppy"), plurals=("plush puppies",), material="plush", colours=("tan", "brown",
+       "cream"))  # fmt: skip
 def plush_dog(style: Style) -> Build:
     """A seated floppy-eared dog, 34 cm tall, whose broad flat crown carries hats."""
     coat = style.colour()
@@ -223,8 +225,8 @@ def plush_dog(style: Style) -> Build:
     )
 
 
-@entry("plush cat", family="plush", synonyms=("plush toy cat", "toy cat", "stuffed cat", "cat plush", "plush kitten"),
-       material="plush", colours=("gray", "orange", "black"))  # fmt: skip
+@entry("plush cat", family="plush", synonyms=("plush toy cat", "toy cat", "stuffed cat", "cat plush",
+       "plush kitten"), material="plush", colours=("gray", "orange", "black"))  # fmt: skip
 def plush_cat(style: Style) -> Build:
     """A seated cat with a round head, 28 cm tall."""
     coat = style.colour()

@@ -10,6 +10,7 @@ import numpy as np
 
 from pat3d.assets.asset import Asset, Region
 from pat3d.assets.colours import COLOURS, find_colour
+from pat3d.assets.materials import NATURAL_COLOURS
 from pat3d.assets.materials import material as find_material_entry
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError, PromptError
@@ -142,7 +143,7 @@ def make(
     Args:
         noun: see `names`.
         colours: colour names, main colour first; empty for a default chosen by seed.
-        material: material name; None for the entry's own.
+        material: material name; None for the entry's own. Where it is named and no colour is, its natural colour.
         scale: uniform factor on the real dimensions.
         adjectives: other words a recipe may honour.
         seed: the same seed gives the same asset, bit for bit.
@@ -160,6 +161,8 @@ def make(
         raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
     rng = np.random.default_rng([seed, *noun.encode()])
     default = found.colours[int(rng.integers(len(found.colours)))]
+    natural = NATURAL_COLOURS.get(material or "", (default,))
+    default = default if default in natural else natural[0]
     asked = [find_colour(name) for name in colours]
     if None in asked:
         raise AssetError(f"unknown colour among {list(colours)}. Known: {', '.join(COLOURS)}.")

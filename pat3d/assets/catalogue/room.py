@@ -198,7 +198,7 @@ def plant(style: Style) -> Build:
     pot, soil = _pot(style, radius, height)
     green = style.colour()
     parts = [(pot, style.colour(1)), (soil, COLOURS["chocolate"])]
-    for count, lean, length in ((4, 0.35, 0.23), (6, 0.95, 0.19)):
+    for count, lean, length in ((4, 0.3, 0.24), (6, 0.72, 0.17)):
         offset = style.rng.uniform(0, 360)
         for k in range(count):
             leaf = _leaf(style.vary(length) * tall, style.vary(0.085, 0.15), style.vary(lean, 0.15))
@@ -257,7 +257,7 @@ def succulent(style: Style) -> Build:
             petal = convex([(0, 0, 0), (0, 0.012, 0.6 * length), (0, -0.012, 0.6 * length), (0.004, 0, 0.6 * length),
                             (-0.006, 0, 0.55 * length), (0, 0, length)])  # fmt: skip
             petal = petal.turned("y", lean).turned("z", 360 * k / count + 25 * ring).moved(z=0.93 * height)
-            parts.append((petal, style.shade(style.colour(), 0.85 + 0.12 * ring)))
+            parts.append((petal, style.shade(style.colour(), (0.85, 1.0, 1.15)[ring])))
     return Build(parts=tuple(parts), mass=style.vary(0.25))
 
 

@@ -55,19 +55,21 @@ def soccer_ball(style: Style) -> Build:
     """A football with dark pentagons, 22 cm wide."""
     radius = style.vary(0.110, 0.02)
     golden = (1 + math.sqrt(5)) / 2
-    corners = [np.roll((0.0, s, t * golden), k) for s in (-1, 1) for t in (-1, 1) for k in range(3)]
+    corners = [np.roll(np.array([0.0, s, t * golden]), k) for s in (-1, 1) for t in (-1, 1) for k in range(3)]
     pentagon = [
         (0.36 * radius * math.cos(2 * math.pi * k / 5), 0.36 * radius * math.sin(2 * math.pi * k / 5)) for k in range(5)
     ]
     patches = []
     for corner in corners:
-        axis = np.array(corner) / np.linalg.norm(corner)
+        axis = corner / float(np.linalg.norm(corner))
         # The pentagon points at a neighbouring corner, as on a real ball.
-        near = next(np.array(c) for c in corners if 0.4 < np.dot(c, corner) / np.dot(corner, corner) < 0.5)
+        near = next(c for c in corners if 0.4 < np.dot(c, corner) / np.dot(corner, corner) < 0.5)
         side = near - np.dot(near, axis) * axis
-        side /= np.linalg.norm(side)
+        side /= float(np.linalg.norm(side))
         frame = np.column_stack([side, np.cross(axis, side), axis])
-        patches.append(prism(pentagon, 0.4 * radius).moved(z=0.8 * radius).transformed(frame))
+        patches.append(
+            prism(pentagon, 0.4 * radius).moved(z=0.8 * radius).transformed(np.asarray(frame, dtype=np.float64))
+        )
     return _round(style, radius, 0.43, join(*patches), style.colour(1))
 
 

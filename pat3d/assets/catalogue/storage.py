@@ -144,7 +144,7 @@ def wardrobe(style: Style) -> Build:
 def cart(style: Style) -> Build:
     """A two-deck cart on four wheels, its handle on the right."""
     wide, deep, _ = stretch(style)
-    x, y, z = style.vary(0.88) * wide, style.vary(0.5) * deep, style.vary(0.74, 0.04)
+    x, y, z = style.vary(0.95, 0.03) * wide, style.vary(0.5) * deep, style.vary(0.74, 0.04)
     colour, wheel = style.colour(), 0.06
     corners = [(a * (x / 2 - 0.09), b * (y / 2 - 0.07)) for a in (-1, 1) for b in (-1, 1)]
     decks = [box(x, y, 0.03).moved(z=height - 0.03) for height in (0.2, z)]

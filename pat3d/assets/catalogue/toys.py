@@ -1,4 +1,4 @@
-"""Vehicles, building toys and games. Vehicles show their side to the front: their length runs along x."""
+"""Toy vehicles, a drum and stacking rings. Vehicles show their side to the front: their length runs along x."""
 
 from __future__ import annotations
 
@@ -85,8 +85,8 @@ def toy_car(style: Style) -> Build:
     )
 
 
-@entry("toy truck", family="toys", synonyms=("truck", "dump truck", "lorry", "model truck"), plurals=("lorries",),
-       colours=("yellow", "red", "green"), accents=("gray",))  # fmt: skip
+@entry("toy truck", family="toys", synonyms=("truck", "dump truck", "lorry", "model truck"),
+       plurals=("lorries",), colours=("yellow", "red", "green"), accents=("gray",))  # fmt: skip
 def toy_truck(style: Style) -> Build:
     """A toy dump truck with an open bed and six wheels, 22 cm long."""
     colour, chassis = style.colour(), style.colour(1)
@@ -109,8 +109,8 @@ def toy_truck(style: Style) -> Build:
     )
 
 
-@entry("toy train", family="toys", synonyms=("train", "locomotive", "steam train", "toy locomotive", "wooden train"),
-       material="wood", colours=("red", "blue", "green"), accents=("black", "yellow"))  # fmt: skip
+@entry("toy train", family="toys", synonyms=("train", "locomotive", "steam train", "toy locomotive",
+       "wooden train"), material="wood", colours=("red", "blue", "green"), accents=("black", "yellow"))  # fmt: skip
 def toy_train(style: Style) -> Build:
     """A toy steam locomotive, 18 cm long."""
     colour, iron, brass = style.colour(), style.colour(1), style.colour(2)
@@ -143,8 +143,8 @@ def toy_train(style: Style) -> Build:
     )
 
 
-@entry("toy sailboat", family="toys", synonyms=("sailboat", "boat", "toy boat", "sailing boat", "sail boat",
-       "toy ship", "ship", "yacht"), colours=("red", "blue", "wood"), accents=("white",))  # fmt: skip
+@entry("toy sailboat", family="toys", synonyms=("sailboat", "boat", "toy boat", "sailing boat",
+       "sail boat", "toy ship", "ship", "yacht"), colours=("red", "blue", "wood"), accents=("white",))  # fmt: skip
 def toy_sailboat(style: Style) -> Build:
     """A toy boat with a mast, two sails and a flag, 20 cm long and 25 cm tall."""
     colour, canvas = style.colour(), style.colour(1)
@@ -210,8 +210,9 @@ def toy_sailboat(style: Style) -> Build:
     )
 
 
-@entry("toy plane", family="toys", synonyms=("toy airplane", "airplane", "plane", "aeroplane", "model plane",
-       "model airplane", "aircraft"), colours=("red", "blue", "yellow"), accents=("white",))  # fmt: skip
+@entry("toy plane", family="toys", synonyms=("toy airplane", "airplane", "plane", "aeroplane",
+       "model plane", "model airplane", "aircraft"), colours=("red", "blue", "yellow"),
+       accents=("white",))  # fmt: skip
 def toy_plane(style: Style) -> Build:
     """A toy propeller plane on three wheels, 20 cm long."""
     colour, trim = style.colour(), style.colour(1)
@@ -267,99 +268,6 @@ def toy_plane(style: Style) -> Build:
     )
 
 
-@entry("toy brick", family="toys", synonyms=("lego brick", "lego", "lego block", "plastic brick", "building brick"),
-       colours=("red", "blue", "yellow", "green", "white"))  # fmt: skip
-def toy_brick(style: Style) -> Build:
-    """A large plastic building brick with two rows of four studs, 6.4 cm long."""
-    colour = style.colour()
-    pitch = style.vary(0.016, 0.02)
-    body = box(4 * pitch, 2 * pitch, 1.2 * pitch)
-    studs = join(
-        *(
-            cylinder(0.3 * pitch, 0.24 * pitch, 8).moved((i - 1.5) * pitch, (j - 0.5) * pitch, 1.19 * pitch)
-            for i in range(4)
-            for j in range(2)
-        )
-    )
-    return Build(parts=((join(body, studs), colour),), mass=0.012)
-
-
-@entry(
-    "puzzle cube",
-    family="toys",
-    synonyms=("rubik's cube", "rubiks cube", "rubik cube", "magic cube", "speed cube"),
-    colours=("black",),
-)
-def puzzle_cube(style: Style) -> Build:
-    """A 5.7 cm cube with nine coloured stickers to a face, shuffled by seed."""
-    side = style.vary(0.057, 0.03)
-    pitch = side / 3
-    palette: list[RGB] = [(190, 45, 42), (232, 126, 38), (240, 238, 233), (241, 200, 58), (52, 96, 170), (60, 150, 80)]
-    order = style.rng.permutation(np.repeat(np.arange(6), 9))
-    sticker = box(0.80 * pitch, 0.80 * pitch, 0.004).moved(z=side / 2 - 0.002)
-    faces = [("x", 0.0), ("x", 90.0), ("x", 180.0), ("x", 270.0), ("y", 90.0), ("y", 270.0)]
-    groups: list[list[Shape]] = [[] for _ in palette]
-    for cell, colour in enumerate(order):
-        axis, angle = faces[cell // 9]
-        placed = sticker.moved((cell % 3 - 1) * pitch, (cell // 3 % 3 - 1) * pitch).turned(axis, angle)  # type: ignore[arg-type]
-        groups[int(colour)].append(placed.moved(z=side / 2))
-    return Build(
-        parts=((box(side, side, side), style.colour()),),
-        paint=tuple((join(*group), colour) for group, colour in zip(groups, palette, strict=True)),
-        mass=0.095,
-    )
-
-
-def _pips(number: int, pitch: float) -> list[tuple[float, float]]:
-    """Where the pips of a die's face lie [m]."""
-    corners = [(-pitch, -pitch), (pitch, pitch), (-pitch, pitch), (pitch, -pitch), (-pitch, 0.0), (pitch, 0.0)]
-    count = number - number % 2
-    return corners[:count] + ([(0.0, 0.0)] if number % 2 else [])
-
-
-@entry("die", family="toys", synonyms=("dice", "game die"), colours=("white", "red"))
-def die(style: Style) -> Build:
-    """A large game die with rounded edges, 3 cm wide; opposite faces add up to seven."""
-    side = style.vary(0.030)
-    colour = style.colour()
-    turns = {1: ("x", 0.0), 6: ("x", 180.0), 2: ("x", 90.0), 5: ("x", 270.0), 3: ("y", 90.0), 4: ("y", 270.0)}
-    pips = [
-        ellipsoid(0.085 * side, 0.085 * side, 0.04 * side)
-        .moved(x, y, 0.504 * side)
-        .turned(axis, angle)
-        .moved(z=side / 2)  # type: ignore[arg-type]
-        for number, (axis, angle) in turns.items()
-        for x, y in _pips(number, 0.25 * side)
-    ]
-    ink = DARK if sum(colour) > 450 else WHITE
-    return Build(parts=((soft_box(side, side, side, 0.12 * side), colour),), paint=((join(*pips), ink),))
-
-
-@entry(
-    "domino",
-    family="toys",
-    synonyms=("domino tile",),
-    plurals=("dominoes",),
-    material="wood",
-    colours=("black", "white"),
-)
-def domino(style: Style) -> Build:
-    """A domino lying face up, 5 cm long."""
-    colour = style.colour()
-    long, wide, thick = style.vary(0.050), style.vary(0.025), 0.009
-    first, second = (int(value) for value in style.rng.integers(1, 7, 2))
-    spots = [
-        ellipsoid(0.0023, 0.0023, 0.002).moved(x + side * long / 4, y, thick + 0.0003)
-        for side, number in ((-1, first), (1, second))
-        for x, y in _pips(number, 0.0065)
-    ]
-    ink = DARK if sum(colour) > 450 else WHITE
-    return Build(
-        parts=((box(long, wide, thick), colour),),
-        paint=((join(*spots, box(0.0012, wide * 0.8, 0.002).moved(z=thick - 0.001)), ink),),
-    )
-
-
 @entry(
     "drum",
     family="toys",
@@ -385,8 +293,9 @@ def drum(style: Style) -> Build:
     )
 
 
-@entry("stacking rings", family="toys", synonyms=("ring stacker", "stacking toy", "ring tower", "stacking ring"),
-       plurals=("stacking rings toy",), colours=("red",), accents=("orange", "yellow", "green", "blue"))  # fmt: skip
+@entry("stacking rings", family="toys", synonyms=("ring stacker", "stacking toy", "ring tower",
+       "stacking ring"), plurals=("stacking rings toy",), colours=("red",), accents=("orange", "yellow",
+       "green", "blue"))  # fmt: skip
 def stacking_rings(style: Style) -> Build:
     """A baby's tower of five rings on a foot, 20 cm tall."""
     parts = [(frustum(0.062, 0.056, 0.018), style.colour())]

@@ -8,7 +8,7 @@ import numpy as np
 
 from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.creature import finish, limb, on_top, pair, tint
-from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
+from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.shapes import (
     Shape,
     box,
@@ -85,8 +85,8 @@ def _crowned(
     return finish(style, parts, paint=paint, regions=_crown_top(height, top * 0.95), mass=mass, spread=0.015)
 
 
-@entry("hat", family="wear", synonyms=("sun hat", "sunhat", "brimmed hat", "fedora", "felt hat", "straw hat",
-       "bowler hat"), material="fabric", colours=("beige", "brown", "navy", "red", "green"))  # fmt: skip
+@entry("hat", family="wear", synonyms=("sun hat", "sunhat", "brimmed hat", "fedora", "felt hat",
+       "straw hat", "bowler hat"), material="fabric", colours=("beige", "brown", "navy", "red", "green"))  # fmt: skip
 def hat(style: Style) -> Build:
     """A wide-brimmed hat with a flat crown, 30 cm across; five of them stack."""
     return _crowned(style, brim=0.148, hollow=0.086, base=0.090, top=0.070, height=0.105, mass=0.12)
@@ -144,8 +144,8 @@ def cap(style: Style) -> Build:
     )
 
 
-@entry("beanie", family="wear", synonyms=("knit hat", "knitted hat", "wool hat", "woolly hat", "winter hat",
-       "bobble hat"), material="wool", colours=("red", "teal", "navy", "mustard"))  # fmt: skip
+@entry("beanie", family="wear", synonyms=("knit hat", "knitted hat", "wool hat", "woolly hat",
+       "winter hat", "bobble hat"), material="wool", colours=("red", "teal", "navy", "mustard"))  # fmt: skip
 def beanie(style: Style) -> Build:
     """A knitted hat with a turned-up edge and a bobble."""
     colour = style.colour()
@@ -162,8 +162,8 @@ def beanie(style: Style) -> Build:
     )
 
 
-@entry("party hat", family="wear", synonyms=("birthday hat", "cone hat"), material="cardboard", colours=("pink",
-       "blue", "yellow", "red"))  # fmt: skip
+@entry("party hat", family="wear", synonyms=("birthday hat", "cone hat"), material="cardboard",
+       colours=("pink", "blue", "yellow", "red"))  # fmt: skip
 def party_hat(style: Style) -> Build:
     """A paper cone with stripes and a bobble."""
     colour = style.colour()
@@ -178,8 +178,8 @@ def party_hat(style: Style) -> Build:
     )
 
 
-@entry("wizard hat", family="wear", synonyms=("witch hat", "pointed hat"), material="fabric", colours=("purple",
-       "navy", "black"), accents=("gold",))  # fmt: skip
+@entry("wizard hat", family="wear", synonyms=("witch hat", "pointed hat"), material="fabric",
+       colours=("purple", "navy", "black"), accents=("gold",))  # fmt: skip
 def wizard_hat(style: Style) -> Build:
     """A tall pointed hat with a bent tip, a brim and a band."""
     colour = style.colour()
@@ -253,8 +253,8 @@ def _shoe_sole(length: float, width: float, thick: float) -> Shape:
     return convex([(x, y * length, z) for x, y in outline for z in (0.0, thick)])
 
 
-@entry("shoe", family="wear", synonyms=("sneaker", "running shoe", "trainer", "tennis shoe"), material="rubber",
-       colours=("white", "red", "blue", "black"))  # fmt: skip
+@entry("shoe", family="wear", synonyms=("sneaker", "running shoe", "trainer", "tennis shoe"),
+       material="rubber", colours=("white", "red", "blue", "black"))  # fmt: skip
 def shoe(style: Style) -> Build:
     """A sneaker with a light sole, laces and a dark opening."""
     colour = style.colour()
@@ -280,8 +280,8 @@ def egg_cut(size: tuple[float, float, float], at: tuple[float, float, float]) ->
     return ellipsoid(*size).cut_below(0.0).moved(*at)
 
 
-@entry("boot", family="wear", synonyms=("rain boot", "rubber boot", "wellington", "leather boot"), material="rubber",
-       colours=("brown", "black", "yellow"))  # fmt: skip
+@entry("boot", family="wear", synonyms=("rain boot", "rubber boot", "wellington", "leather boot"),
+       material="rubber", colours=("brown", "black", "yellow"))  # fmt: skip
 def boot(style: Style) -> Build:
     """A tall boot with a dark opening."""
     colour = style.colour()
@@ -322,115 +322,6 @@ def slipper(style: Style) -> Build:
     )
 
 
-@entry("backpack", family="wear", synonyms=("rucksack", "school bag", "schoolbag", "bookbag"), material="fabric",
-       colours=("blue", "red", "green", "navy"))  # fmt: skip
-def backpack(style: Style) -> Build:
-    """A standing school backpack with a front pocket, a top handle and shoulder straps."""
-    colour = style.colour()
-    dark = style.shade(colour, 0.68)
-    high = style.vary(0.42)
-    body = soft_box(0.30, 0.16, high, 0.05)
-    pocket = soft_box(0.23, 0.07, 0.18, 0.025).moved(y=-0.085)
-    side = soft_box(0.05, 0.10, 0.16, 0.02).moved(0.150, 0.0, 0.0)
-    strap = join(
-        limb((0.065, 0.075, high - 0.05), (0.085, 0.120, 0.22), 0.014),
-        limb((0.085, 0.120, 0.22), (0.085, 0.080, 0.05), 0.014, 0.012),
-    )
-    handle = join(
-        limb((-0.03, 0.04, high - 0.01), (-0.02, 0.04, high + 0.025), 0.007),
-        limb((-0.02, 0.04, high + 0.025), (0.02, 0.04, high + 0.025), 0.007),
-        limb((0.02, 0.04, high + 0.025), (0.03, 0.04, high - 0.01), 0.007),
-    )
-    zips = join(
-        box(0.19, 0.3, 0.006).moved(y=-0.15, z=0.145),
-        box(0.006, 0.16, 0.5).moved(0.105, -0.06, 0.24),
-        box(0.006, 0.16, 0.5).moved(-0.105, -0.06, 0.24),
-    )
-    return finish(
-        style,
-        [(body, colour), (pocket, dark), (pair(side), dark), (join(pair(strap), handle), dark)],
-        paint=[(zips, (210, 206, 196))],
-        mass=0.8,
-    )
-
-
-@entry("handbag", family="wear", synonyms=("purse", "bag", "tote bag", "shoulder bag"), material="leather",
-       colours=("brown", "red", "black"), accents=("gold",))  # fmt: skip
-def handbag(style: Style) -> Build:
-    """A closed leather bag with a flap, a clasp and an arched handle."""
-    colour = style.colour()
-    high, wide = style.vary(0.19), 0.28
-    body = convex(
-        [
-            (x * s, y * t, z)
-            for z, s, t in ((0.0, wide / 2, 0.055), (high, wide * 0.40, 0.030))
-            for x in (-1, 1)
-            for y in (-1, 1)
-        ]
-    )
-    path = [(0.075 * math.cos(a), 0.0, high - 0.012 + 0.095 * math.sin(a)) for a in np.linspace(0, math.pi, 6)]
-    handle = join(*(limb(a, b, 0.007) for a, b in zip(path, path[1:], strict=False)))
-    flap = box(0.6, 0.2, 0.095).moved(y=-0.1, z=high - 0.085)
-    clasp = box(0.030, 0.05, 0.024).moved(y=-0.055, z=high - 0.098)
-    return finish(
-        style,
-        [(body, colour), (handle, style.shade(colour, 0.75))],
-        paint=[(flap, style.shade(colour, 0.82)), (clasp, style.colour(1))],
-        mass=0.6,
-    )
-
-
-def _lens(colour: RGB) -> RGB:
-    return (40, 40, 46) if sum(colour) > 150 else (96, 74, 60)
-
-
-@entry(
-    "sunglasses",
-    family="wear",
-    synonyms=("eyeglasses", "spectacles", "shades"),
-    colours=("black", "red", "brown"),
-)
-def sunglasses(style: Style) -> Build:
-    """Glasses with open temples, standing on their rims and temple tips."""
-    colour = style.colour()
-    wide = style.vary(0.070)
-    lens = cylinder(0.026, 0.005, 12).turned("x", 90).scaled(1.12, 1.0, 0.85).moved(0.033, 0.0, 0.0221)
-    temple = box(0.004, 0.135, 0.007).moved(wide - 0.0035, 0.0675 - 0.003, 0.030)
-    hinge = box(wide - 0.050, 0.005, 0.009).moved((wide + 0.047) / 2, -0.0025, 0.029)
-    tip = convex(
-        [
-            (wide - 0.0055 + dx, y, z)
-            for dx in (0.0, 0.004)
-            for y, z in ((0.118, 0.037), (0.132, 0.037), (0.136, 0.0), (0.129, 0.0))
-        ]
-    )
-    bridge = box(0.022, 0.005, 0.006).moved(0.0, -0.0025, 0.026)
-    glass = cylinder(0.0215, 0.05, 16).turned("x", 90).scaled(1.12, 1.0, 0.85).moved(0.033, 0.02, 0.0221)
-    return finish(
-        style,
-        [(join(pair(join(lens, temple, hinge, tip)), bridge), colour)],
-        paint=[(pair(glass), _lens(colour))],
-        mass=0.03,
-    )
-
-
-@entry("gift", family="wear", synonyms=("gift box", "present", "wrapped gift", "birthday present",
-       "christmas present"), material="cardboard", colours=("red", "blue", "green", "purple"), accents=("gold",))  # fmt: skip
-def gift(style: Style) -> Build:
-    """A wrapped box with a crossed ribbon and a bow."""
-    colour, ribbon = style.colour(), style.colour(1)
-    x, y, z = style.vary(0.18, 0.2), style.vary(0.18, 0.2), style.vary(0.13, 0.2)
-    loop = ellipsoid(0.034, 0.016, 0.017).turned("y", -22).moved(0.030, 0.0, z + 0.018)
-    bow = join(pair(loop), ellipsoid(0.012).moved(z=z + 0.009))
-    cross = join(box(0.024, 1.0, 1.0).moved(z=-0.5), box(1.0, 0.024, 1.0).moved(z=-0.5))
-    return finish(
-        style,
-        [(box(x, y, z), colour), (bow, ribbon)],
-        paint=[(cross, ribbon)],
-        mass=0.45,
-    )
-
-
 @entry("mitten", family="wear", synonyms=("glove", "winter glove"), material="wool", colours=("red", "blue", "gray"))
 def mitten(style: Style) -> Build:
     """A knitted mitten lying flat, its thumb to one side."""
@@ -448,18 +339,3 @@ def mitten(style: Style) -> Build:
         regions=[on_top(palm, 0.02)],
         mass=0.06,
     )
-
-
-@entry("bow tie", family="wear", synonyms=("bowtie",), material="fabric", colours=("red", "black", "blue"))
-def bow_tie(style: Style) -> Build:
-    """A bow tie lying flat."""
-    colour = style.colour()
-    wing = convex(
-        [
-            (x, y, z)
-            for x, y in ((0.004, 0.011), (0.004, -0.011), (style.vary(0.058), 0.027), (0.056, -0.027))
-            for z in (0.0, 0.012)
-        ]
-    )
-    knot = turned_solid([(0.010, 0.0), (0.012, 0.008), (0.009, 0.016)], 8)
-    return finish(style, [(pair(wing), colour), (knot, style.shade(colour, 0.75))], mass=0.02)

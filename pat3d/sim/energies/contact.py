@@ -78,18 +78,20 @@ def first_unknown(body: int, body_dof: wp.array(dtype=int)) -> int:
 
 
 @wp.func
-def _cross_gradient_u(contact: Contact) -> wp.vec3d:
+def cross_gradient_u(contact: Contact) -> wp.vec3d:
     """d|u x v|^2 / du."""
     return wp.float64(2.0) * (wp.dot(contact.v, contact.v) * contact.u - wp.dot(contact.u, contact.v) * contact.v)
 
 
 @wp.func
-def _cross_gradient_v(contact: Contact) -> wp.vec3d:
+def cross_gradient_v(contact: Contact) -> wp.vec3d:
+    """d|u x v|^2 / dv."""
     return wp.float64(2.0) * (wp.dot(contact.u, contact.u) * contact.v - wp.dot(contact.u, contact.v) * contact.u)
 
 
 @wp.func
-def _mollifier_slope(contact: Contact) -> wp.float64:
+def mollifier_slope(contact: Contact) -> wp.float64:
+    """Derivative of the mollifier by |u x v|^2 [1/m^4]."""
     if contact.cross >= contact.threshold:
         return wp.float64(0.0)
     return wp.float64(2.0) * (wp.float64(1.0) - contact.cross / contact.threshold) / contact.threshold
@@ -155,11 +157,11 @@ def _gradient(
         wp.atomic_add(gradient, contact.body_a, k, contact.coefficients[k] * force)
         if contact.body_b >= 0:
             wp.atomic_add(gradient, contact.body_b, k, contact.coefficients[4 + k] * force)
-    slope = _mollifier_slope(contact)
+    slope = mollifier_slope(contact)
     if slope != wp.float64(0.0):
         factor = slope * barrier_value(contact.distance, d_hat, stiffness[world])
-        gu = factor * _cross_gradient_u(contact)
-        gv = factor * _cross_gradient_v(contact)
+        gu = factor * cross_gradient_u(contact)
+        gv = factor * cross_gradient_v(contact)
         for k in range(3):
             wp.atomic_add(gradient, contact.body_a, 1 + k, contact.rest_u[k] * gu)
             wp.atomic_add(gradient, contact.body_b, 1 + k, contact.rest_v[k] * gv)
@@ -249,12 +251,12 @@ def _exact_hessian(
             g22 = a / determinant
         else:
             g11 = one / a
-    mollifier_slope = _mollifier_slope(contact)
+    m_slope = mollifier_slope(contact)
     mollifier_curvature = zero
-    if mollifier_slope != zero:
+    if m_slope != zero:
         mollifier_curvature = -two / (contact.threshold * contact.threshold)
-    gu = _cross_gradient_u(contact)
-    gv = _cross_gradient_v(contact)
+    gu = cross_gradient_u(contact)
+    gv = cross_gradient_v(contact)
     uu = wp.dot(contact.u, contact.u)
     vv = wp.dot(contact.v, contact.v)
     uv = wp.dot(contact.u, contact.v)
@@ -281,7 +283,7 @@ def _exact_hessian(
             block -= across * (
                 g11 * wp.outer(f1i, f1j) + g12 * (wp.outer(f1i, f2j) + wp.outer(f2i, f1j)) + g22 * wp.outer(f2i, f2j)
             )
-            if mollifier_slope != zero:
+            if m_slope != zero:
                 gi = gu
                 if i >= 4:
                     gi = gv
@@ -303,9 +305,9 @@ def _exact_hessian(
                     second = two * (
                         two * wp.outer(contact.v, contact.u) - uv * identity - wp.outer(contact.u, contact.v)
                     )
-                block += value * ri * rj * (mollifier_curvature * wp.outer(gi, gj) + mollifier_slope * second)
+                block += value * ri * rj * (mollifier_curvature * wp.outer(gi, gj) + m_slope * second)
                 block += (
-                    mollifier_slope
+                    m_slope
                     * slope
                     * (ri * contact.coefficients[j] * wp.outer(gi, n) + rj * contact.coefficients[i] * wp.outer(n, gj))
                 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor, cho_solve, solve
 
 from pat3d.errors import SimulationError
 from pat3d.sim.model import Model
@@ -32,14 +32,20 @@ class DenseSolver:
             gradient: shape (bodies, 4), vec3d.
             active: worlds to solve, shape (worlds,).
         """
+        return self._each_world(hessian, -gradient.numpy().reshape(-1, 4, 3), active, _solve_shifted)
+
+    def solve(self, hessian: wp.array, right: NDArray[np.float64], active: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Solution of H x = right for symmetric H, not necessarily definite; shapes as in `direction`."""
+        return self._each_world(hessian, right, active, lambda matrix, vector: solve(matrix, vector, assume_a="sym"))
+
+    def _each_world(self, hessian, vectors, active, solve_one) -> NDArray[np.float64]:
         matrices = hessian.numpy()
-        vectors = gradient.numpy().reshape(-1, 4, 3)
         result = np.zeros_like(vectors)
         for w in np.flatnonzero(active):
             bodies = self._bodies[w]
             if len(bodies):
                 size = 12 * len(bodies)
-                solution = _solve_shifted(matrices[w, :size, :size], -vectors[bodies].reshape(-1))
+                solution = solve_one(matrices[w, :size, :size], vectors[bodies].reshape(-1))
                 result[bodies] = solution.reshape(-1, 4, 3)
         return result
 
