@@ -129,7 +129,11 @@ def _validate(source: Source) -> None:
 
     errors = sorted(
         jsonschema.Draft202012Validator(BUILD_SCHEMA).iter_errors(source.document),
-        key=lambda error: source.lines.get(tuple(error.absolute_path), (0, 0)),
+        # A misspelt key is told before what it was meant to be is missed.
+        key=lambda error: (
+            source.lines.get(tuple(error.absolute_path), (0, 0)),
+            error.validator != "additionalProperties",
+        ),
     )
     if not errors:
         return

@@ -37,8 +37,9 @@ class Workspace:
             return None
         report = read_json(self.folder / "report.json")
         attempt = report.get("delivered_attempt")
-        same = _inputs(report).get("order") == key and isinstance(attempt, int) and 1 <= attempt <= 100
-        return attempt - 1 if same else None
+        if _inputs(report).get("order") != key or not isinstance(attempt, int) or not 1 <= attempt <= 100:
+            return None
+        return attempt - 1
 
     def layout(self, attempt: int, key: str) -> tuple[Scene, tuple[str, ...]] | None:
         """The scene laid out by an earlier run, and the layout's notes."""
