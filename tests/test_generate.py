@@ -1,8 +1,14 @@
 """From the command line to a proven folder, once, on a small scene; the tests look at what it left."""
 
 import json
+import os
 import shutil
+import signal
+import subprocess
+import sys
+import time
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -142,7 +148,7 @@ def test_the_same_seed_gives_the_same_scene_and_an_earlier_folder_is_replaced(fo
     assert scene["red mug"].pose == pat3d.load_scene(folder)["red mug"].pose
 
 
-class _Stopped(Exception):
+class _StoppedError(Exception):
     pass
 
 
@@ -151,9 +157,9 @@ def test_an_interrupted_run_goes_on_after_the_last_finished_stage(tmp_path):
 
     def stop(event):
         if event.stage == "proving":
-            raise _Stopped
+            raise _StoppedError
 
-    with pytest.raises(_Stopped):
+    with pytest.raises(_StoppedError):
         pat3d.generate("a ball", out=out, resume=True, progress=stop)
     assert [entry.name for entry in tmp_path.iterdir()] == ["ball.partial"]
     seen = []
@@ -169,6 +175,26 @@ def test_an_interrupted_run_leaves_nothing_unless_asked_to(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         pat3d.generate("a ball", out=tmp_path / "deep" / "ball", progress=stop)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals differ")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
+    """The command is stopped as soon as its temporary folder is there."""
+    command = [sys.executable, "-m", "pat3d", "generate", PROMPT, "--out", str(tmp_path / "scene")]
+    path = os.pathsep.join([str(Path(pat3d.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path}
+    )
+    end = time.monotonic() + 60
+    while process.poll() is None and not any(tmp_path.iterdir()) and time.monotonic() < end:
+        time.sleep(0.01)
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert errors.strip().endswith("pat3d: interrupted")
+    assert "Traceback" not in errors
     assert list(tmp_path.iterdir()) == []
 
 
@@ -206,7 +232,7 @@ def test_settings_out_of_range_are_refused(tmp_path, capfd, arguments, words):
 def test_a_foreign_folder_is_not_touched(tmp_path):
     (tmp_path / "x").mkdir()
     (tmp_path / "x" / "thesis.tex").write_text("precious")
-    with pytest.raises(ExportError, match="no scene.json"):
+    with pytest.raises(ExportError, match=r"no scene\.json"):
         pat3d.generate("a ball", out=tmp_path / "x")
     with pytest.raises(PromptError):
         pat3d.generate("", out=tmp_path / "y")

@@ -16,14 +16,19 @@ def test_the_folder_appears_when_the_block_ends(tmp_path):
     assert [entry.name for entry in target.parent.iterdir()] == ["scene"]
 
 
+def interrupted(target):
+    with replacing(target) as fresh:
+        (fresh / "scene.json").write_text("half")
+        raise KeyboardInterrupt
+
+
 def test_a_failure_leaves_everything_as_it_was(tmp_path):
     kept = tmp_path / "scene"
     kept.mkdir()
     (kept / "scene.json").write_text("old")
     for target in (kept, tmp_path / "deep" / "scene"):
-        with pytest.raises(KeyboardInterrupt), replacing(target) as fresh:
-            (fresh / "scene.json").write_text("half")
-            raise KeyboardInterrupt
+        with pytest.raises(KeyboardInterrupt):
+            interrupted(target)
     assert (kept / "scene.json").read_text() == "old"
     assert [entry.name for entry in tmp_path.iterdir()] == ["scene"]
 
