@@ -120,6 +120,7 @@ class Attempts:
         """
         made: list[Attempt] = []
         known = self.workspace.delivered(self.key)
+        count = count if self.order.adjustable else 1
         for number in range(count) if known is None else (known,):
             attempt = self._attempt(number)
             if not attempt.failures:

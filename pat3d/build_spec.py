@@ -57,6 +57,7 @@ class Spec:
             fingerprint=[document["objects"], document.get("relations", []), hashes],
             gather=self.gather,
             record={"specification": document},
+            adjustable=len(self.poses) < len(self.objects),
             provenance={"source": "specification", "file": self.source.path.name},
         )
 

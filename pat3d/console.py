@@ -35,26 +35,17 @@ def console(*, stderr: bool = False) -> Console:
 @contextmanager
 def watch(target: Console) -> Iterator[Progress]:
     """Shows a run's events on `target`: one live line in a terminal, a few plain lines elsewhere."""
-    if target.is_terminal:
-        with target.status("starting") as status:
-            yield _Live(status.update).tell
-    else:
+    if not target.is_terminal:
         yield _Lines(target).tell
+        return
+    from rich.markup import escape
+    from rich.progress import Progress as Live
+    from rich.progress import SpinnerColumn, TextColumn, TimeElapsedColumn
 
-
-class _Live:
-    def __init__(self, update) -> None:
-        self._update = update
-        self._start = time.perf_counter()
-        self._last = 0.0
-        self._stage = ""
-
-    def tell(self, event: Event) -> None:
-        now = time.perf_counter()
-        if event.stage == self._stage and now - self._last < 0.1:
-            return
-        self._stage, self._last = event.stage, now
-        self._update(f"{now - self._start:5.1f} s  {_words(event)}", spinner="dots")
+    columns = (SpinnerColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
+    with Live(*columns, console=target, transient=True) as live:
+        task = live.add_task("starting", total=None)
+        yield lambda event: live.update(task, description=escape(_words(event)))
 
 
 class _Lines:

@@ -80,7 +80,7 @@ def _warp(row: Any) -> bool:
         row("ok", "simulator", "runs on " + ", ".join(devices))
         if not gpus:
             row("no", "GPU", "none that CUDA knows; an NVIDIA driver would enable --device cuda")
-        warm = "compiled" if is_warm() else "not compiled yet; the first run takes about a minute longer"
+        warm = "compiled" if is_warm() else "not compiled yet; the first run takes up to a minute longer"
         row("ok", "kernels", f"{warm}: {_folder(cache_folder())}")
     except Exception as error:
         # Whatever a broken installation raises is the finding.

@@ -42,6 +42,8 @@ class Order:
     """Makes the ingredients, in the order of `names`, for a seed."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """What the report says about how this was understood; JSON-serialisable."""
+    adjustable: bool = True
+    """Whether another layout seed can make a difference."""
     provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
     """Where it came from; JSON-serialisable."""
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from pat3d.errors import SimulationError
+from pat3d.errors import SpecError
 from pat3d.progress import Event, Progress, silent
 
 MODULES = (
@@ -35,14 +35,14 @@ def prepare(device: str, progress: Progress = silent) -> str:
         Warp's name of the device.
 
     Raises:
-        SimulationError: there is no such device here.
+        SpecError: there is no such device here.
     """
     wp = quiet_warp()
     known = [str(found.alias) for found in wp.get_devices()]
     name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
     if name is None:
-        raise SimulationError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
-    detail = "" if is_warm() else "compiling kernels, once, about a minute"
+        raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
+    detail = "" if is_warm() else "compiling kernels, once, up to a minute"
     for number, module in enumerate(MODULES):
         progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))
         wp.load_module(import_module(module), device=name)

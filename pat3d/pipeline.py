@@ -100,7 +100,8 @@ def generate(
     Raises:
         PromptError: the prompt cannot be planned.
         LayoutError: something does not fit.
-        SimulationError: the layout cannot be simulated, or there is no such device.
+        SpecError: a setting is out of range, or there is no such device.
+        SimulationError: the layout cannot be simulated.
         ExportError: `out` cannot be written.
     """
     settings = Settings(seed=seed, friction=friction, device=device, formats=tuple(formats), resume=resume)
@@ -136,10 +137,10 @@ def build(
         The scene; report.json in `out` says whether every check passed.
 
     Raises:
-        SpecError: the specification is invalid; the message names the line.
+        SpecError: the specification is invalid (the message names the line), or there is no such device.
         AssetError: a mesh cannot be used.
         LayoutError: something does not fit.
-        SimulationError: the layout cannot be simulated, or there is no such device.
+        SimulationError: the layout cannot be simulated.
         ExportError: `out` cannot be written.
     """
     return run_spec(

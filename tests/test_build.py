@@ -161,6 +161,24 @@ def refused(workplace, capfd, text, words):
     assert sorted(os.listdir(workplace)) == before
 
 
+@pytest.mark.parametrize(("extra", "attempts"), [("", 1), ("  - {name: cup, noun: cup}\n", 3)])
+def test_a_scene_that_cannot_hold_is_delivered_with_its_faults_and_exit_code_1(workplace, capfd, extra, attempts):
+    """The upper box starts with its centre off the lower one; another layout is tried where one is possible."""
+    (workplace / "scene.yaml").write_text(
+        "objects:\n"
+        "  - {name: low, noun: cube, size: 0.1, pose: {position: [0, 0, 0.001]}}\n"
+        "  - {name: high, noun: cube, size: 0.1, pose: {position: [0.08, 0, 0.103]}}\n"
+        f"{extra}relations:\n  - {{child: high, kind: on, parent: low}}\n"
+    )
+    assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 1
+    assert "pat3d: broken: high on low" in capfd.readouterr().err
+    report = json.loads((workplace / "out" / "report.json").read_text())
+    assert not report["passed"]
+    assert any("high on low" in line for line in report["failures"])
+    assert len(report["attempts"]) == len({attempt["layout_seed"] for attempt in report["attempts"]}) == attempts
+    assert (workplace / "out" / "preview.png").is_file()
+
+
 def _nan(path):
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n")
 

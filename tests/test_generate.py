@@ -15,6 +15,7 @@ import pytest
 from PIL import Image
 
 import pat3d
+from pat3d.check.parity import differences
 from pat3d.cli import main
 from pat3d.errors import ExportError, PromptError
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
@@ -120,7 +121,34 @@ def test_check_convicts_an_export_that_differs_from_the_scene(folder, tmp_path, 
     body.set("pos", f"{x} {y} {z + 0.05}")
     tree.write(path)
     assert main(["check", str(tmp_path / "bad")]) == 1
-    assert '"red mug" drifts' in capfd.readouterr().err
+    errors = capfd.readouterr().err
+    assert '"red mug" drifts' in errors
+    assert '"red mug" stands elsewhere' in errors
+
+
+def test_an_export_that_is_still_but_elsewhere_or_heavier_is_told_apart(folder, tmp_path):
+    shutil.copytree(folder / "mjcf", tmp_path / "mjcf")
+    scene, path = pat3d.load_scene(folder), tmp_path / "mjcf" / "scene.xml"
+    assert differences(scene, path) == ()
+    tree = ET.parse(path)
+    body = tree.find("worldbody/body[@name='red_mug']")
+    box = tree.find("worldbody/body[@name='wooden_box']/inertial")
+    assert body is not None
+    assert box is not None
+    x, y, z = body.attrib["pos"].split()
+    body.set("pos", f"{float(x) + 0.001} {y} {z}")
+    box.set("mass", "5")
+    world = tree.find("worldbody")
+    assert world is not None
+    ghost = ET.SubElement(world, "body", name="ghost", pos="3 0 1")
+    ET.SubElement(ghost, "inertial", mass="1", pos="0 0 0", diaginertia="1 1 1")
+    ET.SubElement(ghost, "freejoint")
+    tree.write(path)
+    told = "\n".join(differences(scene, path))
+    assert '"red mug" stands elsewhere' in told
+    assert "1 mm away" in told
+    assert '"wooden box" weighs 5 kg' in told
+    assert '"ghost"' in told
 
 
 def test_resuming_a_finished_scene_repeats_no_stage_and_changes_no_bit(folder, tmp_path):
@@ -226,6 +254,16 @@ def test_unknown_words_are_named_with_the_nearest_known(tmp_path, capfd):
 def test_settings_out_of_range_are_refused(tmp_path, capfd, arguments, words):
     assert main(["generate", "a ball", "--out", str(tmp_path / "x"), *arguments]) == 2
     assert words in capfd.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_device_that_is_not_there_is_refused_and_the_others_are_listed(tmp_path, capfd):
+    import warp
+
+    if warp.is_cuda_available():
+        pytest.skip("there is one")
+    assert main(["generate", "a ball", "--out", str(tmp_path / "x"), "--device", "cuda"]) == 2
+    assert "Valid: cpu" in capfd.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
