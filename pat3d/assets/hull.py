@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
@@ -33,7 +35,7 @@ def convex_part(points: NDArray[np.float64]) -> ConvexPart:
     return ConvexPart(vertices=vertices, faces=faces, box=_as_box(vertices))
 
 
-def _as_box(vertices: NDArray[np.float64]):
+def _as_box(vertices: NDArray[np.float64]) -> Any:
     """(centre, half sizes, quat_wxyz) if the eight vertices are a box to 1e-9 of its size."""
     if len(vertices) != 8:
         return None

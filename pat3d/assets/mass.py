@@ -40,15 +40,14 @@ def mass_properties(
     moment = np.einsum("f,fi,fj->ij", determinant, total, total)
     moment += np.einsum("f,fki,fkj->ij", determinant, corners, corners)
     moment = moment / 120.0 - volume * np.outer(centre, centre)
-    if mass is None:
-        if density is None:
-            raise AssetError("give the density or the mass.")
-        mass = density * volume
-    moment *= mass / volume
+    if (mass is None) == (density is None):
+        raise AssetError("give either the density or the mass.")
+    total_mass = float(mass if mass is not None else (density or 0.0) * volume)
+    moment *= total_mass / volume
     inertia = np.trace(moment) * np.eye(3) - moment
     return MassProperties(
-        mass=float(mass),
+        mass=total_mass,
         volume=float(volume),
         centre_of_mass=tuple(map(float, centre + reference)),  # type: ignore[arg-type]
-        inertia=tuple(tuple(map(float, row)) for row in inertia),
+        inertia=tuple(tuple(map(float, row)) for row in inertia),  # type: ignore[arg-type]
     )

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
+from pat3d.errors import AssetError
+
 Vector = tuple[float, float, float]
 
 SMOOTH_SEGMENTS = 48
@@ -33,7 +35,9 @@ class Shape:
     hulls: tuple[NDArray[np.float64], ...]
     """Points of each convex part [m], shape (n, 3)."""
 
-    def transformed(self, linear: NDArray[np.float64], offset: Sequence[float] = (0.0, 0.0, 0.0)) -> Shape:
+    def transformed(
+        self, linear: NDArray[np.float64], offset: Sequence[float] | NDArray[np.float64] = (0.0, 0.0, 0.0)
+    ) -> Shape:
         """The shape mapped by x -> linear x + offset; `linear` has shape (3, 3)."""
         affine = np.column_stack([linear, np.asarray(offset, dtype=np.float64)])
         hulls = tuple(points @ np.asarray(linear).T + np.asarray(offset) for points in self.hulls)
@@ -196,8 +200,14 @@ def vessel(outer: Sequence[tuple[float, float]], inner: Sequence[tuple[float, fl
     Args:
         outer: (radius, z) [m] of the outside, z increasing from the base at z = 0.
         inner: (radius, z) [m] of the cavity, z increasing from its floor to the same rim height.
-        segments: convex wedges around; the cavity loses 1 - cos(pi / segments) of its radius.
+        segments: convex wedges around, a divisor of SMOOTH_SEGMENTS so that their corners meet those of the picture;
+            the cavity loses 1 - cos(pi / segments) of its radius.
+
+    Raises:
+        AssetError: `segments` does not divide SMOOTH_SEGMENTS.
     """
+    if SMOOTH_SEGMENTS % segments:
+        raise AssetError(f"a vessel's segments must divide {SMOOTH_SEGMENTS}, got {segments}.")
     rim = outer[-1][1]
     # Lift the cavity's mouth through the rim so that no coplanar sliver is left.
     cavity = [(0.0, inner[0][1]), *inner, (inner[-1][0], rim + 0.01), (0.0, rim + 0.01)]

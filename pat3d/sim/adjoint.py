@@ -53,8 +53,7 @@ class _Backward:
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
         self.solver = DenseSolver(model)
-        self.world = model.body_world.numpy()
-        self.free = model.body_dof.numpy() >= 0
+        self.world, self.free = model.world_of, model.is_free
         mass = np.zeros((model.bodies, 4, 4))
         mass[:, 0, 0] = model.body_mass.numpy()
         mass[:, 1:, 1:] = model.body_moment.numpy()

@@ -58,6 +58,10 @@ class Model:
     """Parts that can ever touch: same world, different bodies, not both fixed; shape (pairs,), vec2i."""
     free_bodies: NDArray[np.int64]
     """Number of free bodies per world, shape (worlds,)."""
+    world_of: NDArray[np.int64]
+    """`body_world` on the host, shape (bodies,)."""
+    is_free: NDArray[np.bool_]
+    """Whether a body has degrees of freedom, shape (bodies,)."""
     weight: NDArray[np.float64]
     """Weight of the heaviest free body per world [N], shape (worlds,)."""
     body_radius: NDArray[np.float64]
@@ -227,6 +231,8 @@ class ModelBuilder:
             part_ranges=wp.array(np.array(ranges, dtype=np.int32), dtype=int, device=device),
             part_pairs=array(_part_pairs(owner, body_world, dof), wp.vec2i),
             free_bodies=free_count,
+            world_of=body_world.astype(np.int64),
+            is_free=dof >= 0,
             weight=weight,
             body_radius=radius,
             q0=q0,

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """The energy of one artificial time step: the sum of its terms.
 
 E(q) = inertia and gravity + affine stiffness + barrier contact + lagged friction, all over dt^2
@@ -41,9 +45,7 @@ class Potential:
         self._start = wp.zeros_like(self._position)
         self._end = wp.zeros_like(self._position)
         self._per_world = wp.zeros(model.worlds, dtype=wp.float64, device=device)
-        dof = model.body_dof.numpy()
-        self._free = dof >= 0
-        self._world = model.body_world.numpy()
+        self._free, self._world = model.is_free, model.world_of
         mass = model.body_mass.numpy()
         weight = np.where(self._free, mass * GRAVITY, 1.0)
         self._force_scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
@@ -115,7 +117,7 @@ class Potential:
 
     def per_world(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of values of bodies, shape (bodies,), over every world, shape (worlds,)."""
-        return np.bincount(self._world, weights=values, minlength=self.model.worlds)
+        return np.bincount(self._world, weights=values, minlength=self.model.worlds).astype(np.float64)
 
     def motion(self, q: wp.array, q_end: wp.array) -> NDArray[np.float64]:
         """Largest distance of any vertex between two states [m], shape (worlds,)."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import warp as wp
@@ -145,7 +146,7 @@ class _Run:
         self.potential.contact.d_hat = d_hat
         self.potential.candidates.invalidate()
 
-    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: float) -> NDArray[np.float64]:
+    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NDArray[np.float64]:
         """One time step with inertia scaled by `weight`, shape (worlds,); returns the largest vertex motions [m]."""
         potential = self.potential
         potential.inertia.start.assign(self.q)
@@ -167,7 +168,7 @@ class _Run:
         """Let the friction displacements of `worlds` count from the present state."""
         self.reference[worlds] = self.steps
         reference = self.potential.friction.reference.numpy().reshape(-1, 4, 3)
-        moved = worlds[self.model.body_world.numpy()]
+        moved = worlds[self.model.world_of]
         self.potential.friction.reference.assign(np.where(moved[:, None, None], self.state(), reference))
 
     def slip(self) -> NDArray[np.float64]:

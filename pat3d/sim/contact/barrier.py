@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """The clamped-log barrier of IPC, normalised so that its stiffness is a force.
 
 With s = d / d_hat in (0, 1):

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Which primitives may come within the barrier's reach along a motion.
 
 Body boxes prune part boxes, part boxes prune primitives. Boxes enclose the motion of every vertex from
@@ -84,10 +88,10 @@ class Candidates:
             self._reserve(2 * self.count)
         self._built = True
 
-    def close_parts(self, position: wp.array) -> wp.array:
-        """Pairs of parts whose boxes overlap at vertex positions [m], shape (pairs,), vec2i."""
+    def close_parts(self, position: wp.array) -> tuple[wp.array, int]:
+        """Pairs of parts whose boxes overlap at vertex positions [m], vec2i, and how many of the array they fill."""
         self._built = False
-        return self._close[: self._prune(position, position, 0.0)]
+        return self._close, self._prune(position, position, 0.0)
 
     def _prune(self, start: wp.array, end: wp.array, margin: float) -> int:
         """Box vertices and parts over the motion and list the overlapping pairs of parts; returns their number."""

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Continuous collision detection along straight vertex motions: additive conservative advancement.
 
 A pair at distance d whose points approach each other by at most l over the whole motion cannot meet before

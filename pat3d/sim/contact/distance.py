@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Closest points between the primitives of convex polyhedra, as functions of the bodies' affine maps.
 
 A contact is a vector r = x_a - x_b between a point of body a and a point of body b (or the ground).

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Which bodies intersect at a state: the proof that a simulation may start.
 
 Two closed convex parts intersect when an edge of one pierces a face of the other, or when one contains the
@@ -28,14 +32,14 @@ def intersecting_bodies(model: Model, position: wp.array) -> NDArray[np.int64]:
     Returns:
         Body indices, shape (pairs, 2); the second is GROUND_BODY for the ground.
     """
-    pairs = Candidates(model).close_parts(position)
-    hit = wp.zeros(max(1, len(pairs)), dtype=int, device=model.device)
+    pairs, count = Candidates(model).close_parts(position)
+    hit = wp.zeros(max(1, count), dtype=int, device=model.device)
     wp.launch(
-        _intersect, dim=len(pairs), device=model.device,
+        _intersect, dim=count, device=model.device,
         inputs=[pairs, model.part_ranges, model.edges, model.triangles, position], outputs=[hit],
     )  # fmt: skip
     owner, body = model.part_body.numpy(), model.vertex_body.numpy()
-    touching = np.flatnonzero(hit.numpy()[: len(pairs)])
+    touching = np.flatnonzero(hit.numpy()[:count])
     bodies = np.sort(owner[pairs.numpy()[touching]].reshape(-1, 2), axis=1)
     free = model.body_dof.numpy() >= 0
     low = np.unique(body[(position.numpy()[:, 2] <= 0.0) & free[body]])

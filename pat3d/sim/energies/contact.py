@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Barrier contact between bodies and with the ground.
 
 B(q) = sum over pairs of m b(d): the barrier b of the pair's distance, mollified by m for nearly parallel

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Lagged smoothed Coulomb friction (Li et al. 2020, IPC, section 5.3).
 
 D(q) = sum mu lambda f0(|u|),   u = (I - n n^T) sum_i c_i (q_i - q_ref_i)

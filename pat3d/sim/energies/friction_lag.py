@@ -1,8 +1,12 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """How friction depends on the state at which its contacts were recorded.
 
-The friction force on the body vectors is F = sum mu lambda k(|u|) c (x) u with k = f0'/|u|. Its normal force lambda, normal
-n and closest points c come from the recorded state q_n, and where displacements count from q_n, so does u.
-This module pulls an adjoint w back through all four: it adds d(w . F)/dq_n. With s = sum_i c_i w_i:
+The friction force on the body vectors is F = sum mu lambda k(|u|) c (x) u with k = f0'/|u|. Its normal force
+lambda, normal n and closest points c come from the recorded state q_n, and where displacements count from q_n, so
+does u. This module pulls an adjoint w back through all four: it adds d(w . F)/dq_n. With s = sum_i c_i w_i:
 
     w . F = mu lambda k(|u|) (s . u),   u = (I - n n^T) sum_i c_i (q_i - q_ref_i)
     dlambda = -(m b'' n . dx + b' dm),  dn = (I - n n^T) dr / d,  dc = sum_k h_k dbeta_k

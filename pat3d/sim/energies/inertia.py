@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Inertia of the artificial time step and gravity.
 
 E(q) = sigma / 2 |q - q_n|^2_M - m g . (p - p_n),   M = diag(m, S) (x) I_3,   sigma = w / dt^2

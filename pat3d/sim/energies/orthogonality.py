@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Affine-body stiffness: the energy that keeps an affine map close to a rotation.
 
 Psi(A) = kappa V |A^T A - I|_F^2                                    (Lan et al. 2022, Eq. 8)

@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """Projected Newton with a line search that never lets an accepted state intersect.
 
 A straight step of an affine map stretches the body at second order of its rotation, which the stiff
