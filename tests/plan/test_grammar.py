@@ -79,7 +79,7 @@ def test_unknown_noun_is_refused_with_its_place_and_its_neighbours(planner: Gram
         planner.plan("A red mug beside a wooden teapoot.")
     message = str(caught.value)
     assert message.startswith('"teapoot" is not in the catalogue (word 7). Nearest: "teapot"')
-    assert "--assets" in message
+    assert "pat3d build" in message
     assert "--allow-proxies" in message
 
 
