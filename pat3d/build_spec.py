@@ -87,7 +87,10 @@ class Spec:
 
         path = self._mesh(obj)
         keys = ("units", "scale", "size", "up", "density", "mass", "friction", "parts", "thickness", "material")
-        asset = import_mesh(path, **{key: obj[key] for key in keys if key in obj})
+        # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
+        home = self.source.path.parent.resolve()
+        root = home if path.resolve().is_relative_to(home) else None
+        asset = import_mesh(path, texture_root=root, **{key: obj[key] for key in keys if key in obj})
         record = dict(asset.provenance)
         # How long it took, and whether it was cached, is no property of the scene.
         record["parts"] = {key: value for key, value in record["parts"].items() if key not in ("seconds", "cached")}
