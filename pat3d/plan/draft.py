@@ -73,6 +73,10 @@ class Draft:
         """Whether the group's noun belongs to a class of the lexicon."""
         return self.nouns.of_class(group.noun, table)
 
+    def is_table(self, group: Group) -> bool:
+        """Whether the group is furniture with a level top, not a dish."""
+        return self.is_a(group, lexicon.LEVEL) and not self.is_a(group, lexicon.DISHES)
+
     def on_floor(self, group: Group) -> bool:
         """Whether the group's objects stand on the floor by nature."""
         return self.is_a(group, lexicon.FLOOR)
@@ -153,6 +157,12 @@ class Draft:
             return False
         if self.is_a(parent, lexicon.NARROW):
             return self.is_a(child, lexicon.SLENDER) or child.noun == parent.noun
+        if self.is_a(parent, lexicon.HOLLOW) and child.noun != parent.noun:
+            small = self.is_a(parent, lexicon.BOWLS)
+            too_large = self.is_a(child, lexicon.LARGE_VESSELS) or (small and self.is_a(child, lexicon.HOLLOW))
+            stack = child.height != 1 and self.is_a(parent, lexicon.BOWLS)
+            if too_large or stack or self.is_a(child, lexicon.NOT_IN_VESSEL + (lexicon.LEVEL if small else ())):
+                return False
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray",)):
             return not self.is_a(child, lexicon.NOT_ON_DISH)
         return True

@@ -79,6 +79,7 @@ class Reader:
             self._now.before = self._now.subject
         self._now.wait_for_child()
         self._now.subject, self._now.top, self._had_verb, self._verb = [], [], True, False
+        self._now.listed = []
 
     def _on_verb(self) -> None:
         self._now.maker.end_sentence()
@@ -142,6 +143,7 @@ class Reader:
         if group is None:
             return
         self._all = False
+        self._now.more = self._lists_on(at + 1)
         if self._had_verb and self._now.mark in ("and", "comma and", "comma", "dash") and self._starts_clause(at):
             self._end_clause()
         if self._now.frames and self._now.frames[-1].fresh and self._now.mark in ("", "comma", "start"):
@@ -155,6 +157,8 @@ class Reader:
             if not self._had_verb or not self._now.subject:
                 self._now.subject = [*self._now.subject, group]
             self._now.top.append(group)
+            self._now.listed.append(group)
+            self._now.top_joined = "and" in self._now.mark
         if self._now.frames and not self._now.frames[-1].link.inverse and group in self._now.frames[-1].members:
             self._now.subject = [*self._now.subject, group]
         self._verb = False
@@ -162,9 +166,9 @@ class Reader:
         if self._side:
             self._now.draft.sided.append((group, self._side, None))
 
-    def _group(self, phrase: Phrase) -> tuple[Group | None, bool]:
-        """The group that `phrase` means, and whether it was known before."""
-        known = self._now.maker.refer(phrase)
+    def _group(self, phrase: Phrase, besides: Sequence[Group] = ()) -> tuple[Group | None, bool]:
+        """The group that `phrase`, said of `besides`, means, and whether it was known before."""
+        known = self._now.maker.refer(phrase, besides=besides)
         if known is not None:
             return known, True
         frame = self._now.frames[-1] if self._now.frames else None
@@ -210,6 +214,17 @@ class Reader:
         piece = self._chunks[after] if after < len(self._chunks) else None
         return piece is not None and (piece.kind == "verb" or bool(piece.link and piece.link.finite))
 
+    def _lists_on(self, at: int) -> bool:
+        """Whether from chunk `at` on the clause lists a phrase after "and" (with no verb of its own)."""
+        while at + 1 < len(self._chunks) and self._chunks[at].kind not in ("stop", "clause", "verb", "there", "dash"):
+            link = self._chunks[at].link
+            if link is not None and link.finite:
+                return False
+            if self._chunks[at].kind == "and" and self._chunks[at + 1].kind == "phrase":
+                return not self._starts_clause(at + 1)
+            at += 1
+        return False
+
     def _on_link(self, link: Link, at: int) -> int:
         if link.finite:
             self._now.frames = []
@@ -239,8 +254,12 @@ class Reader:
             self._verb, self._now.mark = False, ""
             return at + 1
         fronted = self._fronted(at, near)
+        self._now.more = self._lists_on(at + 2)
         if fronted and self._now.subject:
+            inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
             self._now.close()
+            # "a bowl, a book, and next to it a pen": the pen is next to the book.
+            self._now.before = self._now.before[-1:] if inside else self._now.before
         self._forward(link, target, [] if fronted else near, apart=apart)
         self._verb, self._now.mark = False, ""
         return at + 2
@@ -268,7 +287,7 @@ class Reader:
         if link.manner == "with" and content and content.link.manner in ("of", "hold") and parents[-1].count > 1:
             parents = content.parents or parents
         if link.manner == "include" and (holder := self._now.holder.get(id(parents[-1]))):
-            holder.fresh = True
+            holder.fresh, holder.closed = True, False
             return
         parents = parents[-1:] if not self._each else parents
         flank = None
@@ -304,7 +323,7 @@ class Reader:
         if phrase.kind == "pronoun":
             parents, known = self._now.antecedent(children, phrase), True
         else:
-            group, known = self._group(phrase)
+            group, known = self._group(phrase, children)
             parents = [group] if group is not None else []
         if not parents:
             return
@@ -320,6 +339,8 @@ class Reader:
             return
         if not apart:
             children = self._now.climb(children, link, parent)
+        if link.kind in ("on", "in") and link.manner == "place" and phrase.kind == "object":
+            children = self._now.list_on(children, parent)
         self._now.related = children
         for child in children:
             if phrase.each and parent.count > 1:
