@@ -242,6 +242,15 @@ class Context:
                 chosen.append(lowest)
         return chosen or children
 
+    def list_of(self, children: list[Group], parent: Group) -> list[Group]:
+        """`children` and, in "a napkin with a fork and a knife on it", what the list names before them."""
+        frame = self.holder.get(id(children[-1])) if children else None
+        if frame is None or not frame.closed or frame.parents[:1] != [parent]:
+            return children
+        draft = self.draft
+        fixed = [edge.child for edge in (*draft.supports.values(), *draft.laterals) if not edge.weak]
+        return [group for group in frame.members if group in children or group not in fixed]
+
     def _carrier(self, child: Group, link: Link, parent: Group) -> Group:
         """What carries `child` and is itself what `link` speaks of."""
         draft = self.draft

@@ -164,7 +164,7 @@ class Draft:
             if too_large or stack or self.is_a(child, lexicon.NOT_IN_VESSEL + (lexicon.LEVEL if small else ())):
                 return False
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray",)):
-            return not self.is_a(child, lexicon.NOT_ON_DISH)
+            return not self.is_a(child, lexicon.NOT_ON_DISH) and not self.is_a(child, lexicon.HOLLOW)
         return True
 
     def join_with(self, child: Group, parent: Group) -> None:

@@ -341,6 +341,8 @@ class Reader:
             children = self._now.climb(children, link, parent)
         if link.kind in ("on", "in") and link.manner == "place" and phrase.kind == "object":
             children = self._now.list_on(children, parent)
+        if link.kind in SUPPORT_KINDS and phrase.kind == "pronoun":
+            children = self._now.list_of(children, parent)
         self._now.related = children
         for child in children:
             if phrase.each and parent.count > 1:
