@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pat3d.plan.chunks import Chunk
+from pat3d.plan.clauses import lists_on, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.groups import GroupMaker, recolour
@@ -124,12 +125,14 @@ class Reader:
         if phrase.head == "which":
             self._relative = True
             return
-        if phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive and self._starts_clause(at)):
+        if phrase.kind == "pronoun" or (
+            phrase.kind == "part" and phrase.possessive and starts_clause(self._chunks, at)
+        ):
             if self._now.mark == "start" or not self._now.subject:
                 self._now.subject = self._now.last = list(self._now.before)
             return
         if phrase.kind == "items":
-            if self._starts_clause(at) or self._now.mark == "start":
+            if starts_clause(self._chunks, at) or self._now.mark == "start":
                 self._now.subject, self._now.last, self._all = [], [], True
             self._now.draft.set_aside.append(phrase.words)
             return
@@ -143,8 +146,12 @@ class Reader:
         if group is None:
             return
         self._all = False
-        self._now.more = self._lists_on(at + 1)
-        if self._had_verb and self._now.mark in ("and", "comma and", "comma", "dash") and self._starts_clause(at):
+        self._now.more = lists_on(self._chunks, at + 1)
+        if (
+            self._had_verb
+            and self._now.mark in ("and", "comma and", "comma", "dash")
+            and starts_clause(self._chunks, at)
+        ):
             self._end_clause()
         if self._now.frames and self._now.frames[-1].fresh and self._now.mark in ("", "comma", "start"):
             self._now.enlist(self._now.frames[-1], group, known)
@@ -181,7 +188,7 @@ class Reader:
         if self._now.frames and self._now.frames[-1].fresh:
             self._now.frames[-1].fresh = False
             return
-        if self._now.mark == "start" or self._starts_clause(at):
+        if self._now.mark == "start" or starts_clause(self._chunks, at):
             self._now.close()
 
     def _detail(self, phrase: Phrase) -> None:
@@ -202,28 +209,6 @@ class Reader:
         if frame:
             frame.fresh = bool(frame.link.manner == "hold")
             self._now.last = [owner]
-
-    def _starts_clause(self, at: int) -> bool:
-        """Whether the phrase at chunk `at` is the subject of a verb of its own."""
-        after = at + 1
-        while after + 1 < len(self._chunks) and self._chunks[after].kind == "link":
-            link = self._chunks[after].link
-            if link is not None and link.finite:
-                return True
-            after += 2 if self._chunks[after + 1].kind == "phrase" else 1
-        piece = self._chunks[after] if after < len(self._chunks) else None
-        return piece is not None and (piece.kind == "verb" or bool(piece.link and piece.link.finite))
-
-    def _lists_on(self, at: int) -> bool:
-        """Whether from chunk `at` on the clause lists a phrase after "and" (with no verb of its own)."""
-        while at + 1 < len(self._chunks) and self._chunks[at].kind not in ("stop", "clause", "verb", "there", "dash"):
-            link = self._chunks[at].link
-            if link is not None and link.finite:
-                return False
-            if self._chunks[at].kind == "and" and self._chunks[at + 1].kind == "phrase":
-                return not self._starts_clause(at + 1)
-            at += 1
-        return False
 
     def _on_link(self, link: Link, at: int) -> int:
         if link.finite:
@@ -254,7 +239,7 @@ class Reader:
             self._verb, self._now.mark = False, ""
             return at + 1
         fronted = self._fronted(at, near)
-        self._now.more = self._lists_on(at + 2)
+        self._now.more = lists_on(self._chunks, at + 2)
         if fronted and self._now.subject:
             inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
             self._now.close()
