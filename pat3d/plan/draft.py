@@ -158,10 +158,10 @@ class Draft:
         if self.is_a(parent, lexicon.NARROW):
             return self.is_a(child, lexicon.SLENDER) or child.noun == parent.noun
         if self.is_a(parent, lexicon.HOLLOW) and child.noun != parent.noun:
-            small = self.is_a(parent, lexicon.BOWLS)
-            too_large = self.is_a(child, lexicon.LARGE_VESSELS) or (small and self.is_a(child, lexicon.HOLLOW))
-            stack = child.height != 1 and self.is_a(parent, lexicon.BOWLS)
-            if too_large or stack or self.is_a(child, lexicon.NOT_IN_VESSEL + (lexicon.LEVEL if small else ())):
+            if self.is_a(child, lexicon.LARGE_VESSELS) or self.is_a(child, lexicon.NOT_IN_VESSEL):
+                return False
+            tables = (lexicon.HOLLOW, lexicon.LEVEL, lexicon.NOT_ON_DISH)
+            if self.is_a(parent, lexicon.BOWLS) and (child.height != 1 or any(self.is_a(child, t) for t in tables)):
                 return False
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray",)):
             return not self.is_a(child, lexicon.NOT_ON_DISH) and not self.is_a(child, lexicon.HOLLOW)

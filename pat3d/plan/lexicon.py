@@ -205,7 +205,7 @@ LARGE_VESSELS = (
 NOT_IN_VESSEL = (
     "lamp", "table lamp", "desk lamp", "floor lamp", "lantern", "fire extinguisher", "monitor", "television",
     "computer", "laptop", "printer", "microwave", "guitar", "globe", "aquarium", "radio", "vase", "potted plant",
-    "bag", "handbag", "backpack", "suitcase", "briefcase", "kettle", "teapot", "toaster", "blender", "keyboard",
+    "bag", "handbag", "backpack", "suitcase", "briefcase", "toaster", "blender", "keyboard",
 )  # fmt: skip
 """What a list after a vessel never puts into it: too large, or made to stand by itself."""
 FRUIT = (
