@@ -22,7 +22,7 @@ def mass_properties(
         vertices: [m], shape (vertices, 3).
         faces: counter-clockwise from outside, shape (faces, 3).
         density: [kg/m^3]; give this or `mass`.
-        mass: [kg], spread uniformly over the enclosed volume.
+        mass: [kg], spread uniformly over the enclosed volume; it wins over `density`.
 
     Raises:
         AssetError: the enclosed volume is not positive (open, flat or inside-out mesh).
@@ -40,8 +40,8 @@ def mass_properties(
     moment = np.einsum("f,fi,fj->ij", determinant, total, total)
     moment += np.einsum("f,fki,fkj->ij", determinant, corners, corners)
     moment = moment / 120.0 - volume * np.outer(centre, centre)
-    if (mass is None) == (density is None):
-        raise AssetError("give either the density or the mass.")
+    if mass is None and density is None:
+        raise AssetError("give the density or the mass.")
     total_mass = float(mass if mass is not None else (density or 0.0) * volume)
     moment *= total_mass / volume
     inertia = np.trace(moment) * np.eye(3) - moment

@@ -70,8 +70,8 @@ class GroupMaker:
         near = self._draft.nouns.nearest(phrase.head)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
         raise PromptError(
-            f'"{phrase.head}" is not in the catalogue (word {phrase.number}). {hint} Give a mesh with --assets, '
-            "plan with --planner openai, or accept a plain box with --allow-proxies."
+            f'"{phrase.head}" is not in the catalogue (word {phrase.number}). {hint} Bring a mesh of '
+            "your own with pat3d build, or accept a plain box with --allow-proxies."
         )
 
     def _count(self, phrase: Phrase, filling: bool) -> tuple[int, int]:

@@ -52,6 +52,8 @@ class SettleOptions:
     """Barrier activation distance at rest [m]; gaps end between a third of it and it."""
     friction_speed: float = 1.0e-3
     """Speed below which friction is not fully mobilised [m/s]."""
+    drop_residual: float = float("inf")
+    """Unbalanced force over weight that ends a step of the drop; gradients need about 1e-9."""
     residual: float = 1.0e-6
     """Unbalanced force of any body at rest over its weight."""
     move: float = 1.0e-8
@@ -116,12 +118,20 @@ def barrier_stiffness(model: Model) -> NDArray[np.float64]:
     return np.maximum(100.0 * model.weight, 1.0)
 
 
-class _Run:
+class Run:
     """The state of one settling run; every quantity that decides something is kept per world."""
 
-    def __init__(self, model: Model, options: SettleOptions, progress: Progress, tape: Tape | None = None):
+    def __init__(
+        self,
+        model: Model,
+        options: SettleOptions,
+        progress: Progress,
+        q0: NDArray[np.float64] | None = None,
+        tape: Tape | None = None,
+    ):
         self.model, self.options, self.progress, self.tape = model, options, progress, tape
-        self.q = wp.array(model.q0, dtype=wp.vec3d, device=model.device)
+        start = model.q0 if q0 is None else q0
+        self.q = wp.array(np.ascontiguousarray(start, dtype=np.float64), dtype=wp.vec3d, device=model.device)
         self.reference = np.zeros(model.worlds, dtype=np.int64)
         self.lag_d_hat = options.d_hat
         if tape is not None:
@@ -129,12 +139,13 @@ class _Run:
         self.potential = Potential(model)
         self.newton = Newton(self.potential)
         self.frames = self.polish_steps = self.iterations = self.steps = 0
-        self.trajectory = [model.q0.astype(np.float32)]
+        self.trajectory = [start.astype(np.float32)]
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
         self._slip = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
 
     def refuse_intersections(self) -> None:
+        """Raise SimulationError unless the present state is free of intersections."""
         pairs = intersecting_bodies(self.model, self.potential.positions(self.q, self.potential._start))
         if len(pairs):
             names = [*self.model.labels, "the ground"]
@@ -146,9 +157,11 @@ class _Run:
             )
 
     def state(self) -> NDArray[np.float64]:
+        """A copy of the present state, shape (bodies, 4, 3)."""
         return self.q.numpy().reshape(-1, 4, 3).copy()
 
     def set_reach(self, d_hat: float) -> None:
+        """Change the barrier activation distance [m]."""
         self.potential.contact.d_hat = d_hat
         self.potential.candidates.invalidate()
 
@@ -184,20 +197,24 @@ class _Run:
         return self._slip.numpy().copy()
 
     def record_friction(self) -> None:
+        """Lag friction at the present state."""
         self.potential.record_friction(self.q)
         self.lag_d_hat = self.potential.contact.d_hat
 
-    def drop(self) -> None:
-        """Artificial time steps until nothing moves faster than friction creeps."""
+    def drop(self, frames: int | None = None) -> None:
+        """Artificial time steps until nothing moves faster than friction creeps, or exactly `frames` of them."""
         options, potential = self.options, self.potential
         potential.friction.epsilon = epsilon = options.friction_speed * options.time_step
         still = np.zeros(self.model.worlds, dtype=np.int64)
-        while self.frames < options.max_frames and np.any(still < STILL_FRAMES):
-            active = still < STILL_FRAMES
+        while self.frames < (options.max_frames if frames is None else frames):
+            active = (still < STILL_FRAMES) if frames is None else np.ones(self.model.worlds, dtype=bool)
+            if not active.any():
+                return
             self.anchor(active)
             self.record_friction()
             move = self.step(
-                active, np.ones(self.model.worlds), move_tolerance=0.1 * options.d_hat, max_iterations=100
+                active, np.ones(self.model.worlds), move_tolerance=0.1 * options.d_hat,
+                residual_tolerance=options.drop_residual, exact_below=EXACT_BELOW, max_iterations=100,
             )  # fmt: skip
             self.frames += 1
             self.trajectory.append(self.state().astype(np.float32))
@@ -254,7 +271,7 @@ def settle(model: Model, options: SettleOptions | None = None, progress: Progres
         SimulationError: bodies intersect at the start, or the state is not finite.
     """
     options = options or SettleOptions()
-    run = _Run(model, options, progress)
+    run = Run(model, options, progress)
     run.refuse_intersections()
     run.set_reach(options.d_hat)
     run.drop()

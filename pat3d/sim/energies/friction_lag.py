@@ -126,15 +126,16 @@ def _pull_back(
         full += c[i] * (_body_vector(q, i, a, b) - _body_vector(reference_state, i, a, b))
     u = full - wp.dot(n, full) * n
     y = wp.length(u)
-    # k = f0'/y and k'/y
+    direction = u / wp.max(y, wp.float64(1.0e-300))
+    # k = f0'/y and y k'
     k = one / wp.max(y, epsilon)
-    k_slope = -one / wp.max(y * y * y, wp.float64(1.0e-300))
+    radial = -k
     if y < epsilon:
         k = wp.float64(2.0) / epsilon - y / (epsilon * epsilon)
-        k_slope = -one / (epsilon * epsilon * wp.max(y, wp.float64(1.0e-300)))
+        radial = -y / (epsilon * epsilon)
     su = wp.dot(s, u)
     strength = mu * normal_force
-    bar_u = strength * (k_slope * su * u + k * s)
+    bar_u = strength * (radial * wp.dot(s, direction) * direction + k * s)
     bar_s = strength * k * u
     bar_force = mu * k * su
     bar_full = bar_u - wp.dot(n, bar_u) * n
