@@ -24,9 +24,7 @@ def add_parts(builder: ModelBuilder, parts: list[ConvexPart], pose: Pose, *, den
     for properties in each:
         offset = np.array(properties.centre_of_mass) - centre
         moment += properties.second_moment + properties.mass * np.outer(offset, offset)
-    return builder.add_body(
-        parts, mass=mass, volume=mass / density, centre=centre, second_moment=moment, pose=pose
-    )
+    return builder.add_body(parts, mass=mass, volume=mass / density, centre=centre, second_moment=moment, pose=pose)
 
 
 def random_body(kind: str, rng: np.random.Generator) -> list[ConvexPart]:
@@ -57,9 +55,7 @@ def random_scene(kind: str, seed: int) -> Model:
         scale, density = 1.0, float(10 ** rng.uniform(1.5, 3.5))
         if kind == "tiny-beside-huge":
             scale, density = (2.0, 1000.0) if i % 2 else (0.02, 1000.0)
-        parts = [
-            ConvexPart(vertices=part.vertices * scale, faces=part.faces) for part in random_body(kind, rng)
-        ]
+        parts = [ConvexPart(vertices=part.vertices * scale, faces=part.faces) for part in random_body(kind, rng)]
         quat = rng.normal(size=4)
         radius = max(np.linalg.norm(part.vertices, axis=1).max() for part in parts)
         height += radius + 0.002
