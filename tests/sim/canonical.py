@@ -126,7 +126,7 @@ def arch(stones: int, radius: float = 0.3, thickness: float = 0.1, gap: float = 
 
 
 def card_house(levels: int, gap: float = 1e-4) -> Model:
-    """Tents of cards leaning at 65 degrees, with cards across each level, `gap` apart."""
+    """Tents of cards leaning at 65 degrees, with one card across each level, `gap` apart."""
     builder = ModelBuilder()
     length, width, thickness, lean = 0.1, 0.06, 1e-3, np.deg2rad(65)
     card = box_points(length, width, thickness)
@@ -142,9 +142,9 @@ def card_house(levels: int, gap: float = 1e-4) -> Model:
                 quat = (np.cos(lean / 2), 0.0, side * np.sin(lean / 2), 0.0)
                 add_hull(builder, card, Pose(position=(x + side * (half_x + gap / 2), 0, z + height / 2), quat_wxyz=quat))
         z += height + gap
-        for x in 0.5 * (centres[1:] + centres[:-1]):
-            roof = box_points(span - gap, width, thickness)
-            add_hull(builder, roof, Pose(position=(x, 0, z + thickness / 2)))
+        if tents > 1:
+            roof = box_points((tents - 1) * span + 0.3 * length, width, thickness)
+            add_hull(builder, roof, Pose(position=(0, 0, z + thickness / 2)))
         z += thickness + gap if tents > 1 else 0
     return builder.finalize("cpu")
 
