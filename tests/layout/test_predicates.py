@@ -156,6 +156,7 @@ def test_a_relation_without_pose_is_refused():
 
 def test_polygon_gap_matches_shapely():
     import shapely
+
     rng = np.random.default_rng(0)
     for _ in range(200):
         pair = []
