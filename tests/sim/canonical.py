@@ -37,8 +37,8 @@ def upside_down(points: Points) -> Points:
 
 
 def add_surface(
-    builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, pose: Pose = Pose(), fixed: bool = False
-) -> int:  # noqa: B008
+    builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, pose: Pose | None = None, fixed: bool = False
+) -> int:
     """Add a body bounded by one closed surface, convex or not."""
     properties = mass_properties(vertices, faces, density=500.0)
     return builder.add_body(
@@ -47,7 +47,7 @@ def add_surface(
         volume=properties.volume,
         centre=np.array(properties.centre_of_mass),
         second_moment=properties.second_moment,
-        pose=pose,
+        pose=pose or Pose(),
         fixed=fixed,
     )
 
