@@ -211,8 +211,6 @@ class Scene:
                 raise SpecError(f'an attachment names "{end}", which is not in the scene. Objects: {", ".join(names)}.')
             if pair in pairs:
                 raise SpecError(f'"{attachment.child}" and "{attachment.parent}" are attached twice; use more anchors.')
-            if self[attachment.child].fixed:
-                raise SpecError(f'"{attachment.child}" is fixed and cannot hang from "{attachment.parent}".')
             pairs.add(pair)
 
     def __getitem__(self, name: str) -> SceneObject:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose
+from pat3d.scene import Pose, Scene
 
 GRAVITY = 9.81
 """[m/s^2], along -z."""
@@ -125,6 +125,18 @@ class ModelBuilder:
             fixed=fixed,
             label=label or asset.noun,
         )
+
+    def add_scene(self, scene: Scene) -> list[int]:
+        """Add the objects of `scene` at their initial poses, and its attachments; returns the bodies' indices."""
+        indices = {
+            obj.name: self.add_asset(obj.asset, obj.initial_pose, fixed=obj.fixed, label=obj.name)
+            for obj in scene.objects
+        }
+        for one in scene.attachments:
+            if not (scene[one.child].fixed and scene[one.parent].fixed):
+                for on_child, on_parent in one.anchors:
+                    self.add_attachment(indices[one.child], np.array(on_child), indices[one.parent], np.array(on_parent))
+        return list(indices.values())
 
     def add_body(
         self,

@@ -67,7 +67,8 @@ def tree(style: Style) -> Build:
         frustum(0.26, 0.17, 2.75, sides=10).moved(z=0.30),
     )
     side = 1.0 if style.rng.random() < 0.5 else -1.0
-    branch = rod((0.0, 0.0, low), (side * style.vary(1.75, 0.05), 0.0, low), 0.085, 0.060)
+    # Thinner towards its end, level below.
+    branch = rod((0.0, 0.0, low), (side * style.vary(1.75, 0.05), 0.0, low - 0.025), 0.085, 0.060)
     other = limb((0.0, 0.0, 2.30), (-side * 0.75, style.vary(0.15, 0.9), 2.95), 0.08, 0.06)
     crown = [
         ellipsoid(style.vary(1.10), style.vary(1.0), style.vary(0.72)).moved(z=3.45),
