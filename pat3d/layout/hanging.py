@@ -1,6 +1,6 @@
 """Hanging a group under another: the highest free place below a branch, a bar or a hook.
 
-An object hangs by the anchors of its asset, or by the middle of its top. It is turned until its centre of mass is
+An object hangs by the anchors of its asset, else by the middle of its top or two opposite points of its rim. It is turned until its centre of mass is
 plumb below them, brought under the carrier where every anchor has the carrier's underside right above it, and lifted
 until the layout's gap remains: out of the reach of the simulator's contact, so that the attachment carries alone.
 """
@@ -45,8 +45,9 @@ def anchors_of(asset: Asset) -> Array:
     height = float(top_map([body.at(np.eye(3), np.zeros(3))], middle, 1.0, (1, 1), 0.0)[0, 0])
     if height > top - _TOP:
         return np.array([[*middle, height]])
-    # A ring has no middle: the nearest point of its rim.
-    return upper[[np.argmin(np.linalg.norm(upper[:, :2] - body.centre_of_mass[:2], axis=1))]]
+    # A rim has no middle: its two ends along x, so that what is inside stays inside.
+    ends = [upper[np.abs(upper[:, 0] - x) < _TOP] for x in (upper[:, 0].min(), upper[:, 0].max())]
+    return np.array([end[np.argmin(np.abs(end[:, 1] - middle[1]))] for end in ends])
 
 
 def attachment(child: Placed, parent: Placed) -> Attachment | None:
@@ -128,7 +129,7 @@ def _tied(group: Group, carrier: Group, spot: Array, gap: float) -> tuple[Group,
         group = group.turned(_turn(np.array([span[1], -span[0], 0.0]), slope))
         anchors = _anchors(group.root)
     highest = max(float(group.high[2] - anchors[:, 2].max()), 0.0)
-    height = float((above - anchors[:, 2]).min()) - highest - gap - 1e-3
+    height = float((above - anchors[:, 2]).min()) - highest - gap - 0.02
     start = group.shifted(np.array([*spot, height]))
     if not all(clear(member, carrier.members, gap - 2e-4) for member in start.members):
         return None

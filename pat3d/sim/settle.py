@@ -227,9 +227,8 @@ class Run:
         weight = np.ones(worlds)
         active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
-        # A pendulum comes to rest faster by far with longer steps, and nothing is lost if it swings through.
-        slow = np.where(self.hanging, 1e-2, 1e-4)
-        fast = np.where(self.hanging, np.inf, 1e-3)
+        # A pendulum creeps: a step brings one of length L nearer to rest by g dt^2 / L, half a per cent for a swing.
+        slow = np.where(self.hanging, 1e-3, 1e-4)
         while self.polish_steps < options.max_polish_steps and active.any():
             self.anchor(active & ~anchored)
             move = self.step(
@@ -245,7 +244,7 @@ class Run:
             # Once motion is as slow as friction's creep, its reference stays put; it follows while real slip goes on.
             anchored = (move < 4.0 * epsilon) & (self.slip() < 20.0 * epsilon)
             # Slow sliding gets longer steps.
-            weight = np.where(move < slow, np.maximum(0.5 * weight, 1e-6), np.where(move > fast, 1.0, weight))
+            weight = np.where(move < slow, np.maximum(0.5 * weight, 1e-6), np.where(move > 10.0 * slow, 1.0, weight))
             self.progress("polishing", self.polish_steps, float(move.max()))
         return ~active, residual
 
