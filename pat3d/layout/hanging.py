@@ -1,8 +1,9 @@
 """Hanging a group under another: the highest free place below a branch, a bar or a hook.
 
-An object hangs by the anchors of its asset, else by the middle of its top or two opposite points of its rim. It is turned until its centre of mass is
-plumb below them, brought under the carrier where every anchor has the carrier's underside right above it, and lifted
-until the layout's gap remains: out of the reach of the simulator's contact, so that the attachment carries alone.
+An object hangs by the anchors of its asset, else by the middle of its top or by two opposite points of its rim. It is
+turned until its centre of mass is plumb below them, brought under the carrier where every anchor has the carrier's
+underside right above it, and lifted until the layout's gap remains: out of the reach of the simulator's contact, so
+that the attachment carries alone.
 """
 
 from __future__ import annotations
@@ -133,9 +134,7 @@ def _tied(group: Group, carrier: Group, spot: Array, gap: float) -> tuple[Group,
     start = group.shifted(np.array([*spot, height]))
     if not all(clear(member, carrier.members, gap - 2e-4) for member in start.members):
         return None
-    rise = min(
-        fall(member, [root], floor=float(root.high[2]), gap=gap, upwards=True) for member in start.members
-    )
+    rise = min(fall(member, [root], floor=float(root.high[2]), gap=gap, upwards=True) for member in start.members)
     hung = start.shifted(np.array([0.0, 0.0, rise]))
     room = min(_FREE, 0.25 * float(hung.size.min()))
     lower = hung.shifted(np.array([0.0, 0.0, -room]))

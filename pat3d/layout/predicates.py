@@ -183,9 +183,7 @@ class _View:
         while grown := {rel.child for rel in self.relations if rel.supports and rel.parent in carries} - carries:
             carries |= grown
         touched = [
-            other
-            for other in self.bodies
-            if other not in (*carries, parent) and self._gap(child, other) <= self.touch
+            other for other in self.bodies if other not in (*carries, parent) and self._gap(child, other) <= self.touch
         ]
         closest = distance(body, self.bodies[parent], self.touch + 1e-9)
         # Where the two are near at an anchor it is the anchor that carries.

@@ -133,9 +133,10 @@ class ModelBuilder:
             for obj in scene.objects
         }
         for one in scene.attachments:
+            child, parent = indices[one.child], indices[one.parent]
             if not (scene[one.child].fixed and scene[one.parent].fixed):
                 for on_child, on_parent in one.anchors:
-                    self.add_attachment(indices[one.child], np.array(on_child), indices[one.parent], np.array(on_parent))
+                    self.add_attachment(child, np.array(on_child), parent, np.array(on_parent))
         return list(indices.values())
 
     def add_body(
@@ -192,8 +193,8 @@ class ModelBuilder:
     ) -> None:
         """Hold a point of one body and a point of another together, as a ball joint does.
 
-        Two attachments of a pair make a hinge, three hold it fast. Attached bodies still collide with each other: points
-        belong where the surfaces are further apart than the barrier reaches, or they push against it.
+        Two attachments of a pair make a hinge, three hold it fast. Attached bodies still collide with each other:
+        points belong where the surfaces are further apart than the barrier reaches, or they push against it.
 
         Args:
             body_a: index of a body.

@@ -13,7 +13,7 @@ D_HAT = 0.02
 
 
 def crowded_potential(seed: int) -> tuple[Potential, np.ndarray]:
-    """Three tilted bodies within the barrier's reach of one another and of the ground, attached and slightly deformed."""
+    """Three tilted bodies within the barrier's reach of one another and of the ground, attached, slightly deformed."""
     rng = np.random.default_rng(seed)
     builder = ModelBuilder()
     quat = rng.normal(size=(4, 4)) * 0.05 + [1, 0, 0, 0]
