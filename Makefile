@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
-PROMPT ?= A wooden table with a bowl of three apples, a red mug and a stack of four books on it.
+PROMPT ?= A fruit bowl with an apple, an orange and a pear, a stack of three books with a red mug on top, and next to it a pen holder holding two pencils and a ruler.
 
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-dev demo format check test test-all bench clean

@@ -116,8 +116,9 @@ def import_mesh(
     try:
         placed, factors = _placed(loaded, axis, units, scale, size)
         fixed = repair(placed, loaded.faces, thickness=thickness)
+        weighed = (density or found.density) if mass is None else None
         properties = mass_properties(
-            fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=density or found.density, mass=mass
+            fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass
         )
         made = _make_parts(fixed, parts, cache_dir, timeout)
     except AssetError as error:

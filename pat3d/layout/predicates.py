@@ -153,6 +153,8 @@ class _View:
         tall = float(body.high[2] - body.low[2])
         deep = depth > 0.0 or (depth > -0.5 * tall and not column.capped)
         deep = deep and bool(body.high[2] > column.centre[2])
+        # The column is the widest upright one; bowls and baskets flare, and what leans on their walls is inside too.
+        within = within or (depth > 0.0 and not column.capped and self._over(child, parent))
         side = "below" if depth > 0 else "above"
         return (
             carried and within and deep,

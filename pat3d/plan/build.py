@@ -30,6 +30,7 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
         aside = f" Set aside: {'; '.join(draft.set_aside)}." if draft.set_aside else ""
         raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
     _open_boxes(draft)
+    _widen_bowls(draft)
     _pair_sides(draft)
     _share_supports(draft)
     members = _members(draft)
@@ -50,6 +51,19 @@ def _open_boxes(draft: Draft) -> None:
             noun = draft.nouns.resolve(opened)
             if edge.kind == "in" and noun and edge.parent.noun == draft.nouns.resolve(closed):
                 edge.parent.noun = noun
+
+
+def _widen_bowls(draft: Draft) -> None:
+    """Make a bowl that holds fruit or more than two things a wide one."""
+    for narrow, wide in lexicon.WIDER.items():
+        noun = draft.nouns.resolve(wide)
+        for bowl in draft.groups:
+            if noun is None or bowl.noun != draft.nouns.resolve(narrow):
+                continue
+            held = [edge.child for edge in draft.supports.values() if edge.kind == "in" and edge.parent is bowl]
+            fruit = any(draft.is_a(group, lexicon.FRUIT) or "apple" in group.cycle for group in held)
+            if fruit or sum(group.count for group in held) > 2 * bowl.count:
+                bowl.noun = noun
 
 
 def _members(draft: Draft) -> dict[int, list[PlannedObject]]:

@@ -11,6 +11,8 @@ from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
 from pat3d.scene import SUPPORT_KINDS
 
+_BETWEEN = Link(manner="flank")
+
 
 @dataclass(kw_only=True, eq=False)
 class Frame:
@@ -23,6 +25,12 @@ class Frame:
     each: bool = False
     fresh: bool = True
     """The next phrase belongs to the list without a comma or "and"."""
+    commas: bool = False
+    """Whether a comma has joined two members."""
+    closed: bool = False
+    """Whether "and" has joined the last member: what follows belongs to a wider list."""
+    lacks_partner: bool = False
+    """Opened by "between", whose second neighbour is still to come."""
 
 
 @dataclass(kw_only=True, eq=False)
@@ -41,6 +49,12 @@ class Context:
     """What a relation without a comma attaches to."""
     top: list[Group] = field(default_factory=list)
     """Members of the list that the clause begins with, while nothing else was said of them."""
+    listed: list[Group] = field(default_factory=list)
+    """All members of the list that the clause begins with."""
+    top_joined: bool = False
+    """Whether "and" stood before the last of them."""
+    more: bool = False
+    """Whether the clause goes on to list after the phrase being read."""
     holder: dict[int, Frame] = field(default_factory=dict)
     """The list that a group is a member of, by id of the group."""
     carried: dict[int, list[Group]] = field(default_factory=dict)
@@ -58,6 +72,7 @@ class Context:
         """Forget the clause; keep its subject for pronouns."""
         self.before = self.subject or self.before
         self.subject, self.last, self.top, self.frames, self.related = [], [], [], [], []
+        self.listed = []
 
     def wait_for_child(self) -> None:
         """Keep only the list opened by a relation in front ("On a table, there is ...")."""
@@ -70,7 +85,7 @@ class Context:
         self.maker.inherit(generic)
         holder = self.holder.get(id(generic))
         if holder is not None:
-            holder.fresh = True
+            holder.fresh, holder.closed = True, False
             kept = self.frames[: self.frames.index(holder)] if holder in self.frames else []
             self.frames = [*kept, holder]
             return
@@ -81,10 +96,20 @@ class Context:
             self.frames = [Frame(link=Link(kind=edge.kind), parents=[edge.parent])]
 
     def open_frame(self, group: Group, phrase: Phrase) -> Frame | None:
-        """The innermost open list that `group` can belong to."""
+        """The innermost open list that `group` can belong to.
+
+        "X, Y and Z" is complete: what follows goes on the list around it, or where there is none stays on the table
+        that the list stands on.
+        """
+        lacking = next((frame for frame in reversed(self.frames) if frame.lacks_partner), None)
+        if lacking is not None and "and" in self.mark and not self.more:
+            del self.frames[self.frames.index(lacking) + 1 :]
+            return lacking
         for index in range(len(self.frames) - 1, -1, -1):
             frame = self.frames[index]
             if frame.link.manner == "of" and (phrase.determined or self.mark != "and"):
+                continue
+            if frame.closed and (frame.commas or self.mark != "and"):
                 continue
             # "a lamp, a crate of toys, and a mug": the mug goes on the list that has commas already.
             wider = (each for each in reversed(self.frames[:index]) if each.parents[0] is not frame.parents[0])
@@ -96,16 +121,28 @@ class Context:
             if loose or all(self._takes(frame, parent, group) for parent in holders):
                 del self.frames[index + 1 :]
                 return frame
+        for index in range(len(self.frames) - 1, -1, -1):
+            frame = self.frames[index]
+            if frame.closed and self._is_surface(frame) and self.draft.fits(group, frame.parents[0]):
+                del self.frames[index + 1 :]
+                return frame
         return None
+
+    def _is_surface(self, frame: Frame) -> bool:
+        """Whether the list names what stands on a table or the like."""
+        carries = frame.link.kind in ("on", "in") or (frame.link.kind is None and frame.link.manner in ("with", "hold"))
+        return carries and self.draft.is_table(frame.parents[0])
 
     def _takes(self, frame: Frame, parent: Group, group: Group) -> bool:
         vague = frame.link.manner == "with" and frame.link.kind is None
-        picky = self.draft.is_a(parent, lexicon.NARROW + lexicon.DISHES)
+        picky = self.draft.is_a(parent, lexicon.NARROW + lexicon.DISHES + lexicon.HOLLOW)
         return self.draft.fits(group, parent) or (vague and not picky)
 
     def enlist(self, frame: Frame, group: Group, known: bool) -> None:
         """Add `group` to an open list and relate it as the list says."""
-        frame.fresh = False
+        frame.fresh = frame.lacks_partner = False
+        frame.commas = frame.commas or self.mark == "comma"
+        frame.closed = "and" in self.mark
         frame.members.append(group)
         self.holder[id(group)] = frame
         link = frame.link
@@ -171,7 +208,9 @@ class Context:
         draft = self.draft
         supports = link.kind in SUPPORT_KINDS
         floor = draft.on_floor(parent)
-        if len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
+        # "a mug, a pear on a plate and a lamp": the list goes on, so only the pear is on the plate.
+        ends = not self.more or self.top_joined
+        if ends and len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
             return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
         child = self._carrier(children[-1], link, parent)
         if child is not children[-1] and len(self.top) > 1 and child is self.top[-1]:
@@ -179,6 +218,38 @@ class Context:
         if not supports and not floor and draft.on_floor(child) and id(child) in self.carried:
             return self.carried[id(child)]
         return [child]
+
+    def list_on(self, children: list[Group], parent: Group) -> list[Group]:
+        """`children` and, where the last of a list is on a table, the rest of the list.
+
+        "a crate, a loaf on a board and a bottle on a table" puts the crate and the board on the table too; in "a loaf
+        on a board and a bottle on a table" each has its own place.
+        """
+        draft = self.draft
+        earlier = [group for group in self.listed if group not in (self.listed[-1], parent)]
+        bare = [
+            group
+            for group in earlier
+            if draft.support(group) is None and not any(edge.child is group for edge in draft.laterals)
+        ]
+        whole = self.top_joined and self.listed[-1:] == children[-1:] and draft.is_table(parent)
+        if not whole or not any(not draft.on_floor(group) for group in bare):
+            return children
+        chosen: list[Group] = []
+        for group in (*earlier, *children):
+            lowest = [group, *draft.ancestors(group)][-1]
+            if not draft.on_floor(lowest) and lowest is not parent and lowest not in chosen:
+                chosen.append(lowest)
+        return chosen or children
+
+    def list_of(self, children: list[Group], parent: Group) -> list[Group]:
+        """`children` and, in "a napkin with a fork and a knife on it", what the list names before them."""
+        frame = self.holder.get(id(children[-1])) if children else None
+        if frame is None or not frame.closed or frame.parents[:1] != [parent]:
+            return children
+        draft = self.draft
+        fixed = [edge.child for edge in (*draft.supports.values(), *draft.laterals) if not edge.weak]
+        return [group for group in frame.members if group in children or group not in fixed]
 
     def _carrier(self, child: Group, link: Link, parent: Group) -> Group:
         """What carries `child` and is itself what `link` speaks of."""
@@ -226,7 +297,7 @@ class Context:
             flank = Flank(parent=child, members=[parent])
             draft.flanks.append(flank)
             if parent.count == 1:
-                self.frames.append(Frame(link=Link(manner="flank"), parents=[child], flank=flank, fresh=False))
+                self.frames.append(Frame(link=_BETWEEN, parents=[child], flank=flank, fresh=False, lacks_partner=True))
         elif link.manner == "half":
             self.on_half([child], link.side or "centre", parent)
         elif link.kind in SUPPORT_KINDS:

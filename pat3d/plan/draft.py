@@ -73,6 +73,10 @@ class Draft:
         """Whether the group's noun belongs to a class of the lexicon."""
         return self.nouns.of_class(group.noun, table)
 
+    def is_table(self, group: Group) -> bool:
+        """Whether the group is furniture with a level top, not a dish."""
+        return self.is_a(group, lexicon.LEVEL) and not self.is_a(group, lexicon.DISHES)
+
     def on_floor(self, group: Group) -> bool:
         """Whether the group's objects stand on the floor by nature."""
         return self.is_a(group, lexicon.FLOOR)
@@ -153,8 +157,14 @@ class Draft:
             return False
         if self.is_a(parent, lexicon.NARROW):
             return self.is_a(child, lexicon.SLENDER) or child.noun == parent.noun
+        if self.is_a(parent, lexicon.HOLLOW) and child.noun != parent.noun:
+            if self.is_a(child, lexicon.LARGE_VESSELS) or self.is_a(child, lexicon.NOT_IN_VESSEL):
+                return False
+            tables = (lexicon.HOLLOW, lexicon.LEVEL, lexicon.NOT_ON_DISH)
+            if self.is_a(parent, lexicon.BOWLS) and (child.height != 1 or any(self.is_a(child, t) for t in tables)):
+                return False
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray",)):
-            return not self.is_a(child, lexicon.NOT_ON_DISH)
+            return not self.is_a(child, lexicon.NOT_ON_DISH) and not self.is_a(child, lexicon.HOLLOW)
         return True
 
     def join_with(self, child: Group, parent: Group) -> None:

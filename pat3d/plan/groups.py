@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
+from pat3d.plan.lexing import singulars
 from pat3d.plan.modifiers import Modifiers
 from pat3d.plan.phrases import Phrase
 
@@ -23,17 +25,32 @@ class GroupMaker:
         self._allow_proxies = allow_proxies
         self._inherited: Group | None = None
 
-    def refer(self, phrase: Phrase) -> Group | None:
-        """The group already read that `phrase` speaks of, or None."""
-        if not phrase.definite or (phrase.kind != "object") or phrase.head == "another":
+    def refer(self, phrase: Phrase, *, besides: Sequence[Group] = ()) -> Group | None:
+        """The group already read that `phrase` speaks of, or None.
+
+        "the bowl" is a bowl, or else what was last called some kind of bowl and is not one of `besides`.
+        """
+        if not phrase.definite or phrase.kind not in ("object", "unknown") or phrase.head == "another":
+            return None
+        return self._same_noun(phrase) or self._same_head(phrase, besides) or self._storage(phrase)
+
+    def _same_noun(self, phrase: Phrase) -> Group | None:
+        if phrase.kind == "unknown":
             return None
         for group in reversed(self._draft.groups):
             same = group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
-            wanted = phrase.modifiers.colours
-            clash = wanted and group.modifiers.colours and not set(wanted) & set(group.modifiers.colours)
-            clash = clash or (group.member_colours and wanted and (wanted[0],) not in group.member_colours)
-            if same and not clash and (phrase.count is None or phrase.count <= group.count):
+            if same and _agrees(group, phrase):
                 return group
+        return None
+
+    def _same_head(self, phrase: Phrase, besides: Sequence[Group]) -> Group | None:
+        wanted = {phrase.said or phrase.head, *singulars(phrase.said or phrase.head)}
+        for group in reversed(self._draft.groups):
+            if group not in besides and not group.cycle and wanted & _heads(group) and _agrees(group, phrase):
+                return group
+        return None
+
+    def _storage(self, phrase: Phrase) -> Group | None:
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1):
             storage = [group for group in self._draft.groups if self._draft.is_a(group, lexicon.STORAGE)]
             return storage[-1] if storage else None
@@ -70,8 +87,8 @@ class GroupMaker:
         near = self._draft.nouns.nearest(phrase.head)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
         raise PromptError(
-            f'"{phrase.head}" is not in the catalogue (word {phrase.number}). {hint} Give a mesh with --assets, '
-            "plan with --planner openai, or accept a plain box with --allow-proxies."
+            f'"{phrase.head}" is not in the catalogue (word {phrase.number}). {hint} Bring a mesh of '
+            "your own with pat3d build, or accept a plain box with --allow-proxies."
         )
 
     def _count(self, phrase: Phrase, filling: bool) -> tuple[int, int]:
@@ -208,6 +225,21 @@ def recolour(group: Group, modifiers: Modifiers, part: str = "") -> None:
         material=own.material or (modifiers.material if not part else None),
         adjectives=(*own.adjectives, *adjectives),
     )
+
+
+def _agrees(group: Group, phrase: Phrase) -> bool:
+    """Whether colours and number of `phrase` allow it to speak of `group`."""
+    wanted = phrase.modifiers.colours
+    if group.member_colours and wanted and (wanted[0],) not in group.member_colours:
+        return False
+    clash = wanted and group.modifiers.colours and not set(wanted) & set(group.modifiers.colours)
+    return not clash and (phrase.count is None or phrase.count <= group.count)
+
+
+def _heads(group: Group) -> set[str]:
+    """The single words that "the ..." may call `group` by: "bowl" for a fruit bowl, "loaf" for a loaf of bread."""
+    names = (group.said, group.noun) if not group.proxy else (group.said,)
+    return {word for name in names for words in [name.split(" of ")] for word in (words[0].split()[-1:])}
 
 
 def _quoted(name: str) -> str:

@@ -95,6 +95,8 @@ BACKGROUND = frozenset({
     "quality", "resolution", "detail", "details", "workspace", "world", "corner", "tabletop scene", "still life",
     "living room", "dining room", "carpeted floor", "countertop scene", "foreground", "sun", "moonlight", "light",
     "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains",
+    "lounge", "study", "den", "loft", "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom",
+    "apartment", "courtyard", "porch", "veranda", "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery",
     "yard", "backyard", "patio", "terrace", "balcony", "pair view",
 })  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
@@ -193,6 +195,25 @@ HOLLOW = (
     "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl", "mixing bowl", "hamper",
     "picnic basket", "pail", "casserole", "frying pan", "cooking pot", "flower pot",
 )  # fmt: skip
+BOWLS = ("bowl", "fruit bowl", "mixing bowl", "fish bowl", "pan", "frying pan", "saucepan", "pot", "cooking pot",
+         "soap dish", "casserole")  # fmt: skip
+"""Vessels no wider than most other vessels: a list after one never puts a vessel into it."""
+LARGE_VESSELS = (
+    "basket", "crate", "box", "bin", "bucket", "pool", "inflatable pool", "laundry basket", "hamper", "storage box",
+    "storage bin", "trash can", "wastebasket", "picnic basket", "shopping basket", "planter",
+)  # fmt: skip
+NOT_IN_VESSEL = (
+    "lamp", "table lamp", "desk lamp", "floor lamp", "lantern", "fire extinguisher", "monitor", "television",
+    "computer", "laptop", "printer", "microwave", "guitar", "globe", "aquarium", "radio", "vase", "potted plant",
+    "bag", "handbag", "backpack", "suitcase", "briefcase", "toaster", "blender", "keyboard",
+)  # fmt: skip
+"""What a list after a vessel never puts into it: too large, or made to stand by itself."""
+FRUIT = (
+    "fruit", "apple", "orange", "lemon", "lime", "pear", "peach", "plum", "cherry", "strawberry", "watermelon",
+    "banana", "pineapple", "grapes", "grape", "mango", "kiwi", "avocado", "pomegranate", "coconut", "fig", "melon",
+)  # fmt: skip
+WIDER = {"bowl": "fruit bowl"}
+"""What a vessel becomes when it holds fruit or more than two things."""
 OPENED = {"box": "storage box"}
 """What a closed thing becomes when the prompt puts something in it."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder")

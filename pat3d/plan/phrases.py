@@ -185,8 +185,10 @@ class PhraseReader:
         multi = link_at(self._tokens, at)
         if multi > 1 and not self._extends(words, word):
             return True
-        if not words or not self._ends_in_noun(words):
+        if not words:
             return False
+        if not self._ends_in_noun(words):
+            return self._breaks_unknown(words, at)
         verb = multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
         verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
@@ -194,6 +196,15 @@ class PhraseReader:
             runs_on = not follower.mark and follower.text not in ("and", "or", "of")
             verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
         return bool(verb) and not self._extends(words, word)
+
+    def _breaks_unknown(self, words: list[str], at: int) -> bool:
+        """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
+        word = self._tokens[at].text
+        verb = word in lexicon.PARTICIPLES or (word,) in LINKS
+        if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
+            return False
+        # "a free standing lamp": the participle belongs to the noun after it.
+        return not self._extends(words, word) and self._nouns.match([word, self._tokens[at + 1].text]) is None
 
     def goes_on(self, at: int) -> bool:
         """Whether token `at` may be the noun that a participle before it describes."""

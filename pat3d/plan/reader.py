@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pat3d.plan.chunks import Chunk
+from pat3d.plan.clauses import lists_on, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.groups import GroupMaker, recolour
@@ -79,6 +80,7 @@ class Reader:
             self._now.before = self._now.subject
         self._now.wait_for_child()
         self._now.subject, self._now.top, self._had_verb, self._verb = [], [], True, False
+        self._now.listed = []
 
     def _on_verb(self) -> None:
         self._now.maker.end_sentence()
@@ -123,12 +125,14 @@ class Reader:
         if phrase.head == "which":
             self._relative = True
             return
-        if phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive and self._starts_clause(at)):
+        if phrase.kind == "pronoun" or (
+            phrase.kind == "part" and phrase.possessive and starts_clause(self._chunks, at)
+        ):
             if self._now.mark == "start" or not self._now.subject:
                 self._now.subject = self._now.last = list(self._now.before)
             return
         if phrase.kind == "items":
-            if self._starts_clause(at) or self._now.mark == "start":
+            if starts_clause(self._chunks, at) or self._now.mark == "start":
                 self._now.subject, self._now.last, self._all = [], [], True
             self._now.draft.set_aside.append(phrase.words)
             return
@@ -142,7 +146,12 @@ class Reader:
         if group is None:
             return
         self._all = False
-        if self._had_verb and self._now.mark in ("and", "comma and", "comma", "dash") and self._starts_clause(at):
+        self._now.more = lists_on(self._chunks, at + 1)
+        if (
+            self._had_verb
+            and self._now.mark in ("and", "comma and", "comma", "dash")
+            and starts_clause(self._chunks, at)
+        ):
             self._end_clause()
         if self._now.frames and self._now.frames[-1].fresh and self._now.mark in ("", "comma", "start"):
             self._now.enlist(self._now.frames[-1], group, known)
@@ -155,6 +164,8 @@ class Reader:
             if not self._had_verb or not self._now.subject:
                 self._now.subject = [*self._now.subject, group]
             self._now.top.append(group)
+            self._now.listed.append(group)
+            self._now.top_joined = "and" in self._now.mark
         if self._now.frames and not self._now.frames[-1].link.inverse and group in self._now.frames[-1].members:
             self._now.subject = [*self._now.subject, group]
         self._verb = False
@@ -162,9 +173,9 @@ class Reader:
         if self._side:
             self._now.draft.sided.append((group, self._side, None))
 
-    def _group(self, phrase: Phrase) -> tuple[Group | None, bool]:
-        """The group that `phrase` means, and whether it was known before."""
-        known = self._now.maker.refer(phrase)
+    def _group(self, phrase: Phrase, besides: Sequence[Group] = ()) -> tuple[Group | None, bool]:
+        """The group that `phrase`, said of `besides`, means, and whether it was known before."""
+        known = self._now.maker.refer(phrase, besides=besides)
         if known is not None:
             return known, True
         frame = self._now.frames[-1] if self._now.frames else None
@@ -177,7 +188,7 @@ class Reader:
         if self._now.frames and self._now.frames[-1].fresh:
             self._now.frames[-1].fresh = False
             return
-        if self._now.mark == "start" or self._starts_clause(at):
+        if self._now.mark == "start" or starts_clause(self._chunks, at):
             self._now.close()
 
     def _detail(self, phrase: Phrase) -> None:
@@ -198,17 +209,6 @@ class Reader:
         if frame:
             frame.fresh = bool(frame.link.manner == "hold")
             self._now.last = [owner]
-
-    def _starts_clause(self, at: int) -> bool:
-        """Whether the phrase at chunk `at` is the subject of a verb of its own."""
-        after = at + 1
-        while after + 1 < len(self._chunks) and self._chunks[after].kind == "link":
-            link = self._chunks[after].link
-            if link is not None and link.finite:
-                return True
-            after += 2 if self._chunks[after + 1].kind == "phrase" else 1
-        piece = self._chunks[after] if after < len(self._chunks) else None
-        return piece is not None and (piece.kind == "verb" or bool(piece.link and piece.link.finite))
 
     def _on_link(self, link: Link, at: int) -> int:
         if link.finite:
@@ -239,8 +239,12 @@ class Reader:
             self._verb, self._now.mark = False, ""
             return at + 1
         fronted = self._fronted(at, near)
+        self._now.more = lists_on(self._chunks, at + 2)
         if fronted and self._now.subject:
+            inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
             self._now.close()
+            # "a bowl, a book, and next to it a pen": the pen is next to the book.
+            self._now.before = self._now.before[-1:] if inside else self._now.before
         self._forward(link, target, [] if fronted else near, apart=apart)
         self._verb, self._now.mark = False, ""
         return at + 2
@@ -268,7 +272,7 @@ class Reader:
         if link.manner == "with" and content and content.link.manner in ("of", "hold") and parents[-1].count > 1:
             parents = content.parents or parents
         if link.manner == "include" and (holder := self._now.holder.get(id(parents[-1]))):
-            holder.fresh = True
+            holder.fresh, holder.closed = True, False
             return
         parents = parents[-1:] if not self._each else parents
         flank = None
@@ -304,7 +308,7 @@ class Reader:
         if phrase.kind == "pronoun":
             parents, known = self._now.antecedent(children, phrase), True
         else:
-            group, known = self._group(phrase)
+            group, known = self._group(phrase, children)
             parents = [group] if group is not None else []
         if not parents:
             return
@@ -320,6 +324,10 @@ class Reader:
             return
         if not apart:
             children = self._now.climb(children, link, parent)
+        if link.kind in ("on", "in") and link.manner == "place" and phrase.kind == "object":
+            children = self._now.list_on(children, parent)
+        if link.kind in SUPPORT_KINDS and phrase.kind == "pronoun":
+            children = self._now.list_of(children, parent)
         self._now.related = children
         for child in children:
             if phrase.each and parent.count > 1:

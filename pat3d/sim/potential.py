@@ -27,6 +27,10 @@ wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 SKIN = 5.0e-4
 """Motion that the candidate pairs of the broad phase leave room for [m]."""
 
+LIGHTEST = 1.0e-4
+"""Weights are judged as at least this fraction of the heaviest body's, whose contact forces round to more than a
+millionth of anything lighter."""
+
 
 class Potential:
     """Value, gradient and Hessian of the incremental potential of all worlds, and safe steps along it."""
@@ -50,6 +54,7 @@ class Potential:
         self._free, self._world = model.is_free, model.world_of
         mass = model.body_mass.numpy()
         weight = np.where(self._free, mass * GRAVITY, 1.0)
+        weight = np.maximum(weight, LIGHTEST * model.weight[model.world_of])
         self._force_scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
 
     @property

@@ -27,6 +27,12 @@ STILL_FRAMES = 3
 EXACT_BELOW = 1e-2
 """Residual over weight under which the polish uses exact Hessians."""
 
+SLOW, FAST = 5e-4, 1e-3
+"""Motions per step of the polish under which inertia fades and over which it is restored [m]."""
+
+MOST_INERTIA = 1e8
+"""Bound on the inertia that ends an oscillation of the polish, over that of a time step."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SettleOptions:
@@ -217,6 +223,13 @@ class Run:
             still = np.where(move < 2.0 * epsilon, still + 1, 0)
             self.progress("settling", self.frames, float(move.max()))
 
+    def reverses(self, change: NDArray[np.float64], last: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Whether steps of two states, shape (bodies, 4, 3), undo most of one another, shape (worlds,)."""
+        scale = np.ones((self.model.bodies, 4, 1))
+        scale[:, 1:] = self.model.body_radius[:, None, None]
+        both, before = (self.potential.per_world(np.sum(scale**2 * last * x, axis=(1, 2))) for x in (change, last))
+        return both < -0.5 * before
+
     def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Shrink the barrier and converge to static equilibrium; returns which worlds did and their residuals."""
         options, potential, worlds = self.options, self.potential, self.model.worlds
@@ -227,8 +240,9 @@ class Run:
         weight = np.ones(worlds)
         active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
+        start, last = self.state(), np.zeros_like(self.model.q0)
         # A pendulum creeps: a step brings one of length L nearer to rest by g dt^2 / L, half a per cent for a swing.
-        slow = np.where(self.hanging, 1e-3, 1e-4)
+        pace = np.where(self.hanging, 10.0, 1.0)
         while self.polish_steps < options.max_polish_steps and active.any():
             self.anchor(active & ~anchored)
             move = self.step(
@@ -244,7 +258,13 @@ class Run:
             # Once motion is as slow as friction's creep, its reference stays put; it follows while real slip goes on.
             anchored = (move < 4.0 * epsilon) & (self.slip() < 20.0 * epsilon)
             # Slow sliding gets longer steps.
-            weight = np.where(move < slow, np.maximum(0.5 * weight, 1e-6), np.where(move > 10.0 * slow, 1.0, weight))
+            slow, fast = move < pace * SLOW, move > pace * FAST
+            weight = np.where(slow, np.maximum(0.5 * weight, 1e-6), np.where(fast, 1.0, weight))
+            # Friction recorded at either of two states can lead to the other for ever; inertia damps the leap.
+            end = self.state()
+            change = end - start
+            weight = np.where(self.reverses(change, last), np.minimum(16.0 * weight, MOST_INERTIA), weight)
+            start, last = end, change
             self.progress("polishing", self.polish_steps, float(move.max()))
         return ~active, residual
 

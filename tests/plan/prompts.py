@@ -133,7 +133,7 @@ PROMPTS = (
     # Vessels
     expect(
         "In a bowl of fruit, there are three fruits.",
-        same("bowl", "apple", "orange", "banana"),
+        {**same("apple", "orange", "banana"), "bowl": "fruit bowl"},
         "apple in bowl", "orange in bowl", "banana in bowl",
     ),
     expect(
@@ -176,8 +176,99 @@ PROMPTS = (
     ),
     expect(
         "A bowl containing an apple, two lemons and a pear, with a spoon beside it",
-        same("bowl", "apple", "lemon 1", "lemon 2", "pear", "spoon"),
+        {**same("apple", "lemon 1", "lemon 2", "pear", "spoon"), "bowl": "fruit bowl"},
         "apple in bowl", "lemon 1 in bowl", "lemon 2 in bowl", "pear in bowl", "spoon next_to bowl",
+    ),
+    # Lists inside lists
+    expect(
+        "A fruit bowl with a pear, a lemon and an apple, a stack of two books with a blue mug on top, and next to it a "
+        "pen holder holding two pens and a ruler.",
+        same("fruit bowl", "pear", "lemon", "apple", "book 1", "book 2", "blue mug", "pen holder", "pen 1", "pen 2",
+             "ruler") | {"blue mug": "mug"},
+        "pear in fruit bowl", "lemon in fruit bowl", "apple in fruit bowl", "book 2 on book 1", "blue mug on book 2",
+        "pen holder next_to book 1", "pen 1 in pen holder", "pen 2 in pen holder", "ruler in pen holder",
+    ),
+    expect(
+        "On a desk there is a bowl with an orange and a lemon, a mug and a lamp.",
+        {**same("desk", "orange", "lemon", "mug", "lamp"), "bowl": "fruit bowl"},
+        "bowl on desk", "orange in bowl", "lemon in bowl", "mug on desk", "lamp on desk",
+    ),
+    expect(
+        "On a desk there is a basket with an apple, a pear, and a banana, and a teapot.",
+        same("desk", "basket", "apple", "pear", "banana", "teapot"),
+        "basket on desk", "apple in basket", "pear in basket", "banana in basket", "teapot on desk",
+    ),
+    expect(
+        "A basket with an apple, a pear and a banana and an egg on a table",
+        same("basket", "apple", "pear", "banana", "egg", "table"),
+        "apple in basket", "pear in basket", "banana in basket", "basket on table", "egg on table",
+    ),
+    expect(
+        "A crate with an apple and a pear and a lemon",
+        same("crate", "apple", "pear", "lemon"),
+        "apple in crate", "pear in crate", "lemon in crate",
+    ),
+    expect(
+        "A green mug on a stack of two books, beside a fruit bowl holding a lemon, a pear and an orange, and a pen "
+        "holder with a pen and a ruler.",
+        {**same("book 1", "book 2", "fruit bowl", "lemon", "pear", "orange", "pen holder", "pen", "ruler"),
+         "green mug": "mug"},
+        "green mug on book 2", "book 2 on book 1", "book 1 next_to fruit bowl", "lemon in fruit bowl",
+        "pear in fruit bowl", "orange in fruit bowl", "pen in pen holder", "ruler in pen holder",
+    ),
+    expect(
+        "A bowl with an egg and a lamp on a desk, a chair behind the desk",
+        same("bowl", "egg", "lamp", "desk", "chair"),
+        "egg in bowl", "bowl on desk", "lamp on desk", "chair behind desk",
+    ),
+    expect(
+        "A desk with a lamp and a mug, a book and a chair",
+        same("desk", "lamp", "mug", "book", "chair"),
+        "lamp on desk", "mug on desk", "book on desk", "chair next_to desk",
+    ),
+    expect(
+        "A napkin with a fork and a knife on it",
+        same("napkin", "fork", "knife"),
+        "fork on napkin", "knife on napkin",
+    ),
+    # Reference
+    expect(
+        "A fruit bowl with a pear and two lemons stands on a table. Behind the bowl, there is a teapot.",
+        same("fruit bowl", "pear", "lemon 1", "lemon 2", "table", "teapot"),
+        "pear in fruit bowl", "lemon 1 in fruit bowl", "lemon 2 in fruit bowl", "fruit bowl on table",
+        "teapot on table", "teapot behind fruit bowl",
+    ),
+    expect(
+        "A loaf of bread and a pen holder on a desk. To the left of the loaf is a knife. The holder is blue.",
+        {"loaf of bread": "bread", "blue pen holder": "pen holder", "desk": "desk", "knife": "knife"},
+        "loaf of bread on desk", "blue pen holder on desk", "knife on desk", "knife left_of loaf of bread",
+    ),
+    expect("A coffee table next to the table", same("coffee table", "table"), "coffee table next_to table"),
+    # Between
+    expect(
+        "A stack of two books with a blue mug on top stands between a fruit bowl with a pear and a peach and a pen "
+        "holder with a pen.",
+        {**same("book 1", "book 2", "fruit bowl", "pear", "peach", "pen holder", "pen"), "blue mug": "mug"},
+        "book 2 on book 1", "blue mug on book 2", "pear in fruit bowl", "peach in fruit bowl", "pen in pen holder",
+        "fruit bowl left_of book 1", "pen holder right_of book 1",
+    ),
+    expect(
+        "A candle between a basket with two eggs and a teapot",
+        same("candle", "basket", "egg 1", "egg 2", "teapot"),
+        "egg 1 in basket", "egg 2 in basket", "basket left_of candle", "teapot right_of candle",
+    ),
+    # The support of a whole list
+    expect(
+        "A wooden crate of two lemons, a loaf of bread on a cutting board and a bottle on a table.",
+        {"wooden crate": "crate", "loaf of bread": "bread", **same("lemon 1", "lemon 2", "cutting board", "bottle",
+         "table")},
+        "lemon 1 in wooden crate", "lemon 2 in wooden crate", "wooden crate on table", "cutting board on table",
+        "loaf of bread on cutting board", "bottle on table",
+    ),
+    expect(
+        "A loaf of bread on a cutting board and a bottle on a table.",
+        {"loaf of bread": "bread", **same("cutting board", "bottle", "table")},
+        "loaf of bread on cutting board", "bottle on table",
     ),
     # Sofas and toys
     expect(
@@ -208,7 +299,7 @@ PROMPTS = (
     expect(
         "A round table with a bowl of two oranges, a white cup and a stack of three plates on it, "
         "surrounded by four chairs",
-        {"table": "table", "bowl": "bowl", "white cup": "cup",
+        {"table": "table", "bowl": "fruit bowl", "white cup": "cup",
          **same("orange 1", "orange 2", "plate 1", "plate 2", "plate 3", "chair 1", "chair 2", "chair 3", "chair 4")},
         "bowl on table", "orange 1 in bowl", "orange 2 in bowl", "white cup on table", "plate 1 on table",
         "plate 2 on plate 1", "plate 3 on plate 2", *(f"chair {i} around table" for i in (1, 2, 3, 4)),
@@ -276,7 +367,7 @@ PROMPTS = (
     ),
     expect(
         "A photo of a bowl with six lemons on a cutting board. Behind it is a teapot.",
-        {**same("bowl", "cutting board", "teapot"), **{f"lemon {i}": "lemon" for i in range(1, 7)}},
+        {**same("cutting board", "teapot"), "bowl": "fruit bowl", **{f"lemon {i}": "lemon" for i in range(1, 7)}},
         *(f"lemon {i} in bowl" for i in range(1, 7)), "bowl on cutting board",
         "teapot behind cutting board",
     ),

@@ -2,6 +2,7 @@ import re
 
 import pytest
 
+from pat3d.assets import catalogue
 from pat3d.errors import PromptError
 from pat3d.plan.describe import describe
 from pat3d.plan.grammar import GrammarPlanner
@@ -79,7 +80,7 @@ def test_unknown_noun_is_refused_with_its_place_and_its_neighbours(planner: Gram
         planner.plan("A red mug beside a wooden teapoot.")
     message = str(caught.value)
     assert message.startswith('"teapoot" is not in the catalogue (word 7). Nearest: "teapot"')
-    assert "--assets" in message
+    assert "pat3d build" in message
     assert "--allow-proxies" in message
 
 
@@ -147,6 +148,47 @@ def test_groups_listed_in_each_other_end_the_reading(planner: GrammarPlanner, li
     except PromptError:
         return
     assert len(plan.objects) == 3
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [("a bowl with a pear", "fruit bowl"), ("a bowl of fruit", "fruit bowl"), ("a bowl with three eggs", "fruit bowl"),
+     ("a bowl with two eggs", "bowl"), ("a pear beside a bowl", "bowl"), ("a pear on a plate", None),
+     ("two bowls with four eggs", "bowl")],
+)  # fmt: skip
+def test_a_bowl_with_fruit_or_more_than_two_things_is_a_fruit_bowl(
+    planner: GrammarPlanner, prompt: str, noun: str | None
+):
+    bowls = [obj for obj in planner.plan(prompt).objects if obj.name.startswith("bowl")]
+    assert {obj.noun for obj in bowls} == ({noun} if noun else set())
+
+
+@pytest.mark.parametrize("words", ["an elegant lounge", "a quiet study", "a bright loft"])
+def test_rooms_are_background(planner: GrammarPlanner, words: str):
+    plan = planner.plan(f"{words} with a sofa, a coffee table and a lamp")
+    assert [obj.name for obj in plan.objects] == ["sofa", "coffee table", "lamp"]
+    assert plan.set_aside == (words,)
+
+
+@pytest.mark.parametrize(
+    "rest",
+    ["standing beside a table", "sitting on a chair", "lying on a rug", "leaning against a tree", "holding red balls",
+     "seated at a desk", "wearing hats"],
+)  # fmt: skip
+def test_an_unknown_noun_is_blamed_not_what_it_does(planner: GrammarPlanner, rest: str):
+    with pytest.raises(PromptError, match=r'^"gnome" is not in the catalogue \(word 2\)'):
+        planner.plan(f"a gnome {rest}")
+
+
+def test_an_unknown_noun_is_referred_to_like_any_other():
+    plan = GrammarPlanner(True, vocabulary=Table()).plan("A gnome standing beside a table. A mug is behind the gnome.")
+    assert [obj.name for obj in plan.objects] == ["gnome", "table", "mug"]
+    assert relations(plan) == {"gnome next_to table", "mug behind gnome"}
+
+
+def test_every_noun_of_the_expected_plans_is_in_the_catalogue():
+    nouns = {noun for expected in PROMPTS for noun in expected.objects.values()}
+    assert {noun for noun in nouns if catalogue.find(noun) is None} == set()
 
 
 def test_the_default_vocabulary_is_the_catalogue():

@@ -23,6 +23,7 @@ NOUNS: dict[str, tuple[str, ...]] = {
     "knife": (), "bottle": (), "candle": (), "tray": (), "glass": ("drinking glass",), "towel": (), "bench": (),
     "octagon puzzle": (), "jar": (), "cookie": (), "teapot": (), "stool": (), "watermelon": (), "egg": (), "pot": (),
     "cutting board": (), "bread": ("loaf of bread",), "carrot": (), "tomato": (), "glasses": (), "crate": (),
+    "fruit bowl": (), "napkin": (), "peach": (),
 }  # fmt: skip
 IRREGULAR = {"knives": "knife", "bookshelves": "bookshelf", "boxes": "box"}
 

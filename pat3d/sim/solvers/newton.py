@@ -28,6 +28,9 @@ BACKTRACKS = 60
 SUFFICIENT_DECREASE = 1.0e-4
 """Armijo constant."""
 
+UNRESOLVED = 1.0e-14
+"""Decreases below the heaviest body's weight over this height [m] drown in the energy's rounding."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class NewtonResult:
@@ -109,7 +112,7 @@ class Newton:
         potential = self.potential
         step = running.astype(np.float64)
         before = potential.value(q)
-        by_residual = residual < exact_below
+        by_residual = (residual < exact_below) | (-slope < UNRESOLVED * self.model.weight)
         pending = running.copy()
         for _ in range(BACKTRACKS):
             fraction, _ = self._try(q, step)

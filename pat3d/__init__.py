@@ -1,0 +1,36 @@
+"""From a sentence to a manipulation scene that does not move when a simulator loads it.
+
+    scene = pat3d.generate("a red mug on a wooden table", out="scenes/mug")
+
+The names below load what they need when they are first used; importing `pat3d` alone is cheap.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pat3d.pipeline import build, generate
+    from pat3d.scene_io import load_scene, save_scene
+
+__version__ = "0.1.0"
+
+__all__ = ["__version__", "build", "generate", "load_scene", "save_scene"]
+
+_HOMES = {
+    "build": "pat3d.pipeline",
+    "generate": "pat3d.pipeline",
+    "load_scene": "pat3d.scene_io",
+    "save_scene": "pat3d.scene_io",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f'module "pat3d" has no attribute "{name}". It has: {", ".join(__all__)}.')
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

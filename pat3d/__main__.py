@@ -1,0 +1,7 @@
+"""`python -m pat3d` is the `pat3d` command."""
+
+import sys
+
+from pat3d.cli import main
+
+sys.exit(main())

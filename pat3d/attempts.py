@@ -1,0 +1,220 @@
+"""One attempt at a scene: laid out with a seed of its own, settled, proved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from pat3d.check.proof import Proof, broken, prove, relations_at_rest
+from pat3d.errors import LayoutError, Pat3dError, SimulationError
+from pat3d.exporters.mjcf import write_mjcf
+from pat3d.gather import Ingredient, Order, derived_seed
+from pat3d.kernels import prepare
+from pat3d.progress import Event, Progress
+from pat3d.report import Clock
+from pat3d.rest import Rest, come_to_rest
+from pat3d.scene import GROUND, Pose, Relation, Scene, SceneObject, parent_of
+from pat3d.scene_folder import key_of
+from pat3d.versions import versions
+from pat3d.workspace import Workspace
+
+CLEARANCE = 1e-5
+"""Gap between a fixed object and the ground [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Checked:
+    """A settled scene, exported and checked; it may have failed."""
+
+    scene: Scene
+    rest: Rest
+    proof: Proof
+    mjcf: Path
+    """Folder of the export that was checked."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Attempt:
+    """What came of one layout seed."""
+
+    number: int
+    """From 0."""
+    layout_seed: int
+    scene: Scene | None = None
+    """None where no layout was found or it could not be simulated."""
+    rest: Rest | None = None
+    notes: tuple[str, ...] = ()
+    """The layout's."""
+    inputs: Mapping[str, str] = field(default_factory=dict)
+    """Fingerprints of the stages' inputs."""
+    broken: tuple[str, ...] = ()
+    """Support relations that do not hold at rest."""
+    checked: Checked | None = None
+    """None where an earlier fault made the checks pointless."""
+    error: Pat3dError | None = None
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What is wrong with it, a line each."""
+        if self.error is not None:
+            return (str(self.error),)
+        lines = self.checked.proof.failures if self.checked is not None else self.broken
+        if self.rest is not None and not self.rest.at_rest:
+            frames, steps = self.rest.record["frames"], self.rest.record["polish_steps"]
+            still = f"settling did not come to rest in {frames} frames and {steps} steps of polish (unbalanced by "
+            lines = (still + f"{self.rest.record['residual']:.2g} of a weight).", *lines)
+        return lines
+
+    @property
+    def passed(self) -> bool:
+        """Checked, with nothing wrong."""
+        return self.checked is not None and not self.failures
+
+    @property
+    def rank(self) -> tuple[bool, bool, int]:
+        """The least is the best attempt."""
+        return self.error is not None, self.rest is None or not self.rest.at_rest, len(self.failures)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json."""
+        settling = dict(self.rest.record) if self.rest is not None else None
+        return {
+            "attempt": self.number + 1, "layout_seed": self.layout_seed, "passed": self.passed,
+            "checked": self.checked is not None, "failures": list(self.failures), "settling": settling,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Delivery:
+    """The attempt that becomes the scene folder."""
+
+    best: Attempt
+    checked: Checked
+    tried: tuple[Attempt, ...]
+    """All attempts, the best among them."""
+    key: str
+    """Fingerprint of the order and the settings."""
+
+
+class Attempts:
+    """Makes attempts at one order."""
+
+    def __init__(
+        self, order: Order, *, seed: int, friction: float, device: str,
+        workspace: Workspace, clock: Clock, progress: Progress, scratch: Path,
+    ) -> None:  # fmt: skip
+        self.order, self.seed, self.friction, self.device = order, seed, friction, device
+        self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
+        self._ingredients: tuple[Ingredient, ...] = ()
+        self._made = False
+        self.key = key_of(versions(), order.fingerprint, seed, friction, device)
+
+    def best_of(self, count: int) -> Delivery:
+        """The first attempt that passes, else the best of `count` with its faults.
+
+        Raises:
+            LayoutError: no attempt found a layout.
+            SimulationError: no attempt could be simulated.
+        """
+        made: list[Attempt] = []
+        known = self.workspace.delivered(self.key)
+        count = count if self.order.adjustable else 1
+        for number in range(count) if known is None else (known,):
+            attempt = self._attempt(number)
+            if not attempt.failures:
+                attempt = self._checked(attempt)
+            made.append(attempt)
+            if attempt.passed:
+                break
+        best = min(made, key=lambda attempt: attempt.rank)
+        if best.error is not None:
+            raise best.error
+        place = made.index(best)
+        made[place] = best = self._checked(best)
+        if best.checked is None:
+            raise SimulationError("; ".join(best.failures))
+        return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
+
+    def _attempt(self, number: int) -> Attempt:
+        layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
+        attempt = Attempt(number=number, layout_seed=layout_seed)
+        made_of = key_of(versions(), self.order.fingerprint, self.seed, layout_seed)
+        inputs = {"layout": made_of, "rest": key_of(made_of, self.friction, self.device)}
+        try:
+            scene, notes = self._laid_out(number, layout_seed, inputs)
+            rest = self._settled(number, scene, notes, inputs)
+        except (LayoutError, SimulationError) as error:
+            return replace(attempt, error=error)
+        scene = rest.of(scene)
+        faults = broken(relations_at_rest(scene))
+        return replace(attempt, scene=scene, rest=rest, notes=notes, inputs=inputs, broken=faults)
+
+    def _laid_out(self, number: int, layout_seed: int, inputs: Mapping[str, str]) -> tuple[Scene, tuple[str, ...]]:
+        """The order's objects at poses where nothing touches, and the layout's notes."""
+        kept = self.workspace.layout(number, inputs["layout"])
+        if kept is not None:
+            scene = kept[0]
+            return replace(scene, settling_friction=self.friction, provenance=self._provenance(layout_seed)), kept[1]
+        from pat3d.layout.layout import arrange
+
+        if not self._made:
+            with self.clock("assets"):
+                self._ingredients, self._made = self.order.gather(self.seed, self.progress), True
+        again = f"attempt {number + 1}" if number else ""
+        with self.clock("layout"):
+            self.progress(Event(stage="arranging", detail=again))
+            layout = arrange(
+                {one.name: one.asset for one in self._ingredients},
+                self.order.relations,
+                seed=layout_seed,
+                fixed_poses={one.name: one.pose for one in self._ingredients if one.pose is not None},
+            )
+        objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
+        scene = Scene(
+            objects=objects, relations=self.order.relations, prompt=self.order.prompt, seed=self.seed,
+            settling_friction=self.friction, provenance=self._provenance(layout_seed),
+        )  # fmt: skip
+        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, layout.notes)
+        return scene, layout.notes
+
+    def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> Rest:
+        kept = self.workspace.rest(number, inputs["rest"], scene)
+        if kept is not None:
+            return kept
+        with self.clock("kernels"):
+            device = prepare(self.device, self.progress)
+        with self.clock("settling"):
+            rest = come_to_rest(scene, device=device, progress=self.progress)
+        self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
+        return rest
+
+    def _checked(self, attempt: Attempt) -> Attempt:
+        if attempt.checked is not None or attempt.scene is None or attempt.rest is None:
+            return attempt
+        mjcf = self.scratch / f"mjcf_{attempt.number + 1}"
+        with self.clock("export"):
+            path = write_mjcf(attempt.scene, mjcf)
+        with self.clock("proof"):
+            proof = prove(attempt.scene, path, self.progress)
+        checked = Checked(scene=attempt.scene, rest=attempt.rest, proof=proof, mjcf=mjcf)
+        return replace(attempt, checked=checked)
+
+    def _provenance(self, layout_seed: int) -> dict[str, Any]:
+        return {
+            **self.order.provenance,
+            "versions": versions(),
+            "settings": {"layout_seed": layout_seed, "friction": self.friction, "device": self.device},
+        }
+
+
+def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
+    """An ingredient where the layout put it; fixed ones never fall, so they are set down on the ground."""
+    if one.fixed and one.pose is None and parent_of(one.name, relations) == GROUND:
+        lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
+        x, y, z = pose.position
+        pose = Pose(position=(x, y, z - lowest + CLEARANCE), quat_wxyz=pose.quat_wxyz)
+    return SceneObject(
+        name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed
+    )  # fmt: skip

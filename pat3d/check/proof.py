@@ -1,0 +1,118 @@
+"""The whole proof of a scene: balanced, disjoint, still in MuJoCo, faithful to its relations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pat3d.check.certificate import Certificate, certify
+from pat3d.check.metrics import displacement, share_still
+from pat3d.check.penetration import PenetrationReport, penetration
+from pat3d.check.settle import SettleReport, settle_in_mujoco
+from pat3d.layout.predicates import RelationResult, check_relations
+from pat3d.progress import Event, Progress, silent
+from pat3d.scene import Scene
+
+SECONDS = 5.0
+"""Simulated time in MuJoCo [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Proof:
+    """What every check found."""
+
+    certificate: Certificate
+    penetration: PenetrationReport
+    mujoco: SettleReport
+    relations: tuple[RelationResult, ...]
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """One line for everything that disproves the scene, with names and figures; none for a proven scene."""
+        lines = [
+            f'"{name}" is not in equilibrium: unbalanced by {self.certificate.residuals[name]:.2g} of its weight at '
+            f"friction {self.certificate.friction:g}."
+            for name in self.certificate.unbalanced
+        ]
+        for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
+            lines += [f'the {what} of "{pair.first}" and "{pair.second}" intersect, {1e3 * pair.depth:.3g} mm deep.'
+                      for pair in overlaps]  # fmt: skip
+        lines += [
+            f'"{obj.name}" drifts {max(obj.centre_mm, obj.origin_mm):.2f} mm and {obj.degrees:.2f} degrees in '
+            f"{self.mujoco.seconds:g} s of MuJoCo."
+            for obj in self.mujoco.moved()
+        ]
+        lines += [f"MuJoCo warns: {warning}" for warning in self.mujoco.warnings]
+        return (*lines, *self.broken)
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """Support relations that do not hold, a line each."""
+        return broken(self.relations)
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """Lateral relations that do not hold; the scene is proven without them but less faithful."""
+        return tuple(f"{found.relation} ({found.detail})" for found in self.relations
+                     if not found.relation.supports and not found.holds)  # fmt: skip
+
+    @property
+    def passed(self) -> bool:
+        """Nothing disproves the scene."""
+        return not self.failures
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json."""
+        held = sum(found.holds for found in self.relations)
+        return {
+            "passed": self.passed,
+            "failures": list(self.failures),
+            "certificate": self.certificate.as_dict(),
+            "penetration": self.penetration.as_dict(),
+            "mujoco": self.mujoco.as_dict(),
+            "displacement_m": displacement(self.mujoco),
+            "share_still": share_still(self.mujoco),
+            "relations": {
+                "held": held,
+                "count": len(self.relations),
+                "list": [
+                    {"relation": str(found.relation), "kind": found.relation.kind, "holds": found.holds,
+                     "detail": found.detail}
+                    for found in self.relations
+                ],
+            },
+        }  # fmt: skip
+
+
+def broken(relations: tuple[RelationResult, ...]) -> tuple[str, ...]:
+    """A line for every support relation that does not hold."""
+    return tuple(f"broken: {found.relation} ({found.detail})." for found in relations
+                 if found.relation.supports and not found.holds)  # fmt: skip
+
+
+def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
+    """Every relation of `scene` with whether it holds at the objects' poses."""
+    return check_relations(
+        scene.relations,
+        {obj.name: obj.asset for obj in scene.objects},
+        {obj.name: obj.pose for obj in scene.objects},
+    )
+
+
+def prove(scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, seconds: float = SECONDS) -> Proof:
+    """Check `scene`, written as MJCF at `mjcf_path`, in every way.
+
+    Raises:
+        CheckError: MuJoCo refuses the file.
+    """
+    progress(Event(stage="proving", detail="static equilibrium", step=0, steps=4))
+    certificate = certify(scene, margin=True)
+    progress(Event(stage="proving", detail="no intersections", step=1, steps=4))
+    overlaps = penetration(scene)
+    progress(Event(stage="proving", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
+    mujoco = settle_in_mujoco(mjcf_path, seconds)
+    progress(Event(stage="proving", detail="relations", step=3, steps=4))
+    return Proof(
+        certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)
+    )  # fmt: skip

@@ -1,0 +1,122 @@
+"""The `pat3d` command."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import pat3d
+from pat3d.errors import Pat3dError
+
+EXAMPLES = {
+    "generate": """
+  pat3d generate "a red mug on a wooden table" --out scenes/mug
+  pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
+""",
+    "build": """
+  pat3d build scene.yaml --out scenes/mine
+  pat3d build --schema > scene.schema.json
+""",
+    "check": """
+  pat3d check scenes/mug
+""",
+    "catalogue": """
+  pat3d catalogue                        list everything by family
+  pat3d catalogue mug                    one object, with a picture in mug.png
+  pat3d catalogue --sheet catalogue.png  pictures of everything
+""",
+    "doctor": """
+  pat3d doctor
+""",
+}
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    main_parser = argparse.ArgumentParser(
+        prog="pat3d",
+        description="From a sentence to a manipulation scene that does not move when a simulator loads it.",
+    )
+    main_parser.add_argument("--version", action="version", version=f"pat3d {pat3d.__version__}")
+    commands = main_parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def command(name: str, summary: str) -> argparse.ArgumentParser:
+        return commands.add_parser(
+            name,
+            help=summary,
+            description=summary[0].upper() + summary[1:] + ".",
+            epilog="examples:" + EXAMPLES[name],
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+
+    making = command("generate", "make a proven scene from a sentence")
+    making.add_argument("prompt", metavar="PROMPT", help="what the scene shows, in English")
+    making.add_argument("--allow-proxies", action="store_true", help="a plain box for what the catalogue lacks")
+    _add_making(making, seed=0, friction=0.2)
+
+    building = command("build", "make a proven scene from a specification with your meshes, sizes and relations")
+    building.add_argument("spec", metavar="SCENE.YAML", nargs="?", help="the specification")
+    building.add_argument("--schema", action="store_true", help="print the JSON schema of specifications and stop")
+    _add_making(building, seed=None, friction=None)
+
+    checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
+    checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")
+
+    listing = command("catalogue", "what can be made, with pictures")
+    listing.add_argument("name", metavar="NAME", nargs="?", help="noun or synonym")
+    listing.add_argument("--sheet", metavar="PNG", help="write pictures of everything")
+    listing.add_argument("--out", metavar="PNG", help="picture of NAME (default: ./NAME.png)")
+    listing.add_argument("--seed", type=int, default=0, help="variation of what is drawn")
+
+    command("doctor", "what works on this computer, and what would enable more")
+    return main_parser
+
+
+def _add_making(to: argparse.ArgumentParser, *, seed: int | None, friction: float | None) -> None:
+    shown = {"seed": "0", "friction": "0.2"} if seed is not None else dict.fromkeys(("seed", "friction"), "the file's")
+    to.add_argument("--out", metavar="FOLDER", help="scene folder to write; an earlier one is replaced at the end")
+    to.add_argument("--seed", type=int, default=seed, help=f"the same seed gives the same scene ({shown['seed']})")
+    to.add_argument("--friction", type=float, default=friction,
+                    help=f"friction coefficient while settling ({shown['friction']})")  # fmt: skip
+    to.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
+    to.add_argument("--formats", nargs="+", default=["mjcf"], metavar="FORMAT", help="exchange formats (mjcf)")
+    to.add_argument("--resume", action="store_true",
+                    help="keep finished stages in FOLDER.partial, and go on from those of an earlier run")  # fmt: skip
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line `argv`; returns the exit code."""
+    options = parser().parse_args(argv)
+    previous = signal.getsignal(signal.SIGTERM)
+    try:
+        # Ended by another program, a run tidies up as after Ctrl-C.
+        signal.signal(signal.SIGTERM, _interrupt)
+    except ValueError:
+        previous = None
+    try:
+        return _run(options)
+    except Pat3dError as error:
+        print(f"pat3d: {type(error).__name__}: {error}", file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:
+        print("pat3d: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 141
+    finally:
+        if previous is not None:
+            signal.signal(signal.SIGTERM, previous)
+
+
+def _interrupt(*_: Any) -> None:
+    raise KeyboardInterrupt
+
+
+def _run(options: argparse.Namespace) -> int:
+    from pat3d import commands
+
+    return getattr(commands, options.command)(options)

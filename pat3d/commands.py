@@ -1,0 +1,102 @@
+"""What each command of `pat3d` does; options are those of `pat3d.cli`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+from pat3d.console import console, show_proof, show_report, watch
+from pat3d.errors import SpecError
+
+
+def generate(options: argparse.Namespace) -> int:
+    """`pat3d generate`."""
+    from pat3d.pipeline import Settings, run_prompt
+
+    if options.out is None:
+        raise SpecError("give the folder to write: --out scenes/NAME.")
+    settings = Settings(
+        seed=options.seed, friction=options.friction, device=options.device, formats=tuple(options.formats),
+        resume=options.resume,
+    )  # fmt: skip
+    with watch(console(stderr=True)) as progress:
+        outcome = run_prompt(
+            options.prompt, out=options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+        )
+    return _finished(outcome, options.out)
+
+
+def build(options: argparse.Namespace) -> int:
+    """`pat3d build`."""
+    if options.schema:
+        from pat3d.build_schema import BUILD_SCHEMA
+
+        print(json.dumps(BUILD_SCHEMA, indent=2))
+        return 0
+    from pat3d.pipeline import run_spec
+
+    if options.spec is None or options.out is None:
+        raise SpecError("give the specification and the folder to write: pat3d build scene.yaml --out scenes/NAME.")
+    with watch(console(stderr=True)) as progress:
+        outcome = run_spec(
+            options.spec, out=options.out, seed=options.seed, friction=options.friction, device=options.device,
+            formats=tuple(options.formats), resume=options.resume, progress=progress,
+        )  # fmt: skip
+    return _finished(outcome, options.out)
+
+
+def _finished(outcome, out: str) -> int:
+    show_report(console(), outcome.report, Path(out))
+    return _verdict(outcome.report.failures)
+
+
+def _verdict(failures: tuple[str, ...]) -> int:
+    errors = console(stderr=True)
+    for line in failures:
+        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
+    return 1 if failures else 0
+
+
+def check(options: argparse.Namespace) -> int:
+    """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder."""
+    from pat3d.check.parity import differences
+    from pat3d.check.proof import prove
+    from pat3d.check.settle import settle_in_mujoco
+    from pat3d.exporters.mjcf import write_mjcf
+    from pat3d.scene_io import load_scene
+
+    folder = Path(options.folder)
+    scene = load_scene(folder)
+    delivered = folder / "mjcf" / "scene.xml"
+    with watch(console(stderr=True)) as progress, tempfile.TemporaryDirectory(prefix="pat3d-check-") as scratch:
+        proof = prove(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
+        failures = list(proof.failures)
+        if delivered.is_file():
+            failures += differences(scene, delivered)
+            found = replace(proof, mujoco=settle_in_mujoco(delivered))
+            failures += [f"{line} ({delivered})" for line in found.failures if line not in proof.failures]
+    show_proof(console(), scene, proof)
+    if not delivered.is_file():
+        console().print(f"note  there is no {delivered}; what would be written there was checked.", markup=False)
+    return _verdict(tuple(failures))
+
+
+def catalogue(options: argparse.Namespace) -> int:
+    """`pat3d catalogue`."""
+    from pat3d import browse
+
+    if options.name is not None:
+        return browse.one(options.name, seed=options.seed, out=options.out)
+    if options.out is not None:
+        raise SpecError("--out is the picture of one object; name it, or use --sheet for pictures of everything.")
+    return browse.everything(seed=options.seed, sheet=options.sheet)
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """`pat3d doctor`."""
+    from pat3d.doctor import examine
+
+    return examine(console())

@@ -1,0 +1,32 @@
+"""What the chunks ahead say about the clause being read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.chunks import Chunk
+
+
+def starts_clause(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether the phrase at chunk `at` is the subject of a verb of its own."""
+    after = at + 1
+    while after + 1 < len(chunks) and chunks[after].kind == "link":
+        if _finite(chunks[after]):
+            return True
+        after += 2 if chunks[after + 1].kind == "phrase" else 1
+    return after < len(chunks) and (chunks[after].kind == "verb" or _finite(chunks[after]))
+
+
+def lists_on(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether from chunk `at` on the clause lists a phrase after "and" that has no verb of its own."""
+    while at + 1 < len(chunks) and chunks[at].kind not in ("stop", "clause", "verb", "there", "dash"):
+        if _finite(chunks[at]):
+            return False
+        if chunks[at].kind == "and" and chunks[at + 1].kind == "phrase":
+            return not starts_clause(chunks, at + 1)
+        at += 1
+    return False
+
+
+def _finite(piece: Chunk) -> bool:
+    return piece.link is not None and piece.link.finite

@@ -1,0 +1,76 @@
+"""The settling stage: a scene laid out becomes a scene at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.progress import Event, Progress, silent
+from pat3d.scene import Pose, Scene
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Rest:
+    """How settling ended."""
+
+    poses: tuple[Pose, ...]
+    """Of every object, in the order of the scene."""
+    states: NDArray[np.float32]
+    """Centre of mass [m] and columns of the linear map in every frame, the rest last, shape (frames, objects, 4, 3)."""
+    centres: NDArray[np.float64]
+    """Centres of mass in the frames of the assets [m], shape (objects, 3)."""
+    record: Mapping[str, Any]
+    """at_rest, residual, frames, polish_steps, newton_iterations, time_step; JSON-serialisable."""
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the simulator met its tolerances."""
+        return bool(self.record["at_rest"])
+
+    def of(self, scene: Scene) -> Scene:
+        """`scene` with its objects at these poses."""
+        objects = tuple(replace(obj, pose=pose) for obj, pose in zip(scene.objects, self.poses, strict=True))
+        return replace(scene, objects=objects)
+
+
+def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = silent) -> Rest:
+    """Settle `scene` from its initial poses with its settling friction, on Warp's `device`.
+
+    Raises:
+        SimulationError: objects intersect at the start, the state degenerates.
+    """
+    from pat3d.sim.model import ModelBuilder, poses_from_states
+    from pat3d.sim.settle import SettleOptions, settle
+
+    builder = ModelBuilder()
+    for obj in scene.objects:
+        builder.add_asset(obj.asset, obj.initial_pose, fixed=obj.fixed, label=obj.name)
+    model = builder.finalize(device)
+    options = SettleOptions(friction=scene.settling_friction)
+
+    def tell(phase: str, step: int, motion: float) -> None:
+        progress(Event(stage=phase, step=step, motion=motion))
+
+    progress(Event(stage="settling", step=0))
+    found = settle(model, options, tell)
+    poses = [
+        obj.initial_pose if obj.fixed else pose
+        for obj, pose in zip(scene.objects, poses_from_states(model, found.q), strict=True)
+    ]
+    return Rest(
+        poses=tuple(poses),
+        states=np.concatenate([found.trajectory, found.q[None].astype(np.float32)]),
+        centres=model.centres,
+        record={
+            "at_rest": bool(found.at_rest.all()),
+            "residual": float(found.residual.max()),
+            "frames": found.frames,
+            "polish_steps": found.polish_steps,
+            "newton_iterations": found.newton_iterations,
+            "time_step": options.time_step,
+        },
+    )

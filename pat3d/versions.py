@@ -1,0 +1,23 @@
+"""Versions of what a scene was made with."""
+
+from __future__ import annotations
+
+from importlib import metadata
+
+import pat3d
+
+MADE_WITH = ("numpy", "scipy", "warp-lang", "mujoco", "trimesh", "manifold3d", "coacd", "clarabel", "python-fcl")
+"""Packages that decide how a scene turns out, or that it was proved with."""
+
+
+def version_of(package: str) -> str | None:
+    """Version of an installed package, or None."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def versions() -> dict[str, str | None]:
+    """Versions of PAT3D and of the packages that matter to a scene."""
+    return {"pat3d": pat3d.__version__, **{package: version_of(package) for package in MADE_WITH}}
