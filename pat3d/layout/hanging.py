@@ -1,4 +1,4 @@
-"""Hanging a group under another: the highest free place below a branch, a bar or a hook.
+"""Hanging a group under another: a free place below a branch, a bar or a hook.
 
 An object hangs by the anchors of its asset, else by the middle of its top or by two opposite points of its rim. It is
 turned until its centre of mass is plumb below them, brought under the carrier where every anchor has the carrier's
@@ -98,14 +98,15 @@ def _hung(group: Group, carrier: Group, gap: float) -> tuple[Group, Attachment] 
     spots = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     middle = (root.low + root.high)[:2] / 2
     allowed = np.isfinite(heights) & (heights + group.low[2] > root.low[2] + CLEARANCE)
-    # All anchors want something level right above them (a branch along them), halfway out, rather in front.
+    # All anchors want something level right above them (a branch along them), halfway out, rather in front, and
+    # rather low: a branch and not the foliage over it.
     rows, columns = heights.shape
     cells = np.round(anchors[:, :2] / cell).astype(int) + before
     over = np.stack([under[i : i + rows, j : j + columns] for i, j in cells]) - anchors[:, 2, None, None]
     allowed &= np.isfinite(over).all(axis=0)
     out = np.abs(np.linalg.norm(spots - middle, axis=-1) - 0.25 * float((root.high - root.low)[:2].max()))
     slack = np.where(allowed, np.where(allowed, over, 0.0).max(axis=0) - np.where(allowed, heights, 0.0), np.inf)
-    cost = slack + 0.1 * out + 0.03 * (spots[..., 1] - middle[1])
+    cost = slack + 0.1 * (out + np.where(allowed, heights, 0.0)) + 0.03 * (spots[..., 1] - middle[1])
     for index in np.argsort(cost, axis=None)[:24]:
         i, j = np.unravel_index(index, cost.shape)
         if not np.isfinite(cost[i, j]):

@@ -27,8 +27,14 @@ STILL_FRAMES = 3
 EXACT_BELOW = 1e-2
 """Residual over weight under which the polish uses exact Hessians."""
 
+COARSE_RESIDUAL, COARSE_MOVE = 1e-3, 1e-5
+"""Unbalanced force over weight, and motion of a step [m], that end the search for equilibrium at the wide barrier."""
+
 SLOW, FAST = 5e-4, 1e-3
 """Motions per step of the polish under which inertia fades and over which it is restored [m]."""
+
+COARSE_SLOW, COARSE_FAST = 4e-3, 1e-2
+"""The same at the wide barrier, through which bodies slide centimetres cheaply [m]."""
 
 MOST_INERTIA = 1e8
 """Bound on the inertia that ends an oscillation of the polish, over that of a time step."""
@@ -133,8 +139,6 @@ class Run:
         start = model.q0 if q0 is None else q0
         self.q = wp.array(np.ascontiguousarray(start, dtype=np.float64), dtype=wp.vec3d, device=model.device)
         self.reference = np.zeros(model.worlds, dtype=np.int64)
-        self.hanging = np.zeros(model.worlds, dtype=bool)
-        self.hanging[model.world_of[model.anchor_bodies.numpy().reshape(-1)]] = True
         self.lag_d_hat = options.d_hat
         if tape is not None:
             tape.states.append(self.state())
@@ -230,23 +234,27 @@ class Run:
         both, before = (self.potential.per_world(np.sum(scale**2 * last * x, axis=(1, 2))) for x in (change, last))
         return both < -0.5 * before
 
-    def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-        """Shrink the barrier and converge to static equilibrium; returns which worlds did and their residuals."""
+    def relax(
+        self, d_hat: float, residual_tolerance: float, move_tolerance: float, slow: float, fast: float
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Converge to static equilibrium at a barrier of reach d_hat [m]; returns which worlds did, and residuals.
+
+        Inertia fades where a step moves less than `slow` [m], and is restored where it moves more than `fast` [m].
+        """
         options, potential, worlds = self.options, self.potential, self.model.worlds
         # The first step closes gaps at the new reach, held by the friction of the old one.
         self.record_friction()
-        self.set_reach(options.final_d_hat)
-        potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, options.final_d_hat)
+        self.set_reach(d_hat)
+        potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, d_hat)
         weight = np.ones(worlds)
         active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
         start, last = self.state(), np.zeros_like(self.model.q0)
-        # A pendulum creeps: a step brings one of length L nearer to rest by g dt^2 / L, half a per cent for a swing.
-        pace = np.where(self.hanging, 10.0, 1.0)
-        while self.polish_steps < options.max_polish_steps and active.any():
+        limit = self.polish_steps + options.max_polish_steps
+        while self.polish_steps < limit and active.any():
             self.anchor(active & ~anchored)
             move = self.step(
-                active, weight, move_tolerance=np.inf, residual_tolerance=0.1 * options.residual,
+                active, weight, move_tolerance=np.inf, residual_tolerance=0.1 * residual_tolerance,
                 exact_below=EXACT_BELOW, max_iterations=60,
             )  # fmt: skip
             self.polish_steps += 1
@@ -254,12 +262,11 @@ class Run:
             self.record_friction()
             now = potential.residual(potential.gradient(self.q, inertia=False))
             residual = np.where(active, now, residual)
-            active &= ~(anchored & (residual < options.residual) & (move < options.move))
+            active &= ~(anchored & (residual < residual_tolerance) & (move < move_tolerance))
             # Once motion is as slow as friction's creep, its reference stays put; it follows while real slip goes on.
             anchored = (move < 4.0 * epsilon) & (self.slip() < 20.0 * epsilon)
             # Slow sliding gets longer steps.
-            slow, fast = move < pace * SLOW, move > pace * FAST
-            weight = np.where(slow, np.maximum(0.5 * weight, 1e-6), np.where(fast, 1.0, weight))
+            weight = np.where(move < slow, np.maximum(0.5 * weight, 1e-6), np.where(move > fast, 1.0, weight))
             # Friction recorded at either of two states can lead to the other for ever; inertia damps the leap.
             end = self.state()
             change = end - start
@@ -267,6 +274,12 @@ class Run:
             start, last = end, change
             self.progress("polishing", self.polish_steps, float(move.max()))
         return ~active, residual
+
+    def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Find equilibrium at the wide barrier, where sliding is cheap, then at the final one."""
+        options = self.options
+        self.relax(options.d_hat, COARSE_RESIDUAL, COARSE_MOVE, COARSE_SLOW, COARSE_FAST)
+        return self.relax(options.final_d_hat, options.residual, options.move, SLOW, FAST)
 
 
 def settle(model: Model, options: SettleOptions | None = None, progress: Progress = lambda *_: None) -> Settled:
