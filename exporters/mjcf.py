@@ -13,6 +13,9 @@ What it takes, as measured with MuJoCo 3.9:
 - Boxes are box primitives, except where two of equal width rest flush to a micrometre: there the box-box
   collider reports contacts as deep as the box is wide, and meshes of eight vertices do not.
 
+- Attachments are connect constraints, a ball joint for every anchor, as stiff as the contacts. Every free object keeps
+  its free joint, so that the joint state is its pose whether it hangs or stands.
+
 MuJoCo gives a pair of geoms the larger of their friction coefficients and the sum of their margins.
 """
 
@@ -58,6 +61,11 @@ GROUND_HALF_THICKNESS = 0.5
 
 CONDIM = "4"
 """Contact forces along the normal, the two tangents, and a torque about the normal."""
+
+SOLREF = "0.004 1"
+"""Two time steps [s], critically damped."""
+
+SOLIMP = "0.99 0.999 0.0001"
 
 _SAME_SPOT = 5e-4
 """Contacts of one pair closer together than this [m] are one support."""
@@ -149,6 +157,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
             ET.SubElement(body, "freejoint", name=name)
             state += [*obj.pose.position, *obj.pose.quat_wxyz]
         _geoms(body, name, obj.asset, stored[id(obj.asset)], margin=margin, as_mesh=id(obj.asset) in flush)
+    _attachments(root, names, scene)
     if state:
         ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="home", qpos=_text(*state))
     return root
@@ -170,7 +179,7 @@ def _defaults(root: ET.Element) -> None:
     visual = ET.SubElement(default, "default", {"class": "visual"})
     ET.SubElement(visual, "geom", type="mesh", group="2", contype="0", conaffinity="0", mass="0")
     collision = ET.SubElement(default, "default", {"class": "collision"})
-    ET.SubElement(collision, "geom", group="3", condim=CONDIM, solref="0.004 1", solimp="0.99 0.999 0.0001",
+    ET.SubElement(collision, "geom", group="3", condim=CONDIM, solref=SOLREF, solimp=SOLIMP,
                   mass="0", rgba="0.4 0.6 0.9 0.5")  # fmt: skip
 
 
@@ -200,6 +209,22 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
     # The viewer of the relations: from -y, a little above, looking at the middle of the scene.
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])
     ET.SubElement(world, "camera", name="front", pos=_text(*eye), fovy="45", xyaxes="1 0 0 0 0.4472135955 0.894427191")
+
+
+def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
+    """A connect constraint for every anchor of objects that are not both fixed.
+
+    MuJoCo takes the point of the second body from the poses in the file, where both points are one.
+    """
+    moving = [one for one in scene.attachments if not (scene[one.child].fixed and scene[one.parent].fixed)]
+    if not moving:
+        return
+    equality = ET.SubElement(root, "equality")
+    for one in moving:
+        child, parent = names[one.child], names[one.parent]
+        for number, (point, _) in enumerate(one.anchors):
+            ET.SubElement(equality, "connect", name=f"{child}/anchor_{number:02d}", body1=child, body2=parent,
+                          anchor=_text(*point), solref=SOLREF, solimp=SOLIMP)  # fmt: skip
 
 
 def _write_asset(asset: Asset, name: str, assets: ET.Element, folder: Path, *, as_mesh: bool) -> None:

@@ -58,6 +58,52 @@ class Relation:
         return f"{self.child} {self.kind} {self.parent}"
 
 
+Point = tuple[float, float, float]
+"""[m]"""
+
+MAX_ANCHORS = 64
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attachment:
+    """`child` hangs from `parent` by points that stay together while both may turn: ropes, hooks, strings.
+
+    One pair of points is a ball joint, two are a hinge. Both objects still collide, with each other too, so anchors
+    belong where the surfaces are a little apart.
+    """
+
+    child: str
+    parent: str
+    anchors: tuple[tuple[Point, Point], ...]
+    """Pairs of a point of the child and a point of the parent, each in its own asset frame [m]."""
+
+    def __post_init__(self) -> None:
+        if self.child == self.parent:
+            raise SpecError(f'"{self.child}" cannot be attached to itself.')
+        if GROUND in (self.child, self.parent):
+            raise SpecError(f'"{self.child}" and "{self.parent}": attachments join two objects, never the ground.')
+        points = np.array(self.anchors, dtype=np.float64) if _are_pairs_of_points(self.anchors) else None
+        if points is None or not np.isfinite(points).all():
+            raise SpecError(
+                f'the attachment of "{self.child}" needs 1 to {MAX_ANCHORS} pairs of points, each of 3 finite numbers.'
+            )
+        anchors = tuple((tuple(map(float, first)), tuple(map(float, second))) for first, second in points)
+        object.__setattr__(self, "anchors", anchors)
+
+    def ends(self, child: Pose, parent: Pose) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the anchors are in the world [m], on the child at pose `child` and on the parent, shape (n, 3) each."""
+        points = np.array(self.anchors)
+        return child.apply(points[:, 0]), parent.apply(points[:, 1])
+
+
+def _are_pairs_of_points(anchors: object) -> bool:
+    try:
+        shape = np.shape(np.array(anchors, dtype=np.float64))
+    except (TypeError, ValueError):
+        return False
+    return len(shape) == 3 and 1 <= shape[0] <= MAX_ANCHORS and shape[1:] == (2, 3)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Pose:
     """A rigid placement: x_world = R(quat_wxyz) x_local + position."""
@@ -138,6 +184,8 @@ class Scene:
     objects: tuple[SceneObject, ...]
     relations: tuple[Relation, ...] = ()
     """The scene tree (support relations) and the lateral relations of the plan."""
+    attachments: tuple[Attachment, ...] = ()
+    """What hangs by points, rather than rests on surfaces; at most one for every pair of objects."""
     prompt: str = ""
     seed: int = 0
     settling_friction: float = 0.2
@@ -153,6 +201,17 @@ class Scene:
         if repeated:
             raise SpecError(f"object names must be unique; repeated: {', '.join(repeated)}.")
         check_tree(names, self.relations)
+        self._check_attachments(names)
+
+    def _check_attachments(self, names: list[str]) -> None:
+        pairs = set()
+        for attachment in self.attachments:
+            pair = frozenset((attachment.child, attachment.parent))
+            for end in pair.difference(names):
+                raise SpecError(f'an attachment names "{end}", which is not in the scene. Objects: {", ".join(names)}.')
+            if pair in pairs:
+                raise SpecError(f'"{attachment.child}" and "{attachment.parent}" are attached twice; use more anchors.')
+            pairs.add(pair)
 
     def __getitem__(self, name: str) -> SceneObject:
         for obj in self.objects:

@@ -24,7 +24,7 @@ from pat3d.assets.asset import Asset, ConvexPart, MassProperties, Material, Regi
 from pat3d.errors import AssetError, ExportError, SpecError
 from pat3d.exporters.meshes import hull_obj, read_obj, read_texture, write_visual
 from pat3d.naming import unique_slugs
-from pat3d.scene import Pose, Relation, Scene, SceneObject
+from pat3d.scene import Attachment, Pose, Relation, Scene, SceneObject
 from pat3d.scene_schema import SCENE_SCHEMA
 
 FORMAT = "pat3d-scene"
@@ -87,6 +87,10 @@ def load_scene(folder: str | Path) -> Scene:
         return Scene(
             objects=tuple(objects),
             relations=tuple(Relation(**entry) for entry in document["relations"]),
+            attachments=tuple(
+                Attachment(child=entry["child"], parent=entry["parent"], anchors=_floats(entry["anchors"]))
+                for entry in document.get("attachments", [])
+            ),
             prompt=document["prompt"],
             seed=document["seed"],
             settling_friction=float(document["settling_friction"]),
@@ -132,6 +136,11 @@ def _write(scene: Scene, folder: Path) -> None:
         "assets": assets,
         "provenance": dict(scene.provenance),
     }
+    if scene.attachments:
+        document["attachments"] = [
+            {"child": one.child, "parent": one.parent, "anchors": [[[*a], [*b]] for a, b in one.anchors]}
+            for one in scene.attachments
+        ]
     try:
         text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     except (TypeError, ValueError, RecursionError) as error:
@@ -234,6 +243,7 @@ def _inside(folder: Path, name: str, place: str) -> Path:
 
 def _asset_entry(asset: Asset, slug: str) -> dict[str, Any]:
     properties = asset.mass_properties
+    optional = {"anchors": [[*point] for point in asset.anchors]} if asset.anchors else {}
     return {
         "noun": asset.noun,
         "visual": f"assets/{slug}/visual.obj",
@@ -271,6 +281,7 @@ def _asset_entry(asset: Asset, slug: str) -> dict[str, Any]:
             for region in asset.regions
         ],
         "provenance": dict(asset.provenance),
+        **optional,
     }
 
 
@@ -303,6 +314,7 @@ def _asset(entry: Mapping[str, Any], folder: Path, path: Path, slug: str) -> Ass
             )
             for region in entry["regions"]
         ),
+        anchors=_floats(entry.get("anchors", [])),
         provenance=entry["provenance"],
     )
 

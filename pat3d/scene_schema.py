@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pat3d.naming import SLUG_PATTERN
-from pat3d.scene import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene import LATERAL_KINDS, MAX_ANCHORS, SUPPORT_KINDS
 
 MAX_OBJECTS = 10_000
 MAX_PARTS = 4_096
@@ -15,10 +15,10 @@ def _vector(count: int, items: dict[str, Any] | None = None) -> dict[str, Any]:
     return {"type": "array", "items": items or {"type": "number"}, "minItems": count, "maxItems": count}
 
 
-def _record(properties: dict[str, Any]) -> dict[str, Any]:
+def _record(properties: dict[str, Any], optional: dict[str, Any] | None = None) -> dict[str, Any]:
     return {
         "type": "object",
-        "properties": properties,
+        "properties": {**properties, **(optional or {})},
         "required": list(properties),
         "additionalProperties": False,
     }
@@ -55,7 +55,8 @@ _ASSET = _record(
         ),
         "regions": {"type": "array", "items": _REGION, "maxItems": 1_000},
         "provenance": {"type": "object"},
-    }
+    },
+    optional={"anchors": {"type": "array", "items": _vector(3), "maxItems": MAX_ANCHORS}},
 )
 _OBJECT = _record(
     {
@@ -68,6 +69,13 @@ _OBJECT = _record(
     }
 )
 _RELATION = _record({"child": _NAME, "kind": {"enum": sorted(SUPPORT_KINDS | LATERAL_KINDS)}, "parent": _NAME})
+_ATTACHMENT = _record(
+    {
+        "child": _NAME,
+        "parent": _NAME,
+        "anchors": {"type": "array", "items": _vector(2, _vector(3)), "minItems": 1, "maxItems": MAX_ANCHORS},
+    }
+)
 
 SCENE_SCHEMA: dict[str, Any] = {
     "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -88,6 +96,7 @@ SCENE_SCHEMA: dict[str, Any] = {
                 "minProperties": 1,
             },
             "provenance": {"type": "object"},
-        }
+        },
+        optional={"attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000}},
     ),
 }

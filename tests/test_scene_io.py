@@ -10,7 +10,7 @@ from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import ellipsoid
 from pat3d.errors import ExportError, SpecError
 from pat3d.naming import slug, unique_slugs
-from pat3d.scene import Pose, Relation, SceneObject
+from pat3d.scene import Attachment, Pose, Relation, SceneObject
 from pat3d.scene_io import load_scene, save_scene
 from tests.scenes import asset_of, placed, scene_of
 
@@ -154,6 +154,14 @@ def test_a_failed_save_leaves_every_file_as_it_was(scene, tmp_path, monkeypatch)
         ),
         (lambda d: d["relations"][0].update(parent="moon"), "moon"),
         (lambda d: d.update(extra=1), "extra"),
+        (lambda d: d.update(attachments=[{"child": "second", "parent": "red mug 1", "anchors": []}]), "anchors"),
+        (
+            lambda d: d.update(
+                attachments=[{"child": "second", "parent": "moon", "anchors": [[[0, 0, 0], [0, 0, 1]]]}]
+            ),
+            "moon",
+        ),
+        (lambda d: d["assets"]["red_mug_1"].update(anchors=[[0, 0]]), r"red_mug_1\.anchors"),
     ],
 )
 def test_a_broken_scene_is_refused_with_the_place(scene, tmp_path, change, message):
@@ -197,3 +205,19 @@ def test_a_broken_mesh_file_is_refused(scene, tmp_path, text, message):
 def test_a_folder_without_a_scene_is_refused(tmp_path):
     with pytest.raises(SpecError, match="no scene can be read"):
         load_scene(tmp_path)
+
+
+def test_attachments_and_anchors_read_back_and_are_written_only_where_there_are_any(scene, tmp_path):
+    save_scene(scene, tmp_path / "plain")
+    assert '"attachments"' not in (tmp_path / "plain" / "scene.json").read_text()
+    assert '"anchors"' not in (tmp_path / "plain" / "scene.json").read_text()
+    assert load_scene(tmp_path / "plain").attachments == ()
+    swing = make("swing")
+    attachment = Attachment(
+        child="swing", parent="second", anchors=tuple((point, (1 / 3, 0.1, 1e-17)) for point in swing.anchors)
+    )
+    hung = scene_of(*scene.objects, placed("swing", swing), attachments=(attachment,))
+    save_scene(hung, tmp_path / "hung")
+    read = load_scene(tmp_path / "hung")
+    assert read.attachments == (attachment,)
+    assert read["swing"].asset.anchors == swing.anchors

@@ -140,12 +140,16 @@ class Asset:
     material: Material
     regions: tuple[Region, ...] = ()
     """Floors for children, best first; every asset has at least one "on" region."""
+    anchors: tuple[tuple[float, float, float], ...] = ()
+    """Points of the surface from which the object hangs [m] (the upper ends of ropes); none for its highest point."""
     provenance: Mapping[str, Any] = field(default_factory=dict)
     """Where it came from: catalogue recipe and seed, or file, hash, scale, repairs; JSON-serialisable."""
 
     def __post_init__(self) -> None:
         if not self.parts:
             raise AssetError(f'"{self.noun}" has no convex parts.')
+        if not all(len(point) == 3 and np.all(np.isfinite(point)) for point in self.anchors):
+            raise AssetError(f'"{self.noun}": every anchor needs 3 finite numbers, got {self.anchors}.')
 
     @property
     def bounds(self) -> NDArray[np.float64]:

@@ -4,7 +4,8 @@ For every free body b with mass m, centre of mass c and size L (longest side of 
 
     r_force  = (m g + sum f) / (m |g|)          r_torque = (sum (x - c) x f) / (m |g| L)
 
-over its contacts at x, with |f_tangent| <= mu f_normal. A second-order-cone program finds the forces that make the
+over its contacts at x, with |f_tangent| <= mu f_normal, and over the anchors of its attachments, whose forces may have
+any direction. A second-order-cone program finds the forces that make the
 largest |r| of each group of touching bodies least. The residuals reported are computed from those forces afterwards,
 with each force first put back inside its cone, so they do not rest on the solver's word.
 """
@@ -32,6 +33,9 @@ TOLERANCE = 1e-3
 
 ACTIVATION = 2e-4
 """[m]; surfaces closer than this may press on each other."""
+
+ATTACHED = 1e-3
+"""[m]; an anchor whose ends are further apart carries nothing."""
 
 MAX_FRICTION = 2.0
 FRICTION_STEP = 0.005
@@ -112,8 +116,34 @@ def smallest_friction(scene: Scene, activation: float = ACTIVATION) -> float:
     return _Problem(scene, activation).smallest_friction()
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Anchors:
+    """Points at which pairs of objects hold each other."""
+
+    bodies: NDArray[np.int64]
+    """Indices into scene.objects, shape (anchors, 2)."""
+    points: NDArray[np.float64]
+    """Midway between the two ends [m], shape (anchors, 3)."""
+
+    def of(self, bodies: list[int]) -> _Anchors:
+        """Those that hold any of `bodies`."""
+        index = np.isin(self.bodies, bodies).any(axis=1)
+        return _Anchors(bodies=self.bodies[index], points=self.points[index])
+
+
+def _anchors(scene: Scene) -> _Anchors:
+    names = [obj.name for obj in scene.objects]
+    bodies, points = [], []
+    for one in scene.attachments:
+        first, second = one.ends(scene[one.child].pose, scene[one.parent].pose)
+        near = np.linalg.norm(first - second, axis=1) <= ATTACHED
+        points += list((first + second)[near] / 2)
+        bodies += [(names.index(one.child), names.index(one.parent))] * int(near.sum())
+    return _Anchors(bodies=np.array(bodies, dtype=np.int64).reshape(-1, 2), points=np.array(points).reshape(-1, 3))
+
+
 class _Problem:
-    """The contacts of a scene, split into groups of free bodies that press on one another."""
+    """What holds a scene, split into groups of free bodies that press on or hang from one another."""
 
     def __init__(self, scene: Scene, activation: float) -> None:
         contacts = find_contacts(scene, activation)
@@ -125,25 +155,26 @@ class _Problem:
                                 for obj in scene.objects])  # fmt: skip
         self.weight = np.array([obj.asset.mass_properties.mass * GRAVITY for obj in scene.objects])
         self.size = np.array([float(obj.asset.size.max()) for obj in scene.objects])
+        anchors = _anchors(scene)
         self.groups = [
-            (bodies, contacts.pick(np.flatnonzero(np.isin(contacts.bodies, bodies).any(axis=1))))
-            for bodies in _groups(free, contacts)
+            (bodies, contacts.pick(np.flatnonzero(np.isin(contacts.bodies, bodies).any(axis=1))), anchors.of(bodies))
+            for bodies in _groups(free, np.concatenate([contacts.bodies, anchors.bodies]))
         ]
 
     def residuals(self, friction: float) -> dict[str, float]:
         """Largest residual of every free object, in the order of the scene."""
         found: dict[int, float] = {}
-        for bodies, contacts in self.groups:
-            found |= dict(zip(bodies, self._balance(bodies, contacts, friction), strict=True))
+        for bodies, contacts, anchors in self.groups:
+            found |= dict(zip(bodies, self._balance(bodies, contacts, anchors, friction), strict=True))
         return {self.names[body]: found[body] for body in sorted(found)}
 
     def smallest_friction(self) -> float:
         """Bisection on the friction coefficient of each group; the worst group's."""
         least = 0.0
-        for bodies, contacts in self.groups:
+        for group in self.groups:
 
-            def holds(friction: float, bodies=bodies, contacts=contacts) -> bool:
-                return max(self._balance(bodies, contacts, friction)) <= TOLERANCE
+            def holds(friction: float, group=group) -> bool:
+                return max(self._balance(*group, friction)) <= TOLERANCE
 
             if holds(least):
                 continue
@@ -158,18 +189,20 @@ class _Problem:
             least = high
         return least
 
-    def _balance(self, bodies: list[int], contacts: Contacts, friction: float) -> list[float]:
-        """Residuals of a group's bodies under the best contact forces."""
+    def _balance(self, bodies: list[int], contacts: Contacts, anchors: _Anchors, friction: float) -> list[float]:
+        """Residuals of a group's bodies under the best forces at contacts and anchors."""
         rows = {body: 6 * k for k, body in enumerate(bodies)}
         gravity = np.zeros(6 * len(bodies))
         gravity[2::6] = -1.0
-        if not len(contacts):
+        if not len(contacts) + len(anchors.bodies):
             return [1.0] * len(bodies)
-        frames = _frames(contacts.normals)
-        # One unit of force is the load of the lighter body of a contact, so that pens on a table stay visible.
-        wrench = np.zeros((6 * len(bodies), 3 * len(contacts)))
-        unit = np.array([min(self.weight[b] for b in pair if b in rows) for pair in contacts.bodies.tolist()])
-        for k, (pair, point, frame) in enumerate(zip(contacts.bodies.tolist(), contacts.points, frames, strict=True)):
+        frames = np.concatenate([_frames(contacts.normals), np.tile(np.eye(3), (len(anchors.bodies), 1, 1))])
+        pairs = np.concatenate([contacts.bodies, anchors.bodies]).tolist()
+        points = np.concatenate([contacts.points, anchors.points])
+        # One unit of force is the load of the lighter body of a pair, so that pens on a table stay visible.
+        wrench = np.zeros((6 * len(bodies), 3 * len(pairs)))
+        unit = np.array([min(self.weight[b] for b in pair if b in rows) for pair in pairs])
+        for k, (pair, point, frame) in enumerate(zip(pairs, points, frames, strict=True)):
             for body, sign in zip(pair, (1.0, -1.0), strict=True):
                 if body not in rows:
                     continue
@@ -178,21 +211,23 @@ class _Problem:
                 wrench[row : row + 3, column : column + 3] = force
                 arm = (point - self.centre[body]) / self.size[body]
                 wrench[row + 3 : row + 6, column : column + 3] = np.cross(arm, force, axisb=0, axisc=0)
-        forces = _solve(wrench, gravity, friction)
+        forces = _solve(wrench, gravity, friction, len(contacts))
         if forces is None:
             return [1.0] * len(bodies)
-        forces = _inside_cones(forces.reshape(-1, 3), friction).reshape(-1)
+        forces = forces.reshape(-1, 3)
+        forces[: len(contacts)] = _inside_cones(forces[: len(contacts)], friction)
+        forces = forces.reshape(-1)
         blocks = np.linalg.norm((gravity + wrench @ forces).reshape(-1, 2, 3), axis=2)
         return [float(value) for value in blocks.max(axis=1)]
 
 
-def _groups(free: list[int], contacts: Contacts) -> list[list[int]]:
-    """Free bodies connected by contacts; the ground and fixed bodies connect nothing."""
+def _groups(free: list[int], pairs: NDArray[np.int64]) -> list[list[int]]:
+    """Free bodies connected by pairs of bodies, shape (n, 2); the ground and fixed bodies connect nothing."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
     place = {body: k for k, body in enumerate(free)}
-    edges = [(place[a], place[b]) for a, b in contacts.bodies.tolist() if a in place and b in place]
+    edges = [(place[a], place[b]) for a, b in pairs.tolist() if a in place and b in place]
     first, second = np.array(edges, dtype=int).reshape(-1, 2).T
     graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(free), len(free)))
     count, label = connected_components(graph, directed=False)
@@ -207,19 +242,21 @@ def _frames(normals: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.stack([normals, first, np.cross(normals, first)], axis=2), dtype=np.float64)
 
 
-def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: float) -> NDArray[np.float64] | None:
-    """Contact forces (normal, tangent, tangent) that make the largest residual least, or None.
+def _solve(
+    wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: float, count: int
+) -> NDArray[np.float64] | None:
+    """Forces (normal, tangent, tangent) that make the largest residual least, or None.
 
-    Variables are the forces and the bound t; the cones are |f_tangent| <= friction f_normal for every contact and
-    |residual| <= t for the force and the torque of every body.
+    Variables are the forces and the bound t; the cones are |f_tangent| <= friction f_normal for the first `count`
+    forces, those of the contacts, and |residual| <= t for the force and the torque of every body.
     """
     from scipy import sparse
 
     clarabel: Any = import_module("clarabel")
-    count, rows = wrench.shape[1] // 3, wrench.shape[0]
+    rows = wrench.shape[0]
     scale = sparse.diags(np.tile([friction, 1.0, 1.0], count)) if friction > 0 else None
     if scale is None:
-        wrench = wrench[:, ::3]
+        wrench = np.concatenate([wrench[:, : 3 * count : 3], wrench[:, 3 * count :]], axis=1)
         cone_block, cones = sparse.identity(count), [clarabel.NonnegativeConeT(count)]
     else:
         cone_block, cones = scale, [clarabel.SecondOrderConeT(3)] * count
@@ -231,7 +268,11 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
         target[4 * block + 1 : 4 * block + 4] = gravity[3 * block : 3 * block + 3]
     height = count if scale is None else 3 * count
     matrix: Any = sparse.vstack(
-        [sparse.hstack([-cone_block, sparse.csc_matrix((height, 1))]), residual.tocsc()], format="csc"
+        [
+            sparse.hstack([-cone_block, sparse.csc_matrix((height, wrench.shape[1] + 1 - height))]),
+            residual.tocsc(),
+        ],
+        format="csc",
     )
     cones = [*cones, *([clarabel.SecondOrderConeT(4)] * (rows // 3))]
     width = wrench.shape[1] + 1
@@ -252,7 +293,8 @@ def _solve(wrench: NDArray[np.float64], gravity: NDArray[np.float64], friction: 
     if not np.isfinite(found).all():
         return None
     if scale is None:
-        return np.column_stack([found, np.zeros((count, 2))]).reshape(-1)
+        pressed = np.column_stack([found[:count], np.zeros((count, 2))]).reshape(-1)
+        return np.concatenate([pressed, found[count:]])
     return found
 
 

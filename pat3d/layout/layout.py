@@ -18,11 +18,11 @@ from pat3d.layout.bodies import Body
 from pat3d.layout.containers import pack
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group, yaw_matrix
-from pat3d.layout.hanging import hang
+from pat3d.layout.hanging import attachment, hang
 from pat3d.layout.proof import Proof, prove
 from pat3d.layout.surfaces import Lateral, Surface, arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread
-from pat3d.scene import GROUND, Pose, Relation, check_tree, parent_of
+from pat3d.scene import GROUND, Attachment, Pose, Relation, check_tree, parent_of
 
 _SEATS = frozenset({"chair", "armchair", "stool", "bench"})
 """Nouns that turn towards what they stand around."""
@@ -36,6 +36,8 @@ class Layout:
 
     poses: Mapping[str, Pose]
     """Pose of every object, in the order of the assets."""
+    attachments: tuple[Attachment, ...] = ()
+    """What holds the things that hang, in the order of the assets."""
     notes: tuple[str, ...] = ()
     """What was decided where the relations were silent or could not be honoured."""
     proof: Proof
@@ -73,7 +75,8 @@ def arrange(
     bodies = [placed[name] for name in assets]
     proof = prove(bodies)
     poses = {body.body.name: fixed.get(body.body.name) or body.pose for body in bodies}
-    return Layout(poses=poses, notes=tuple(arranger.notes), proof=proof)
+    attachments = tuple(arranger.attachments[name] for name in assets if name in arranger.attachments)
+    return Layout(poses=poses, attachments=attachments, notes=tuple(arranger.notes), proof=proof)
 
 
 class _Arranger:
@@ -87,6 +90,7 @@ class _Arranger:
     ) -> None:
         self.seed, self.fixed, self.gap = seed, fixed, gap
         self.notes: list[str] = []
+        self.attachments: dict[str, Attachment] = {}
         self.bodies = {name: Body(name, asset) for name, asset in assets.items()}
         self.parents = {name: parent_of(name, relations) for name in assets}
         self.kinds = {rel.child: rel.kind for rel in relations if rel.supports}
@@ -141,9 +145,12 @@ class _Arranger:
         group = self._load(group, onto, yaw)
         for kid in hanging:
             if kid in self.fixed:
-                group = self._with(group, [self._pinned(kid, name)])
-                continue
-            found = hang(self._build(kid, 0.0), group, gap=self.gap)
+                found = self._pinned(kid, name)
+                held = attachment(found.root, root)
+            else:
+                found, held = hang(self._build(kid, 0.0), group, gap=self.gap)
+            if held is not None:
+                self.attachments[kid] = held
             group = self._with(group, [found])
         return group
 

@@ -19,8 +19,10 @@ exported parts, and the viewer at -y:
   span overlap or are at most 0.1 m apart.
 - around: as next_to with twice the gap; of three or more that stand around one thing, neighbours are at most
   200 degrees apart as seen from it.
-- hangs_from: the child's top is not above the parent's, its centre of mass is below what it touches or is
-  attached to, and it is off the ground.
+- hangs_from, attached: the two ends of every anchor are at most `touch` apart, the child's centre of mass is below
+  them, and the child touches neither the ground nor anything that it does not itself carry.
+- hangs_from, by contact (a handle on a hook): the child's top is not above the parent's, its centre of mass is
+  below what it touches, and it is off the ground.
 """
 
 from __future__ import annotations
@@ -36,10 +38,12 @@ from pat3d.assets.asset import Asset
 from pat3d.errors import SpecError
 from pat3d.layout.bodies import Array, Placed, distance, place_all
 from pat3d.layout.frames import column_of
-from pat3d.scene import GROUND, Pose, Relation
+from pat3d.scene import GROUND, Attachment, Pose, Relation
 
 TOUCH = 1.0e-3
 """Parts at most this far apart [m] touch."""
+_AT_ANCHOR = 0.03
+"""Where a thing that hangs may be near its carrier: this far from an anchor [m]."""
 _SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}
 
 
@@ -54,10 +58,15 @@ class RelationResult:
 
 
 def relation_holds(
-    relation: Relation, assets: Mapping[str, Asset], poses: Mapping[str, Pose], *, touch: float = TOUCH
+    relation: Relation,
+    assets: Mapping[str, Asset],
+    poses: Mapping[str, Pose],
+    *,
+    touch: float = TOUCH,
+    attachments: tuple[Attachment, ...] = (),
 ) -> bool:
     """Whether `relation` holds at `poses`; see the module for what each kind means."""
-    return check_relations((relation,), assets, poses, touch=touch)[0].holds
+    return check_relations((relation,), assets, poses, touch=touch, attachments=attachments)[0].holds
 
 
 def check_relations(
@@ -66,6 +75,7 @@ def check_relations(
     poses: Mapping[str, Pose],
     *,
     touch: float = TOUCH,
+    attachments: tuple[Attachment, ...] = (),
 ) -> tuple[RelationResult, ...]:
     """Every relation with its verdict and what was measured.
 
@@ -74,6 +84,7 @@ def check_relations(
         assets: by object name.
         poses: of every object.
         touch: parts at most this far apart touch [m].
+        attachments: of the scene.
 
     Raises:
         SpecError: a relation names an object without a pose.
@@ -83,6 +94,7 @@ def check_relations(
             if name != GROUND and name not in poses:
                 raise SpecError(f'relation "{relation}" names "{name}", which has no pose.')
     view = _View(place_all(assets, poses), relations, touch)
+    view.attachments = {(one.child, one.parent): one.ends(poses[one.child], poses[one.parent]) for one in attachments}
     return tuple(view.judge(relation) for relation in relations)
 
 
@@ -91,6 +103,8 @@ class _View:
 
     def __init__(self, bodies: dict[str, Placed], relations: tuple[Relation, ...], touch: float) -> None:
         self.bodies, self.relations, self.touch = bodies, relations, touch
+        self.attachments: dict[tuple[str, str], tuple[Array, Array]] = {}
+        """World positions of the anchors of child and parent [m], shape (anchors, 3) each."""
         self._footprints: dict[str, Array] = {}
         self._gaps: dict[tuple[str, str], float] = {}
 
@@ -149,6 +163,8 @@ class _View:
         )
 
     def _hangs(self, child: str, parent: str) -> tuple[bool, str]:
+        if (child, parent) in self.attachments:
+            return self._attached(child, parent)
         body, holder = self.bodies[child], self.bodies[parent]
         closest = distance(body, holder, self.touch + 1e-9)
         below = bool(body.high[2] <= holder.high[2] + self.touch)
@@ -159,6 +175,28 @@ class _View:
         pendant = bool(body.centre_of_mass[2] < point[2])
         detail = f"gap {closest.distance * 1e3:.2f} mm, top {'below' if below else 'above'} the carrier's top"
         return below and free and pendant, detail + ("" if pendant else ", not below its attachment")
+
+    def _attached(self, child: str, parent: str) -> tuple[bool, str]:
+        body = self.bodies[child]
+        on_child, on_parent = self.attachments[child, parent]
+        apart = float(np.linalg.norm(on_child - on_parent, axis=1).max())
+        pendant = bool(body.centre_of_mass[2] < on_child[:, 2].min())
+        carries = {child}
+        while grown := {rel.child for rel in self.relations if rel.supports and rel.parent in carries} - carries:
+            carries |= grown
+        touched = [
+            other for other in self.bodies if other not in (*carries, parent) and self._gap(child, other) <= self.touch
+        ]
+        closest = distance(body, self.bodies[parent], self.touch + 1e-9)
+        # Where the two are near at an anchor it is the anchor that carries.
+        if closest is not None and np.linalg.norm(on_child - closest.first, axis=1).min() > _AT_ANCHOR:
+            touched.append(parent)
+        if body.low[2] <= self.touch:
+            touched.append(GROUND)
+        detail = f"anchors {apart * 1e3:.2f} mm apart, {len(on_child)} in all"
+        detail += "" if pendant else ", not below them"
+        detail += f', touching "{touched[0]}"' if touched else ""
+        return apart <= self.touch and pendant and not touched, detail
 
     def _side(self, child: str, kind: str, parent: str) -> tuple[bool, str]:
         axis, sign = _SIDES[kind]

@@ -17,10 +17,13 @@ from numpy.typing import NDArray
 
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose
+from pat3d.scene import Pose, Scene
 
 GRAVITY = 9.81
 """[m/s^2], along -z."""
+
+ATTACHMENT_STRETCH = 5.0e-7
+"""How far an anchor gives way under the weight of the lighter of the two bodies that it joins [m]."""
 
 FLAT_EDGE = 1e-6
 """Edges whose two faces' normals differ by less than this [rad] are inside a flat facet: no contact needs them."""
@@ -56,6 +59,12 @@ class Model:
     """First and past-last vertex, edge and triangle of every part, shape (parts, 6), int."""
     part_pairs: wp.array
     """Parts that can ever touch: same world, different bodies, not both fixed; shape (pairs,), vec2i."""
+    anchor_bodies: wp.array
+    """The two bodies that share an anchor, shape (anchors,), vec2i."""
+    anchor_rest: wp.array
+    """Where the anchor is on either, about its centre of mass [m], shape (anchors, 2), vec3d."""
+    anchor_stiffness: wp.array
+    """[N/m], shape (anchors,), float64."""
     free_bodies: NDArray[np.int64]
     """Number of free bodies per world, shape (worlds,)."""
     world_of: NDArray[np.int64]
@@ -95,6 +104,7 @@ class ModelBuilder:
     """
 
     _bodies: list[dict] = field(default_factory=list)
+    _anchors: list[tuple[int, NDArray[np.float64], int, NDArray[np.float64]]] = field(default_factory=list)
     _world: int = 0
 
     def new_world(self) -> None:
@@ -115,6 +125,19 @@ class ModelBuilder:
             fixed=fixed,
             label=label or asset.noun,
         )
+
+    def add_scene(self, scene: Scene) -> list[int]:
+        """Add the objects of `scene` at their initial poses, and its attachments; returns the bodies' indices."""
+        indices = {
+            obj.name: self.add_asset(obj.asset, obj.initial_pose, fixed=obj.fixed, label=obj.name)
+            for obj in scene.objects
+        }
+        for one in scene.attachments:
+            child, parent = indices[one.child], indices[one.parent]
+            if not (scene[one.child].fixed and scene[one.parent].fixed):
+                for on_child, on_parent in one.anchors:
+                    self.add_attachment(child, np.array(on_child), parent, np.array(on_parent))
+        return list(indices.values())
 
     def add_body(
         self,
@@ -165,6 +188,37 @@ class ModelBuilder:
         )  # fmt: skip
         return len(self._bodies) - 1
 
+    def add_attachment(
+        self, body_a: int, point_a: NDArray[np.float64], body_b: int, point_b: NDArray[np.float64]
+    ) -> None:
+        """Hold a point of one body and a point of another together, as a ball joint does.
+
+        Two attachments of a pair make a hinge, three hold it fast. Attached bodies still collide with each other:
+        points belong where the surfaces are further apart than the barrier reaches, or they push against it.
+
+        Args:
+            body_a: index of a body.
+            point_a: in the frame that body was given in [m], shape (3,).
+            body_b: index of another body of the same world.
+            point_b: in that body's frame [m], shape (3,).
+
+        Raises:
+            SimulationError: no such bodies, of different worlds or both fixed, or points that are not finite.
+        """
+        count = len(self._bodies)
+        if not (0 <= body_a < count and 0 <= body_b < count and body_a != body_b):
+            raise SimulationError(f"an attachment needs two different bodies below {count}, got {body_a} and {body_b}.")
+        first, second = self._bodies[body_a], self._bodies[body_b]
+        labels = f'"{first["label"]}" and "{second["label"]}"'
+        if first["world"] != second["world"]:
+            raise SimulationError(f"{labels} are in different worlds and cannot be attached.")
+        if first["fixed"] and second["fixed"]:
+            raise SimulationError(f"{labels} are both fixed; there is nothing to attach.")
+        points = [np.asarray(point, dtype=np.float64) for point in (point_a, point_b)]
+        if not all(point.shape == (3,) and np.all(np.isfinite(point)) for point in points):
+            raise SimulationError(f"the attachment of {labels} needs points of 3 finite numbers.")
+        self._anchors.append((body_a, points[0] - first["centre"], body_b, points[1] - second["centre"]))
+
     def finalize(self, device: str = "cpu") -> Model:
         """The model on `device` ("cpu" or "cuda").
 
@@ -209,6 +263,8 @@ class ModelBuilder:
                 base += len(rest)
                 edge_base += len(sharp)
                 triangle_base += len(part.faces)
+        anchors = self._anchors
+        bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in anchors]
         owner = np.array(part_body, dtype=np.int32)
         body_world = np.array([body["world"] for body in bodies], dtype=np.int32)
 
@@ -230,6 +286,9 @@ class ModelBuilder:
             part_body=array(owner, int),
             part_ranges=wp.array(np.array(ranges, dtype=np.int32), dtype=int, device=device),
             part_pairs=array(_part_pairs(owner, body_world, dof), wp.vec2i),
+            anchor_bodies=array(np.array([(one[0], one[2]) for one in anchors], np.int32).reshape(-1, 2), wp.vec2i),
+            anchor_rest=array(np.array([(one[1], one[3]) for one in anchors]).reshape(-1, 2, 3), wp.vec3d),
+            anchor_stiffness=array(np.array(bearing) * (GRAVITY / ATTACHMENT_STRETCH), wp.float64),
             free_bodies=free_count,
             world_of=body_world.astype(np.int64),
             is_free=dof >= 0,

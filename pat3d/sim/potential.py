@@ -4,7 +4,7 @@
 
 """The energy of one artificial time step: the sum of its terms.
 
-E(q) = inertia and gravity + affine stiffness + barrier contact + lagged friction, all over dt^2
+E(q) = inertia and gravity + affine stiffness + attachments + barrier contact + lagged friction, all over dt^2
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import safe_step
+from pat3d.sim.energies.attachment import PointAttachment
 from pat3d.sim.energies.contact import BarrierContact
 from pat3d.sim.energies.friction import Friction
 from pat3d.sim.energies.inertia import Inertia
@@ -40,6 +41,7 @@ class Potential:
         self.candidates = Candidates(model)
         self.inertia = Inertia(model)
         self.orthogonality = Orthogonality(model)
+        self.attachment = PointAttachment(model)
         self.contact = BarrierContact(model, self.candidates)
         self.friction = Friction(model)
         self._energy = wp.zeros(model.worlds, dtype=wp.float64, device=device)
@@ -85,6 +87,7 @@ class Potential:
         position = self.positions(q, self._position)
         self.inertia.add_value(q, self._energy)
         self.orthogonality.add_value(q, self._energy)
+        self.attachment.add_value(q, self._energy)
         self.contact.add_value(position, self._energy)
         self.friction.add_value(q, self._energy)
         return self._energy.numpy().copy()
@@ -99,6 +102,7 @@ class Potential:
         self.inertia.add_gradient(q, self._gradient)
         self.inertia.sigma = sigma
         self.orthogonality.add_gradient(q, self._gradient)
+        self.attachment.add_gradient(q, self._gradient)
         self.contact.add_gradient(position, self._gradient)
         self.friction.add_gradient(q, self._gradient)
         return self._gradient
@@ -109,6 +113,7 @@ class Potential:
         position = self.positions(q, self._position)
         self.inertia.add_hessian(self._hessian)
         self.orthogonality.add_hessian(q, self._hessian, exact)
+        self.attachment.add_hessian(self._hessian)
         self.contact.add_hessian(position, self._hessian, exact)
         self.friction.add_hessian(q, self._hessian)
         return self._hessian

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from pat3d.assets.shapes import box, cylinder, vessel
 from pat3d.check.certificate import FRICTION_STEP, TOLERANCE, certify, smallest_friction
 from pat3d.errors import CheckError
-from pat3d.scene import Pose
+from pat3d.scene import Attachment, Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 
@@ -140,3 +140,45 @@ def test_an_overhanging_object_alone_has_no_smallest_friction():
     scene = scene_of(placed("hovering", asset, (0, 0, 1)))
     assert math.isinf(smallest_friction(scene))
     assert certify(scene, margin=True).as_dict()["smallest_friction"] is None
+
+
+def _hung(*points, gap=0.002, apart=0.0):
+    """A bar under a fixed beam, held at `points` of its upper side."""
+    anchors = tuple(((x, y, 0.04), (x, y, apart - gap)) for x, y in points)
+    return scene_of(
+        placed("beam", asset_of(box(0.5, 0.1, 0.1)), (0, 0, 1), fixed=True),
+        placed("bar", asset_of(box(0.3, 0.04, 0.04)), (0, 0, 1 - gap - 0.04)),
+        attachments=(Attachment(child="bar", parent="beam", anchors=anchors),),
+    )
+
+
+@pytest.mark.parametrize(
+    ("points", "balanced"),
+    [(((0, 0),), True), (((-0.1, 0), (0.1, 0)), True), (((0.1, 0),), False), (((-0.1, 0.01), (0.1, 0.01)), False)],
+)
+def test_anchors_carry_what_is_plumb_below_them(points, balanced):
+    """A point holds the centre of mass below it; two hold what is below their line; friction plays no part."""
+    assert certify(_hung(*points), friction=0.0).passed is balanced
+
+
+def test_what_is_missing_for_a_bar_held_off_its_middle_is_the_least_possible():
+    """Held 3 cm off and 2 cm above its centre, a tenth and a fifteenth of its size.
+
+    Errors of the force, a share t of the weight in any direction, change the torque of a tenth by at most
+    t |(1/10, 1/15)|; the least t equals what is left of the torque.
+    """
+    expected = 0.1 / (1.0 + math.hypot(1 / 10, 1 / 15))
+    assert certify(_hung((0.03, 0.0)), friction=0.0).worst == pytest.approx(expected, abs=1e-6)
+
+
+def test_an_anchor_that_came_apart_carries_nothing():
+    assert not certify(_hung((0, 0), apart=0.002)).passed
+
+
+@pytest.mark.parametrize(("y", "balanced"), [(0.0, True), (0.008, False)])
+def test_what_lies_on_a_hanging_bar_is_carried_with_it(y, balanced):
+    """A cube on the bar, beside the line of the anchors, turns the bar."""
+    scene = _hung((-0.1, 0), (0.1, 0), gap=0.05)
+    top = scene["bar"].pose.position[2] + 0.04 + GAP
+    cube = placed("cube", asset_of(box(0.03, 0.03, 0.03)), (0.05, y, top))
+    assert certify(replace(scene, objects=(*scene.objects, cube))).passed is balanced

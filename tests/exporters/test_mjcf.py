@@ -1,5 +1,6 @@
 import os
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -8,9 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, ellipsoid, join, vessel
+from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
 from pat3d.exporters.mjcf import body_names, write_mjcf
-from pat3d.scene import Pose
+from pat3d.scene import Attachment, Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 
@@ -198,3 +200,55 @@ def test_a_mesh_written_again_within_the_second_is_not_taken_for_the_old_one(tmp
         model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m")))
         counts.append(int(model.mesh_vertnum[model.mesh("can/part_000").id]))
     assert counts == [16, 24]
+
+
+def _hung_bar(**settings):
+    """A bar 1 m up, hung by two points from a beam that stands on nothing because it is fixed."""
+    anchors = tuple(((x, 0.0, 0.04), (x, 0.0, -0.002)) for x in (-0.1, 0.1))
+    return scene_of(
+        placed("the beam", asset_of(box(0.5, 0.1, 0.1)), (0, 0, 1), fixed=True),
+        placed("a bar", asset_of(box(0.3, 0.04, 0.04)), (0, 0, 0.958)),
+        attachments=(Attachment(child="a bar", parent="the beam", anchors=anchors),),
+        **settings,
+    )
+
+
+def test_attachments_are_connect_constraints_that_hold_still(tmp_path):
+    path = write_mjcf(_hung_bar(), tmp_path / "mjcf")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert list(model.eq_type) == [mujoco.mjtEq.mjEQ_CONNECT] * 2
+    # Three rows each, nothing out of place.
+    assert data.nefc == 6
+    np.testing.assert_allclose(data.efc_pos, 0.0, atol=1e-12)
+    report = settle_in_mujoco(path, 2.0)
+    assert report.passed
+    assert report.worst_mm < 0.01
+
+
+def test_a_hung_bar_swings_about_the_line_of_its_anchors(tmp_path):
+    """Small oscillations of a bar hung at its upper edge: period 2 pi sqrt(I / (m g l)) of the physical pendulum."""
+    scene = _hung_bar()
+    model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "mjcf")))
+    data = mujoco.MjData(model)
+    data.qvel[3] = 0.1
+    data.qvel[1] = 0.1 * 0.04
+    bar = scene["a bar"].asset.mass_properties
+    arm = 0.04 - bar.centre_of_mass[2]
+    period = 2 * np.pi * np.sqrt((bar.inertia[0][0] + bar.mass * arm**2) / (bar.mass * 9.81 * arm))
+    crossings, before = [], 0.0
+    while data.time < 2.2 * period:
+        mujoco.mj_step(model, data)
+        angle = data.qpos[4]
+        if before < 0.0 <= angle:
+            crossings.append(data.time)
+        before = angle
+    assert crossings[1] - crossings[0] == pytest.approx(period, rel=0.02)
+
+
+def test_attachments_of_fixed_objects_are_left_out(tmp_path):
+    scene = _hung_bar()
+    fixed = tuple(replace(obj, fixed=True) for obj in scene.objects)
+    path = write_mjcf(replace(scene, objects=fixed), tmp_path / "mjcf")
+    assert mujoco.MjModel.from_xml_path(str(path)).neq == 0

@@ -6,10 +6,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pat3d.assets import shapes
+from pat3d.assets.catalogue import make
 from pat3d.errors import LayoutError, SpecError
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_relations, relation_holds
-from pat3d.scene import GROUND, Pose, Relation
+from pat3d.scene import GROUND, LATERAL_KINDS, SUPPORT_KINDS, Pose, Relation
 from tests.layout.things import (
     asset,
     ball,
@@ -23,6 +24,7 @@ from tests.layout.things import (
     vessel,
 )
 
+KINDS = LATERAL_KINDS | SUPPORT_KINDS
 GAP = 0.002
 LEAST = 0.0015
 """The barrier of the simulator reaches 1 mm; layouts stay clear of it."""
@@ -39,8 +41,10 @@ def check(assets, relations, layout):
     for name, pose in layout.poses.items():
         lowest = min(pose.apply(part.vertices)[:, 2].min() for part in assets[name].parts)
         assert lowest >= LEAST, name
-    results = check_relations(tuple(relations), assets, layout.poses, touch=GAP + 2e-4)
-    assert all(result.holds for result in results), [f"{r.relation}: {r.detail}" for r in results if not r.holds]
+    for kinds, touch in (({"hangs_from"}, 1e-3), (KINDS - {"hangs_from"}, GAP + 2e-4)):
+        chosen = tuple(relation for relation in relations if relation.kind in kinds)
+        results = check_relations(chosen, assets, layout.poses, touch=touch, attachments=layout.attachments)
+        assert all(result.holds for result in results), [f"{r.relation}: {r.detail}" for r in results if not r.holds]
 
 
 @st.composite
@@ -167,6 +171,68 @@ def test_a_swing_hangs_under_the_branch():
     check(assets, relations, layout)
     top = layout.poses["swing"].position[2] + swing.size[2]
     assert top == pytest.approx(2.4, abs=0.01)
+
+
+def tree_with_branch_along_y(slope=0.0):
+    branch = shapes.box(1.6, 0.12, 0.12).moved(x=0.8).turned("y", -slope).turned("z", 90).moved(z=2.4)
+    return asset("tree", shapes.join(shapes.cylinder(0.1, 3.0), branch))
+
+
+@pytest.mark.parametrize(("slope", "tilt"), [(0.0, 0.0), (4.0, 4.0)])
+def test_two_ropes_are_tied_along_the_branch_wherever_it_points(slope, tilt):
+    """The swing turns with the branch and follows its slope; its ends are a layout's gap below the branch."""
+    swing = make("swing")
+    assets = {"tree": tree_with_branch_along_y(slope), "swing": swing}
+    relations = (rel("swing", "hangs_from", "tree"),)
+    layout = arrange(assets, relations, seed=0)
+    check(assets, relations, layout)
+    (attachment,) = layout.attachments
+    assert (attachment.child, attachment.parent) == ("swing", "tree")
+    assert tuple(point for point, _ in attachment.anchors) == swing.anchors
+    on_child, on_parent = attachment.ends(layout.poses["swing"], layout.poses["tree"])
+    np.testing.assert_allclose(on_child, on_parent, atol=1e-12)
+    along = on_child[1] - on_child[0]
+    assert abs(along[0]) < 1e-6 * abs(along[1])
+    assert np.degrees(np.arctan2(abs(along[2]), abs(along[1]))) == pytest.approx(tilt, abs=0.05)
+    assert layout.proof.min_distance == pytest.approx(GAP, abs=1e-4)
+    trunk = layout.poses["tree"].position[1] + assets["tree"].bounds[0, 1] + 0.1
+    assert layout.poses["swing"].position[1] - trunk > 0.3
+
+
+def test_a_branch_too_steep_for_two_ropes_is_refused():
+    assets = {"tree": tree_with_branch_along_y(25.0), "swing": make("swing")}
+    with pytest.raises(LayoutError, match="cannot hang"):
+        arrange(assets, (rel("swing", "hangs_from", "tree"),), seed=0)
+
+
+def test_what_hangs_at_one_point_is_plumb_below_it():
+    """An L-shaped block hangs by the middle of its top, turned until its centre of mass is below."""
+    bent = asset("bent", shapes.join(shapes.box(0.04, 0.04, 0.3), shapes.box(0.2, 0.04, 0.04).moved(x=0.08)))
+    assets = {"tree": tree_with_branch(), "bent": bent}
+    layout = arrange(assets, (rel("bent", "hangs_from", "tree"),), seed=0)
+    (attachment,) = layout.attachments
+    top, _ = attachment.ends(layout.poses["bent"], layout.poses["tree"])
+    centre = layout.poses["bent"].apply(np.array([bent.mass_properties.centre_of_mass]))
+    np.testing.assert_allclose(centre[0, :2], top[0, :2], atol=1e-9)
+    assert centre[0, 2] < top[0, 2] - 0.1
+
+
+def test_a_bowl_hangs_level_by_two_points_of_its_rim():
+    bowl = vessel(0.1, 0.08)
+    layout = arrange({"tree": tree_with_branch(), "bowl": bowl}, (rel("bowl", "hangs_from", "tree"),), seed=0)
+    assert len(layout.attachments[0].anchors) == 2
+    assert layout.poses["bowl"].rotation[2, 2] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_given_poses_are_attached_where_they_are_near_enough():
+    assets = {"tree": tree_with_branch(), "swing": make("swing")}
+    relations = (rel("swing", "hangs_from", "tree"),)
+    free = arrange(assets, relations, seed=0)
+    again = arrange(assets, relations, seed=0, fixed_poses=free.poses)
+    assert again.attachments == free.attachments
+    x, y, z = free.poses["swing"].position
+    lower = {**free.poses, "swing": Pose(position=(x, y, z - 0.1))}
+    assert arrange(assets, relations, seed=0, fixed_poses=lower).attachments == ()
 
 
 def test_crowded_surface_uses_rows_and_small_gaps():

@@ -5,7 +5,7 @@ import pytest
 
 from pat3d.errors import SpecError
 from pat3d.layout.predicates import check_relations, polygon_gap, relation_holds
-from pat3d.scene import GROUND, Pose, Relation
+from pat3d.scene import GROUND, Attachment, Pose, Relation
 from tests.layout.things import ball, block, table, tree_with_branch, vessel
 
 ASSETS = {
@@ -135,6 +135,45 @@ def test_hanging_needs_contact_below_the_top_and_air_below():
     assert holds("a", "hangs_from", "tree", under)
     assert not holds("a", "hangs_from", "tree", {**under, "a": Pose(position=(0.8, 0, 2.2))})
     assert not holds("a", "hangs_from", "tree", {**under, "a": Pose(position=(0.8, 0, 2.5205))})
+
+
+HUNG = {"tree": Pose(), "a": Pose(position=(0.8, 0, 2.2))}
+ROPE = ((0.0, 0.0, 0.1), (0.8, 0.0, 2.3))
+"""From the top of "a" to just below the branch."""
+
+
+@pytest.mark.parametrize(
+    ("case", "moved", "expected"),
+    [
+        ("hanging free", {}, True),
+        ("within a millimetre", {"a": Pose(position=(0.8, 0, 2.1993))}, True),
+        ("torn off", {"a": Pose(position=(0.8, 0, 2.19))}, False),
+        ("standing on its head above the anchor", {"a": Pose(position=(0.8, 0, 2.4), quat_wxyz=(0, 1, 0, 0))}, False),
+        ("standing on b", {"b": Pose(position=(0.8, 0, 2.0995))}, False),
+        ("carrying c", {"c": Pose(position=(0.8, 0.08, 2.3003))}, True),
+        ("beside b, not touching", {"b": Pose(position=(0.91, 0, 2.2))}, True),
+    ],
+)
+def test_hanging_by_an_attachment(case, moved, expected):
+    poses = {**HUNG, **moved}
+    attachment = Attachment(child="a", parent="tree", anchors=(ROPE,))
+    relations = (Relation(child="a", kind="hangs_from", parent="tree"), Relation(child="c", kind="on", parent="a"))
+    result = check_relations(relations[: 1 + ("c" in poses)], ASSETS, poses, attachments=(attachment,))[0]
+    assert result.holds is expected, (case, result.detail)
+
+
+def test_an_attached_thing_that_leans_on_the_trunk_does_not_hang_free():
+    """The block's side is against the trunk, half a metre from where its long rope is tied."""
+    post = {"tree": Pose(), "a": Pose(position=(-0.5495, 0.0, 1.5))}
+    attachment = Attachment(child="a", parent="tree", anchors=(((0.3, 0.0, 0.8), (-0.2495, 0.0, 2.3)),))
+    trunk = ASSETS["tree"].parts[0].vertices[:, 0]
+    x = float(trunk.max()) + 0.0505
+    leaning = {"tree": Pose(), "a": Pose(position=(x, 0, 1.5))}
+    tied = Attachment(child="a", parent="tree", anchors=(((0.0, 0.0, 0.8), (x, 0.0, 2.3)),))
+    relation = Relation(child="a", kind="hangs_from", parent="tree")
+    assert relation_holds(relation, ASSETS, {**leaning, "a": Pose(position=(x + 0.01, 0, 1.5))}, touch=0.02) is False
+    assert not relation_holds(relation, ASSETS, leaning, attachments=(tied,))
+    assert relation_holds(relation, ASSETS, post, attachments=(attachment,))
 
 
 def test_on_the_ground_is_measured():

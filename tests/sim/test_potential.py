@@ -13,7 +13,7 @@ D_HAT = 0.02
 
 
 def crowded_potential(seed: int) -> tuple[Potential, np.ndarray]:
-    """Three tilted bodies within the barrier's reach of one another and of the ground, slightly deformed."""
+    """Three tilted bodies within the barrier's reach of one another and of the ground, attached, slightly deformed."""
     rng = np.random.default_rng(seed)
     builder = ModelBuilder()
     quat = rng.normal(size=(4, 4)) * 0.05 + [1, 0, 0, 0]
@@ -22,7 +22,12 @@ def crowded_potential(seed: int) -> tuple[Potential, np.ndarray]:
     add_hull(builder, box_points(0.08, 0.08, 0.1), Pose(position=place[0], quat_wxyz=tuple(quat[0])))
     add_hull(builder, box_points(0.08, 0.08, 0.1), Pose(position=place[1], quat_wxyz=tuple(quat[1])))
     add_hull(builder, random_hull(rng), Pose(position=place[2], quat_wxyz=tuple(quat[2])))
+    for (first, second), points in zip(
+        ((0, 1), (0, 2), (0, 2)), np.random.default_rng(seed).normal(size=(3, 2, 3)), strict=True
+    ):
+        builder.add_attachment(first, 0.05 * points[0], second, 0.05 * points[1])
     model = builder.finalize("cpu")
+    model.anchor_stiffness.fill_(2e3)
     potential = Potential(model)
     potential.contact.d_hat = D_HAT
     potential.contact.stiffness.fill_(50.0)

@@ -67,7 +67,8 @@ def tree(style: Style) -> Build:
         frustum(0.26, 0.17, 2.75, sides=10).moved(z=0.30),
     )
     side = 1.0 if style.rng.random() < 0.5 else -1.0
-    branch = rod((0.0, 0.0, low), (side * style.vary(1.75, 0.05), 0.0, low), 0.085, 0.060)
+    # Thinner towards its end, level below.
+    branch = rod((0.0, 0.0, low), (side * style.vary(1.75, 0.05), 0.0, low - 0.025), 0.085, 0.060)
     other = limb((0.0, 0.0, 2.30), (-side * 0.75, style.vary(0.15, 0.9), 2.95), 0.08, 0.06)
     crown = [
         ellipsoid(style.vary(1.10), style.vary(1.0), style.vary(0.72)).moved(z=3.45),
@@ -92,17 +93,17 @@ def tree(style: Style) -> Build:
     "swing", family="outdoor", synonyms=("rope swing", "tree swing", "wooden swing"), material="wood", colours=("wood",)
 )
 def swing(style: Style) -> Build:
-    """A swing's seat board with two ropes up to a bar, 1.9 m tall."""
+    """A swing's seat board with two ropes 1.9 m up to where they are tied."""
     colour, rope = style.colour(), (206, 184, 138)
     wide, deep, high = style.vary(0.52, 0.04), style.vary(0.22, 0.04), style.vary(1.88, 0.02)
     at = wide / 2 - 0.045
     ropes = join(*(rod((x, 0.0, 0.02), (x, 0.0, high), 0.011, sides=6) for x in (-at, at)))
     knots = join(*(cylinder(0.022, 0.045, 8).moved(x, 0.0, 0.030) for x in (-at, at)))
-    bar = rod((-wide / 2 - 0.02, 0.0, high), (wide / 2 + 0.02, 0.0, high), 0.018)
     seat = Region(kind="on", shape="rectangle", floor=(0.0, 0.0, 0.035), half_size=(at - 0.03, deep / 2))
     return Build(
-        parts=((box(wide, deep, 0.035), colour), (join(ropes, knots), rope), (bar, style.shade(colour, 0.8))),
+        parts=((box(wide, deep, 0.035), colour), (join(ropes, knots), rope)),
         regions=(seat,),
+        anchors=tuple((x, 0.0, high) for x in (-at, at)),
         mass=3.2,
     )
 

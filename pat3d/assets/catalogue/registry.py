@@ -51,6 +51,8 @@ class Build:
     """Empty for the top of the bounding box."""
     paint: tuple[tuple[Shape, RGB], ...] = ()
     """Volumes that recolour the surface inside them (labels, stripes, eyes) without changing the solid."""
+    anchors: tuple[tuple[float, float, float], ...] = ()
+    """Points of the surface from which it hangs [m]; none for its highest point."""
     mass: float | None = None
     """Mass [kg] where density times volume would be wrong (mixed materials, hidden hollows)."""
 
