@@ -173,7 +173,8 @@ class Attempts:
             )
         objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
         scene = Scene(
-            objects=objects, relations=self.order.relations, prompt=self.order.prompt, seed=self.seed,
+            objects=objects, relations=self.order.relations, attachments=layout.attachments,
+            prompt=self.order.prompt, seed=self.seed,
             settling_friction=self.friction, provenance=self._provenance(layout_seed),
         )  # fmt: skip
         self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, layout.notes)

@@ -47,8 +47,7 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
     from pat3d.sim.settle import SettleOptions, settle
 
     builder = ModelBuilder()
-    for obj in scene.objects:
-        builder.add_asset(obj.asset, obj.initial_pose, fixed=obj.fixed, label=obj.name)
+    builder.add_scene(scene)
     model = builder.finalize(device)
     options = SettleOptions(friction=scene.settling_friction)
 
