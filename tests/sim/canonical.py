@@ -140,7 +140,9 @@ def card_house(levels: int, gap: float = 1e-4) -> Model:
         for x in centres:
             for side in (-1, 1):
                 quat = (np.cos(lean / 2), 0.0, side * np.sin(lean / 2), 0.0)
-                add_hull(builder, card, Pose(position=(x + side * (half_x + gap / 2), 0, z + height / 2), quat_wxyz=quat))
+                add_hull(
+                    builder, card, Pose(position=(x + side * (half_x + gap / 2), 0, z + height / 2), quat_wxyz=quat)
+                )
         z += height + gap
         for x in 0.5 * (centres[1:] + centres[:-1]):
             roof = box_points(span - gap, width, thickness)
