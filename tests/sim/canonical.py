@@ -37,8 +37,8 @@ def upside_down(points: Points) -> Points:
 
 
 def add_surface(
-    builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, pose: Pose = Pose(), fixed: bool = False
-) -> int:  # noqa: B008
+    builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, pose: Pose | None = None, fixed: bool = False
+) -> int:
     """Add a body bounded by one closed surface, convex or not."""
     properties = mass_properties(vertices, faces, density=500.0)
     return builder.add_body(
@@ -47,7 +47,7 @@ def add_surface(
         volume=properties.volume,
         centre=np.array(properties.centre_of_mass),
         second_moment=properties.second_moment,
-        pose=pose,
+        pose=pose or Pose(),
         fixed=fixed,
     )
 
@@ -126,7 +126,7 @@ def arch(stones: int, radius: float = 0.3, thickness: float = 0.1, gap: float = 
 
 
 def card_house(levels: int, gap: float = 1e-4) -> Model:
-    """Tents of cards leaning at 65 degrees, with cards across each level, `gap` apart."""
+    """Tents of cards leaning at 65 degrees, with one card across each level, `gap` apart."""
     builder = ModelBuilder()
     length, width, thickness, lean = 0.1, 0.06, 1e-3, np.deg2rad(65)
     card = box_points(length, width, thickness)
@@ -144,9 +144,9 @@ def card_house(levels: int, gap: float = 1e-4) -> Model:
                     builder, card, Pose(position=(x + side * (half_x + gap / 2), 0, z + height / 2), quat_wxyz=quat)
                 )
         z += height + gap
-        for x in 0.5 * (centres[1:] + centres[:-1]):
-            roof = box_points(span - gap, width, thickness)
-            add_hull(builder, roof, Pose(position=(x, 0, z + thickness / 2)))
+        if tents > 1:
+            roof = box_points((tents - 1) * span + 0.3 * length, width, thickness)
+            add_hull(builder, roof, Pose(position=(0, 0, z + thickness / 2)))
         z += thickness + gap if tents > 1 else 0
     return builder.finalize("cpu")
 
