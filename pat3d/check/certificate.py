@@ -174,7 +174,8 @@ class _Problem:
         for group in self.groups:
 
             def holds(friction: float, group=group) -> bool:
-                return max(self._balance(*group, friction)) <= TOLERANCE
+                bodies, contacts, anchors = group
+                return max(self._balance(bodies, contacts, anchors, friction)) <= TOLERANCE
 
             if holds(least):
                 continue

@@ -51,7 +51,7 @@ def assemble(noun: str, build: Build, *, material: Material, scale: float, prove
         mass_properties=mass_properties(vertices, faces, density=density, mass=mass),
         material=material,
         regions=regions,
-        anchors=tuple(tuple(map(float, (np.array(point) - origin) * scale)) for point in build.anchors),
+        anchors=tuple(tuple(map(float, (np.array(point) - origin) * scale)) for point in build.anchors),  # type: ignore[arg-type]
         provenance=provenance,
     )
 
