@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.asset import ConvexPart
-from pat3d.assets.hull import convex_part
 from pat3d.assets.mass import mass_properties
 from pat3d.scene import Pose
 from pat3d.sim.model import Model, ModelBuilder
@@ -36,9 +35,7 @@ def upside_down(points: Points) -> Points:
     return points * [1, -1, -1]
 
 
-def add_surface(
-    builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, pose: Pose | None = None, fixed: bool = False
-) -> int:
+def add_surface(builder: ModelBuilder, vertices: Points, faces: NDArray[np.int32], *, fixed: bool = False) -> int:
     """Add a body bounded by one closed surface, convex or not."""
     properties = mass_properties(vertices, faces, density=500.0)
     return builder.add_body(
@@ -47,7 +44,7 @@ def add_surface(
         volume=properties.volume,
         centre=np.array(properties.centre_of_mass),
         second_moment=properties.second_moment,
-        pose=pose or Pose(),
+        pose=Pose(),
         fixed=fixed,
     )
 
@@ -213,8 +210,3 @@ def heavy_on_light(ratio: float) -> Model:
     add_hull(builder, box_points(0.1, 0.1, 0.1), Pose(position=(0, 0, 0.0505)), density=20.0)
     add_hull(builder, box_points(0.1, 0.1, 0.1), Pose(position=(0.01, 0, 0.152)), density=20.0 * ratio)
     return builder.finalize("cpu")
-
-
-def convex_parts(*points: Points) -> list[ConvexPart]:
-    """The hulls of point sets."""
-    return [convex_part(each) for each in points]

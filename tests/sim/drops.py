@@ -63,6 +63,3 @@ def random_scene(kind: str, seed: int) -> Model:
         height += radius
         add_parts(builder, parts, Pose(position=place, quat_wxyz=tuple(quat / np.linalg.norm(quat))), density=density)
     return builder.finalize("cpu")
-
-
-scene = random_scene

@@ -109,9 +109,9 @@ def test_card_houses_stand(name):
     assert settled.at_rest.all()
     for b, body in enumerate(fixture.bodies):
         tilt, tilt_end = (np.arcsin(abs(state[b, 1, 2])) for state in (settled.trajectory[0], settled.q))
-        # Every level falls by the gap under it (0.08 m) before it stands; a card that fell over turns by 65 degrees.
+        # Levels fall by the gaps under them (0.08 m each) and stand; a card that fell over turns by 65 degrees.
         assert abs(tilt_end - tilt) < np.deg2rad(3), body.name
-        assert settled.trajectory[0, b, 0, 2] - settled.q[b, 0, 2] < 0.3, body.name
+        assert settled.trajectory[0, b, 0, 2] - settled.q[b, 0, 2] < 0.4, body.name
 
 
 @pytest.mark.slow
