@@ -97,6 +97,7 @@ def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
         scene.relations,
         {obj.name: obj.asset for obj in scene.objects},
         {obj.name: obj.pose for obj in scene.objects},
+        attachments=scene.attachments,
     )
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from pat3d.errors import SimulationError
 from pat3d.sim.contact.intersection import intersecting_bodies
@@ -100,7 +101,7 @@ class Settled:
     q: NDArray[np.float64]
     """Final state, shape (bodies, 4, 3)."""
     trajectory: NDArray[np.float32]
-    """State after every step of the drop, starting with the first state, shape (frames, bodies, 4, 3)."""
+    """State after every step of the drop, and of the polish where bodies still slid; shape (frames, bodies, 4, 3)."""
     at_rest: NDArray[np.bool_]
     """Whether every world met the tolerances, shape (worlds,)."""
     residual: NDArray[np.float64]
@@ -272,6 +273,8 @@ class Run:
             change = end - start
             weight = np.where(self.reverses(change, last), np.minimum(16.0 * weight, MOST_INERTIA), weight)
             start, last = end, change
+            if move.max() > options.d_hat:
+                self.trajectory.append(end.astype(np.float32))
             self.progress("polishing", self.polish_steps, float(move.max()))
         return ~active, residual
 
@@ -289,11 +292,13 @@ def settle(model: Model, options: SettleOptions | None = None, progress: Progres
         SimulationError: bodies intersect at the start, or the state is not finite.
     """
     options = options or SettleOptions()
-    run = Run(model, options, progress)
-    run.refuse_intersections()
-    run.set_reach(options.d_hat)
-    run.drop()
-    at_rest, residual = run.polish()
+    # Factorisations of a few hundred unknowns lose more to the threads of BLAS than they gain.
+    with threadpool_limits(limits=1, user_api="blas"):
+        run = Run(model, options, progress)
+        run.refuse_intersections()
+        run.set_reach(options.d_hat)
+        run.drop()
+        at_rest, residual = run.polish()
     q = run.state()
     if not np.all(np.isfinite(q)):
         raise SimulationError("settling produced values that are not finite.")
