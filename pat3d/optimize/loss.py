@@ -27,6 +27,8 @@ MARGIN = 1.0e-3
 """By which relations must hold for no loss [m]."""
 FLUSH = 1.0e-6
 """Length [m] by which boxes that are flush with each other may stick out."""
+LOST = 0.2
+"""Share of an object's width beyond which a residual means that it has fallen."""
 SINKING = 0.1
 """Share of its height that a child may sink towards its parent while settling."""
 
@@ -91,11 +93,13 @@ class SemanticLoss:
         boxes = [outline.box(q) for outline, q in zip(self.outlines, start, strict=True)]
         self._least: dict[Relation, float] = {}
         self._rim: dict[Relation, float] = {}
+        self._lost: dict[Relation, float] = {}
         for rel in self.relations:
             if not rel.supports:
                 continue
             child, parent = boxes[self.index[rel.child]], boxes[self.index[rel.parent]]
             lift = float(child.low[2] - parent.low[2])
+            self._lost[rel] = (LOST * float(child.size[:2].min())) ** 2
             allowance = min(SINKING * float(child.size[2]) + 5.0 * margin, 0.5 * abs(lift))
             self._least[rel] = lift - allowance if rel.kind != "in" else -margin
             if rel.kind == "in":
@@ -110,6 +114,11 @@ class SemanticLoss:
         """The loss [m^2] of every relation that can be broken, shape (...) each."""
         boxes = [outline.box(q[..., k, :]) for k, outline in enumerate(self.outlines)]
         return {rel: self._term(rel, q, boxes) for rel in self.relations}
+
+    def lost(self, terms: Mapping[Relation, torch.Tensor]) -> torch.Tensor:
+        """Whether any support relation is beyond rescue, given `terms` of shape (...); returns shape (...)."""
+        found = [value > self._lost[rel] for rel, value in terms.items() if rel.supports]
+        return torch.stack(found).any(dim=0) if found else torch.zeros(0, dtype=torch.bool)
 
     def _term(self, rel: Relation, q: torch.Tensor, boxes: list[Box]) -> torch.Tensor:
         c, p = self.index[rel.child], self.index[rel.parent]

@@ -289,8 +289,7 @@ class _Search:
         best = refine(
             placement, self.relations, confirm=confirm, start=number, history=history, progress=self.progress,
             epochs=options.epochs, learning_rate=options.learning_rate, every=options.every, patience=options.patience,
-            settings=replace(options.settle, max_frames=min(options.frames, options.settle.max_frames)),
-            device=options.device,
+            frames=min(options.frames, options.settle.max_frames), settings=options.settle, device=options.device,
         )  # fmt: skip
         if not (found and found[-1].satisfied):
             confirm(best)

@@ -1,13 +1,14 @@
 """Gradient steps on one layout: Adam on where things stand, through the differentiable rollout.
 
 Every iterate is free of intersection before it is rolled out: the step is projected, and where no free layout is
-near it is halved.
+near it is halved. What happens after something has fallen is chaos, of which the gradient is noise: the scene counts as
+lost from then on, with the loss of that frame, and the next rollouts go little further.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
@@ -34,7 +35,7 @@ class Epoch:
     epoch: int
     """From 0, the start itself."""
     loss: float
-    """Mean over the gathered frames and the last one [m^2]."""
+    """Mean over the gathered frames up to the longest rollout [m^2]; frames after something fell count like that one."""
     broken: int
     """Relations that do not hold at the end of the rollout."""
 
@@ -51,6 +52,7 @@ def refine(
     learning_rate: float,
     every: int,
     patience: int,
+    frames: int,
     settings: SettleOptions,
     device: str,
 ) -> dict[str, Pose]:
@@ -67,6 +69,7 @@ def refine(
         learning_rate: of Adam [m].
         every: frames between those gathered.
         patience: epochs without a lower loss that end the search.
+        frames: of a rollout at most.
         settings: of the rollouts.
         device: "cpu" or "cuda".
 
@@ -80,13 +83,21 @@ def refine(
     adam = torch.optim.Adam([variables], lr=learning_rate)
     poses = placement.poses
     best, best_poses, since = np.inf, poses, 0
+    horizon, until = frames, "still"
     for epoch in range(epochs + 1):
         try:
-            run = rollout(model, placement.states(variables, poses)[None], until="still", options=settings)
+            while True:
+                q0 = placement.states(variables, poses)[None]
+                run = rollout(model, q0, until=until, options=replace(settings, max_frames=horizon))
+                loss, fell = _gathered(loss_of, run.frames[:, 0], every, frames)
+                if fell is not None or horizon >= frames or len(run.frames) <= horizon:
+                    break
+                # Nothing fell in the shorter rollout: see whether it stays up.
+                horizon = frames
         except SimulationError:
             break
-        gathered = [*range(every, len(run.frames) - 1, every), -1]
-        loss = loss_of(run.frames[gathered, 0]).mean()
+        if until == "still":
+            horizon = frames if fell is None else min(frames, 3 * fell // 2 + every)
         value = float(loss.detach())
         broken = _broken(model, placement, relations, run.q_end[0].detach().numpy())
         history.append(Epoch(start=start, epoch=epoch, loss=value, broken=broken))
@@ -95,8 +106,13 @@ def refine(
             best, best_poses, since = value, poses, 0
         else:
             since += 1
-        if broken == 0 and confirm(poses):
-            return dict(poses)
+        if broken == 0:
+            if confirm(poses):
+                return dict(poses)
+            if until == "still":
+                # What stands through the drop and falls later is judged by whole settling runs.
+                horizon, until = settings.max_frames, "rest"
+                continue
         if epoch == epochs or since >= patience or not loss.requires_grad:
             break
         adam.zero_grad()
@@ -111,6 +127,23 @@ def refine(
             break
         poses = found
     return dict(best_poses)
+
+
+def _gathered(loss_of: SemanticLoss, frames: torch.Tensor, every: int, longest: int) -> tuple[torch.Tensor, int | None]:
+    """Loss [m^2] of a rollout, frames of shape (steps + 1, bodies, 12), and the frame at which something had fallen.
+
+    The mean over `longest` frames: the last gathered frame stands for all that were not simulated or came after a fall.
+    """
+    index = [*range(every, len(frames) - 1, every), len(frames) - 1]
+    terms = loss_of.terms(frames[index])
+    if not terms:
+        return frames.sum() * 0.0, None
+    values = torch.stack(list(terms.values())).sum(dim=0)
+    lost = torch.nonzero(loss_of.lost(terms)).flatten()
+    last = int(lost[0]) if len(lost) else len(index) - 1
+    count = max(longest // every, last + 1)
+    loss = (values[:last].sum() + (count - last) * values[last]) / count
+    return loss, index[last] if len(lost) else None
 
 
 def _projected(placement: Placement, variables: torch.Tensor, before: torch.Tensor) -> dict[str, Pose] | None:

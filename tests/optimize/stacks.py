@@ -22,7 +22,7 @@ def irregular_block(rng: np.random.Generator, angle: float, side: float = 0.1, h
     points = [*[(*xy, 0.0) for xy in bottom], *[(*xy, height + float(tilt @ xy)) for xy in top]]
     made = asset("block", shapes.convex(points))
     properties = made.mass_properties
-    centre = np.array(properties.centre_of_mass) - np.array([*(rng.uniform(0.22, 0.3) * side * towards), 0.0])
+    centre = np.array(properties.centre_of_mass) - np.array([*(rng.uniform(0.28, 0.34) * side * towards), 0.0])
     return replace(made, mass_properties=replace(properties, centre_of_mass=tuple(map(float, centre))))
 
 
