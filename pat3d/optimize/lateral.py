@@ -54,8 +54,7 @@ def beside_loss(
         margin: by which everything must hold [m].
         reach: factor on the largest gap.
     """
-    longest = float(torch.maximum(child.size, parent.size)[:2].detach().max())
-    limit = min(max(0.25, longest), 1.0) * reach
+    limit = torch.maximum(child.size, parent.size)[:2].max().clamp(0.25, 1.0) * reach
     apart = torch.maximum(child.low - parent.high, parent.low - child.high)[2]
     loss = torch.relu(apart - 0.1 + margin) ** 2
     overlapping = overlap_aware_gap(footprints[0].detach().numpy(), footprints[1].detach().numpy()) == 0.0
@@ -79,7 +78,7 @@ def ring_loss(centre: torch.Tensor, members: list[torch.Tensor], margin: float) 
     offsets = torch.stack(members) - centre
     angles = torch.sort(torch.atan2(offsets[:, 1], offsets[:, 0])).values
     widest = torch.cat([angles[1:] - angles[:-1], (angles[0] + 2 * math.pi - angles[-1])[None]]).max()
-    radius = float(torch.linalg.vector_norm(offsets.detach(), dim=1).mean())
+    radius = torch.linalg.vector_norm(offsets, dim=1).mean()
     return torch.relu(radius * (widest - WIDEST) + margin) ** 2
 
 

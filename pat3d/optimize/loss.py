@@ -19,6 +19,7 @@ import torch
 
 from pat3d.assets.asset import Asset
 from pat3d.errors import SpecError
+from pat3d.layout.predicates import TOUCH
 from pat3d.optimize.lateral import SIDES, beside_loss, ring_loss, side_loss
 from pat3d.optimize.outline import Box, Outline, moved, outside
 from pat3d.scene import GROUND, Pose, Relation
@@ -102,6 +103,8 @@ class SemanticLoss:
             self._lost[rel] = (LOST * float(child.size[:2].min())) ** 2
             allowance = min(SINKING * float(child.size[2]) + 5.0 * margin, 0.5 * abs(lift))
             self._least[rel] = lift - allowance if rel.kind != "in" else -margin
+            if rel.kind == "on":
+                self._least[rel] = max(self._least[rel], TOUCH + margin)
             if rel.kind == "in":
                 self._rim[rel] = max(lift + 5.0 * margin, float(parent.size[2]) - margin)
 
