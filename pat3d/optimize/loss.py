@@ -51,12 +51,12 @@ def outside_parent(corners: torch.Tensor, parent: Box, counted: torch.Tensor | N
 
 
 def sunk(child: Box, parent: Box, least: float) -> torch.Tensor:
-    """Squared length [m^2] by which the child's lowest point is less than `least` [m] above its parent's, shape (...)."""
+    """Squared length [m^2] by which the child's lowest point is less than `least` [m] above its parent's."""
     return torch.relu(least - (child.low - parent.low)[..., 2]) ** 2
 
 
 def risen(child: Box, parent: Box, most: float) -> torch.Tensor:
-    """Squared length [m^2] by which the child's lowest point is more than `most` [m] above its parent's, shape (...)."""
+    """Squared length [m^2] by which the child's lowest point is more than `most` [m] above its parent's."""
     return torch.relu((child.low - parent.low)[..., 2] - most) ** 2
 
 
@@ -110,7 +110,7 @@ class SemanticLoss:
 
     def __call__(self, q: torch.Tensor) -> torch.Tensor:
         """Loss [m^2] of states `q`, shape (..., bodies, 12); returns shape (...)."""
-        terms = [value for value in self.terms(q).values()]
+        terms = list(self.terms(q).values())
         return torch.stack(terms).sum(dim=0) if terms else q.sum(dim=(-1, -2)) * 0.0
 
     def terms(self, q: torch.Tensor) -> dict[Relation, torch.Tensor]:

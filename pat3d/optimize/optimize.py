@@ -5,9 +5,9 @@
     found.poses                 # at rest
 
 First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
-(pat3d.optimize.starts) settles with it in the worlds of one model. Only if none of them holds, gradients of the semantic
-loss through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the
-least loss, then the most robust certificate.
+(pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
+through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
+loss, then the most robust certificate.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ MARGIN_OF = 3
 """Among equally good scenes, how many are compared by their certificates."""
 
 Progress = Callable[[str, int, float], None]
-"""Called with the phase ("settling", "settling starts", "epoch"), its number and the loss so far [m^2] (or motion [m])."""
+"""Called with the phase ("settling", "settling starts", "epoch"), a step number, and its motion [m] or loss [m^2]."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -129,7 +129,9 @@ class Placement:
 
     def groups(self, poses: Mapping[str, Pose]) -> dict[str, Group]:
         """Every object with everything that it carries, at `poses`."""
-        placed = {name: self._bodies[name].at(poses[name].rotation, np.array(poses[name].position)) for name in self.names}
+        placed = {
+            name: self._bodies[name].at(poses[name].rotation, np.array(poses[name].position)) for name in self.names
+        }
         carried: dict[str, list[str]] = {name: [name] for name in self.names}
         for name in reversed(self.order):
             if self.parent[name] != GROUND:

@@ -73,7 +73,9 @@ def save_loss_curve(
         for (x, y), epoch in zip(points, members, strict=True):
             # Filled: every relation holds at the end of the rollout.
             r = 4 * scale
-            draw.ellipse((x - r, y - r, x + r, y + r), fill=_PAPER if epoch.broken else colour, outline=colour, width=2 * scale)
+            draw.ellipse(
+                (x - r, y - r, x + r, y + r), fill=_PAPER if epoch.broken else colour, outline=colour, width=2 * scale
+            )
         if len(starts) > 1:
             y = 14 * scale
             x = right - (len(starts) - 1 - k) * 90 * scale

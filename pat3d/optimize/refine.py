@@ -35,7 +35,7 @@ class Epoch:
     epoch: int
     """From 0, the start itself."""
     loss: float
-    """Mean over the gathered frames up to the longest rollout [m^2]; frames after something fell count like that one."""
+    """Mean over the gathered frames of the longest rollout [m^2]; frames after a fall count like that one."""
     broken: int
     """Relations that do not hold at the end of the rollout."""
 
