@@ -44,8 +44,8 @@ def save_loss_curve(
     font = ImageFont.load_default(size=scale * 15)
     left, top, right, bottom = scale * 78, scale * 44, scale * (width - 24), scale * (height - 58)
     losses = [max(epoch.loss, _LEAST) for epoch in history]
-    low = math.floor(math.log10(min(losses)) - 1e-9)
-    high = max(low + 1, math.ceil(math.log10(max(losses)) + 1e-9))
+    low = math.floor(math.log10(min(losses)) + 1e-9)
+    high = max(low + 1, math.ceil(math.log10(max(losses)) - 1e-9))
     last = max(1, *(epoch.epoch for epoch in history))
 
     def place(epoch: Epoch) -> tuple[float, float]:
@@ -62,7 +62,7 @@ def save_loss_curve(
         draw.line([(x, bottom), (x, bottom + 5 * scale)], fill=_INK, width=scale)
         draw.text((x, bottom + 8 * scale), str(number), fill=_INK, font=font, anchor="mt")
     draw.line([(left, top), (left, bottom), (right, bottom)], fill=_INK, width=scale)
-    draw.text((left, 14 * scale), "semantic loss [m\u00b2]", fill=_INK, font=font, anchor="lt")
+    draw.text((left, 14 * scale), "semantic loss [m^2]", fill=_INK, font=font, anchor="lt")
     draw.text(((left + right) / 2, scale * (height - 10)), "epoch", fill=_INK, font=font, anchor="mb")
     starts = sorted({epoch.start for epoch in history})
     for k, start in enumerate(starts):
