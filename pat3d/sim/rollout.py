@@ -47,7 +47,7 @@ def rollout(
     model: Model,
     q0: torch.Tensor,
     *,
-    until: Literal["rest"] | int = "rest",
+    until: Literal["rest", "still"] | int = "rest",
     options: SettleOptions | None = None,
     progress: Progress = lambda *_: None,
 ) -> Rollout:
@@ -56,7 +56,7 @@ def rollout(
     Args:
         model: worlds with equally many bodies.
         q0: initial states, shape (worlds, bodies, 12), float64.
-        until: "rest" for settling with its polish, or a number of time steps.
+        until: "rest" for settling with its polish, "still" for its drop alone, or a number of time steps.
         options: settings; every step is converged at least to GRADIENT_RESIDUAL.
         progress: called with the phase, step number and largest motion [m].
 
@@ -83,7 +83,7 @@ def rollout(
         run = Run(model, options, progress, state, tape)
         run.refuse_intersections()
         run.set_reach(options.d_hat)
-        run.drop(None if until == "rest" else int(until))
+        run.drop(int(until) if until not in ("rest", "still") else None)
         if until == "rest":
             ended["at_rest"], ended["residual"] = run.polish()
         else:

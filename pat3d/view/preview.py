@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,12 +54,26 @@ def save_preview(
         elevation: of the camera above the horizon [deg].
     """
     panels = [("initial layout", scene_items(scene, initial=True)), ("settled", scene_items(scene))]
-    both = [item for _, items in panels for item in items]
-    camera = frame_items(both, aspect=width / height, azimuth=azimuth, elevation=elevation)
-    sheet = _Sheet(columns=2, rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11))
+    save_png(side_by_side(panels, width=width, height=height, azimuth=azimuth, elevation=elevation), path)
+
+
+def side_by_side(
+    panels: Sequence[tuple[str, list[Item]]],
+    *,
+    width: int = 800,
+    height: int = 600,
+    azimuth: float = AZIMUTH,
+    elevation: float = ELEVATION,
+) -> Image.Image:
+    """Captioned pictures in a row, seen by one camera that fits all; arguments as for `save_preview`."""
+    together = [item for _, items in panels for item in items]
+    camera = frame_items(together, aspect=width / height, azimuth=azimuth, elevation=elevation)
+    sheet = _Sheet(
+        columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11)
+    )  # fmt: skip
     for index, (caption, items) in enumerate(panels):
         sheet.put(index, render(items, camera=camera, width=width, height=height), caption)
-    save_png(sheet.image, path)
+    return sheet.image
 
 
 def save_picture(

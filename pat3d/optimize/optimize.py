@@ -1,0 +1,316 @@
+"""Simulation in the loop: the initial layout whose settled scene says what the relations say.
+
+    found = optimize(assets, relations, layout.poses)
+    found.poses0                # the layout to settle from
+    found.poses                 # at rest
+
+First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
+(pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
+through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
+loss, then the most robust certificate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pat3d.assets.asset import Asset
+from pat3d.errors import SimulationError, SpecError
+from pat3d.layout.predicates import RelationResult, check_relations
+from pat3d.optimize.loss import SemanticLoss, states
+from pat3d.optimize.placement import Placement
+from pat3d.optimize.refine import Epoch, refine
+from pat3d.optimize.starts import Start, make_starts
+from pat3d.scene import Pose, Relation, Scene, SceneObject, check_tree
+from pat3d.sim.model import ModelBuilder, poses_from_states
+from pat3d.sim.settle import SettleOptions, settle
+
+MARGIN_OF = 3
+"""Among equally good scenes, how many are compared by their certificates."""
+
+Progress = Callable[[str, int, float], None]
+"""Called with the phase ("settling", "settling starts", "epoch"), a step number, and its motion [m] or loss [m^2]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OptimizeOptions:
+    """Settings of the optimisation."""
+
+    epochs: int = 50
+    """Gradient steps at most; 0 for none."""
+    learning_rate: float = 1.0e-3
+    """Of Adam [m]."""
+    every: int = 10
+    """Frames between those that the loss is gathered from, besides the last."""
+    frames: int = 90
+    """Frames of a differentiated rollout at most; what falls has fallen by then, and heaps that creep on only add
+    noise."""
+    patience: int = 15
+    """Epochs without a lower loss that end the gradient steps."""
+    starts: int = 6
+    """Layouts settled together, the one as given among them; 1 for no global search."""
+    refined: int = 2
+    """How many of them gradients refine."""
+    relayout: bool = True
+    """Whether layouts with other seeds may be among the starts."""
+    seed: int = 0
+    """Of the random starts."""
+    settle: SettleOptions = field(default_factory=SettleOptions)
+    device: str = "cpu"
+
+    def __post_init__(self) -> None:
+        limits = {"epochs": 0, "every": 1, "frames": 1, "patience": 1, "starts": 1, "refined": 1, "seed": 0}
+        for name, least in limits.items():
+            if getattr(self, name) < least:
+                raise SpecError(f"{name} must be at least {least}, got {getattr(self, name)}.")
+        if not (np.isfinite(self.learning_rate) and self.learning_rate > 0.0):
+            raise SpecError(f"learning_rate must be positive, got {self.learning_rate}.")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trial:
+    """One layout and what it settles into."""
+
+    source: str
+    """"layout", "balanced", "shifted", "arranged anew" or "gradient"."""
+    poses0: Mapping[str, Pose]
+    """Intersection-free layout."""
+    poses: Mapping[str, Pose]
+    """At rest."""
+    at_rest: bool
+    """Whether the simulator met its tolerances."""
+    loss: float
+    """Semantic loss at rest [m^2]."""
+    results: tuple[RelationResult, ...]
+    """Every relation at rest."""
+
+    @property
+    def broken(self) -> tuple[RelationResult, ...]:
+        """Relations that do not hold."""
+        return tuple(result for result in self.results if not result.holds)
+
+    @property
+    def satisfied(self) -> bool:
+        """Everything holds, at rest."""
+        return self.at_rest and not self.broken
+
+    @property
+    def rank(self) -> tuple[int, bool, float]:
+        """The least is best."""
+        return len(self.broken), not self.at_rest, self.loss
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Optimized:
+    """The best layout found and how it was found."""
+
+    best: Trial
+    first: Trial
+    """The layout as given."""
+    skipped: bool
+    """Whether the layout as given satisfied everything already."""
+    trials: tuple[Trial, ...]
+    """Everything that was settled, the layout as given first."""
+    history: tuple[Epoch, ...]
+    """Gradient steps in order."""
+
+    @property
+    def poses0(self) -> Mapping[str, Pose]:
+        """The best initial layout."""
+        return self.best.poses0
+
+    @property
+    def poses(self) -> Mapping[str, Pose]:
+        """The best scene at rest."""
+        return self.best.poses
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether every relation holds in the best scene."""
+        return self.best.satisfied
+
+    def as_dict(self) -> dict:
+        """Plain data for report.json."""
+        return {
+            "skipped": self.skipped,
+            "satisfied": self.satisfied,
+            "source": self.best.source,
+            "loss_before": self.first.loss,
+            "loss_after": self.best.loss,
+            "broken": [str(result.relation) for result in self.best.broken],
+            "trials": [
+                {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest}
+                for one in self.trials
+            ],
+            "history": [
+                {"start": one.start, "epoch": one.epoch, "loss": one.loss, "broken": one.broken}
+                for one in self.history
+            ],
+        }  # fmt: skip
+
+
+def optimize(
+    assets: Mapping[str, Asset],
+    relations: tuple[Relation, ...],
+    poses0: Mapping[str, Pose],
+    *,
+    options: OptimizeOptions | None = None,
+    fixed: Collection[str] = (),
+    progress: Progress = lambda *_: None,
+) -> Optimized:
+    """Find an initial layout near `poses0` (or another one) that settles into what `relations` say.
+
+    Args:
+        assets: by object name.
+        relations: the scene tree and the lateral relations.
+        poses0: intersection-free layout of every object.
+        options: settings.
+        fixed: objects that never move.
+        progress: told what is going on.
+
+    Returns:
+        The best scene found; it may still lack some relations, which it lists.
+
+    Raises:
+        SpecError: relations or poses do not fit the assets.
+        SimulationError: the layout as given intersects or cannot be simulated.
+    """
+    options = options or OptimizeOptions()
+    check_tree(list(assets), relations)
+    missing = [name for name in (*assets, *fixed) if name not in poses0]
+    if missing:
+        raise SpecError(f'"{missing[0]}" has no initial pose. Poses given: {", ".join(poses0)}.')
+    search = _Search(assets, relations, poses0, options, frozenset(fixed), progress)
+    first = search.settled([Start(source="layout", poses=search.placement.poses, balance=0.0)], "settling")[0]
+    if first.satisfied or not search.placement.movable.any():
+        return Optimized(best=first, first=first, skipped=first.satisfied, trials=(first,), history=())
+    return search.run(first)
+
+
+def scene_after(scene: Scene, found: Optimized) -> Scene:
+    """`scene` with the layout and the poses at rest that were found."""
+    objects = tuple(
+        replace(obj, initial_pose=found.poses0[obj.name], pose=found.poses[obj.name]) for obj in scene.objects
+    )
+    return replace(scene, objects=objects)
+
+
+class _Search:
+    def __init__(
+        self,
+        assets: Mapping[str, Asset],
+        relations: tuple[Relation, ...],
+        poses0: Mapping[str, Pose],
+        options: OptimizeOptions,
+        fixed: frozenset[str],
+        progress: Progress,
+    ) -> None:
+        self.assets, self.relations, self.options, self.fixed = assets, relations, options, fixed
+        self.progress = progress
+        self.placement = Placement(assets, relations, poses0, fixed=fixed)
+
+    def run(self, first: Trial) -> Optimized:
+        """Other starts, then gradients where no start holds."""
+        options = self.options
+        trials = [first]
+        starts = make_starts(
+            self.placement, self.relations, count=options.starts, seed=options.seed, relayout=options.relayout
+        )
+        trials += self.settled(starts[1:], "settling starts")
+        history: list[Epoch] = []
+        if options.epochs and not any(trial.satisfied for trial in trials):
+            for trial in sorted(trials, key=lambda trial: trial.rank)[: options.refined]:
+                polished = self._refined(trial, len(history) and history[-1].start + 1, history)
+                trials += polished
+                if any(one.satisfied for one in polished):
+                    break
+        return Optimized(
+            best=self._best(trials), first=first, skipped=False, trials=tuple(trials), history=tuple(history)
+        )
+
+    def settled(self, starts: list[Start], phase: str) -> list[Trial]:
+        """What every start settles into; starts that cannot be simulated are left out, unless there is but one."""
+        if not starts:
+            return []
+        builder = ModelBuilder()
+        for start in starts:
+            builder.new_world()
+            for name, asset in self.assets.items():
+                builder.add_asset(asset, start.poses[name], fixed=name in self.fixed, label=name)
+        model = builder.finalize(self.options.device)
+        try:
+            found = settle(model, self.options.settle, lambda _, step, motion: self.progress(phase, step, motion))
+        except SimulationError:
+            if len(starts) == 1:
+                raise
+            return [trial for start in starts for trial in self._alone(start, phase)]
+        count = len(self.assets)
+        poses = poses_from_states(model, found.q)
+        return [
+            self._trial(start, poses[w * count : (w + 1) * count], bool(found.at_rest[w]))
+            for w, start in enumerate(starts)
+        ]
+
+    def _alone(self, start: Start, phase: str) -> list[Trial]:
+        try:
+            return self.settled([start], phase)
+        except SimulationError:
+            return []
+
+    def _trial(self, start: Start, settled: list[Pose], at_rest: bool) -> Trial:
+        poses = {
+            name: start.poses[name] if name in self.fixed else pose
+            for name, pose in zip(self.assets, settled, strict=True)
+        }
+        loss = SemanticLoss(self.assets, self.relations, start.poses)
+        return Trial(
+            source=start.source,
+            poses0=start.poses,
+            poses=poses,
+            at_rest=at_rest,
+            loss=float(loss(states(self.assets, poses))),
+            results=check_relations(self.relations, self.assets, poses),
+        )
+
+    def _refined(self, trial: Trial, number: int, history: list[Epoch]) -> list[Trial]:
+        """Gradient steps from one trial's layout; what its promising iterates settle into."""
+        placement = Placement(self.assets, self.relations, trial.poses0, fixed=self.fixed)
+        found: list[Trial] = []
+
+        def confirm(poses: Mapping[str, Pose]) -> bool:
+            start = Start(source="gradient", poses=poses, balance=0.0)
+            found.extend(self._alone(start, "settling"))
+            return bool(found) and found[-1].satisfied
+
+        options = self.options
+        best = refine(
+            placement, self.relations, confirm=confirm, start=number, history=history, progress=self.progress,
+            epochs=options.epochs, learning_rate=options.learning_rate, every=options.every, patience=options.patience,
+            frames=min(options.frames, options.settle.max_frames), settings=options.settle, device=options.device,
+        )  # fmt: skip
+        if not (found and found[-1].satisfied):
+            confirm(best)
+        return found
+
+    def _best(self, trials: list[Trial]) -> Trial:
+        """The best trial; ties are decided by how little friction suffices to hold the scene."""
+        ranked = sorted(trials, key=lambda trial: trial.rank)
+        tied = [trial for trial in ranked if trial.satisfied and trial.loss <= ranked[0].loss + 1e-9][:MARGIN_OF]
+        if len(tied) < 2:
+            return ranked[0]
+        from pat3d.check.certificate import smallest_friction
+
+        return min(tied, key=lambda trial: smallest_friction(self._scene(trial)))
+
+    def _scene(self, trial: Trial) -> Scene:
+        objects = tuple(
+            SceneObject(
+                name=name, asset=asset, pose=trial.poses[name], initial_pose=trial.poses0[name],
+                fixed=name in self.fixed,
+            )
+            for name, asset in self.assets.items()
+        )  # fmt: skip
+        return Scene(objects=objects, relations=self.relations, settling_friction=self.options.settle.friction)
