@@ -59,7 +59,7 @@ class SettleOptions:
     """Barrier activation distance at rest [m]; gaps end between a third of it and it."""
     friction_speed: float = 1.0e-3
     """Speed below which friction is not fully mobilised [m/s]."""
-    drop_residual: float = float("inf")
+    drop_residual: float = 1.0e-3
     """Unbalanced force over weight that ends a step of the drop; gradients need about 1e-9."""
     residual: float = 1.0e-6
     """Unbalanced force of any body at rest over its weight."""
@@ -209,9 +209,9 @@ class Run:
         self.lag_d_hat = self.potential.contact.d_hat
 
     def drop(self, frames: int | None = None) -> None:
-        """Artificial time steps until nothing moves faster than friction creeps, or exactly `frames` of them."""
+        """Artificial time steps until nothing moves but slowly, or exactly `frames` of them."""
         options, potential = self.options, self.potential
-        potential.friction.epsilon = epsilon = options.friction_speed * options.time_step
+        potential.friction.epsilon = options.friction_speed * options.time_step
         still = np.zeros(self.model.worlds, dtype=np.int64)
         while self.frames < (options.max_frames if frames is None else frames):
             active = (still < STILL_FRAMES) if frames is None else np.ones(self.model.worlds, dtype=bool)
@@ -225,7 +225,8 @@ class Run:
             )  # fmt: skip
             self.frames += 1
             self.trajectory.append(self.state().astype(np.float32))
-            still = np.where(move < 2.0 * epsilon, still + 1, 0)
+            # What still slides goes on with longer steps in the search for equilibrium.
+            still = np.where(move < 0.3 * options.d_hat, still + 1, 0)
             self.progress("settling", self.frames, float(move.max()))
 
     def reverses(self, change: NDArray[np.float64], last: NDArray[np.float64]) -> NDArray[np.bool_]:
