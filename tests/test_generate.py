@@ -213,8 +213,10 @@ def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
     command = [sys.executable, "-m", "pat3d", "generate", PROMPT, "--out", str(tmp_path / "scene")]
     path = os.pathsep.join([str(Path(pat3d.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path}
-    )
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path},
+        # A test run in the background inherits an ignored interrupt.
+        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
+    )  # fmt: skip
     end = time.monotonic() + 60
     while process.poll() is None and not any(tmp_path.iterdir()) and time.monotonic() < end:
         time.sleep(0.01)
