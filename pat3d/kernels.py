@@ -17,6 +17,7 @@ from pat3d.progress import Event, Progress, silent
 MODULES = (
     "pat3d.sim.energies.inertia",
     "pat3d.sim.energies.orthogonality",
+    "pat3d.sim.solvers.linear",
     "pat3d.sim.solvers.newton",
     "pat3d.sim.potential",
     "pat3d.sim.contact.intersection",

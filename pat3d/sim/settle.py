@@ -200,7 +200,7 @@ class Run:
     def slip(self) -> NDArray[np.float64]:
         """Largest friction displacement of any contact [m], shape (worlds,)."""
         self._slip.zero_()
-        self.potential.friction.largest_slip(self.q, self._slip)
+        self.potential.friction.largest_slip(self.q, self.potential.everywhere, self._slip)
         return self._slip.numpy().copy()
 
     def record_friction(self) -> None:

@@ -1,6 +1,6 @@
 # Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
-# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAssignmentType=false
 
 """Which primitives may come within the barrier's reach along a motion.
 
@@ -20,6 +20,9 @@ from pat3d.sim.model import Model
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
+LANES = 64
+"""Threads that share a pair of parts on a GPU."""
+
 
 @dataclass
 class Candidates:
@@ -30,7 +33,10 @@ class Candidates:
     """POINT_TRIANGLE, EDGE_EDGE or POINT_GROUND, shape (capacity,), int."""
     primitives: wp.array = field(init=False)
     """Vertex indices, shape (capacity,), vec4i."""
+    size: wp.array = field(init=False)
+    """Number of pairs, shape (1,), int; kernels over `capacity` threads end at it."""
     count: int = field(init=False, default=0)
+    """`size` on the host."""
 
     def __post_init__(self) -> None:
         model, device = self.model, self.model.device
@@ -41,9 +47,16 @@ class Candidates:
         self._part_high = wp.zeros(parts, dtype=wp.vec3d, device=device)
         self._close = wp.zeros(max(1, len(model.part_pairs)), dtype=wp.vec2i, device=device)
         self._counter = wp.zeros(1, dtype=int, device=device)
+        self.size = wp.zeros(1, dtype=int, device=device)
         self._outside = wp.zeros(1, dtype=int, device=device)
+        self._margin = wp.zeros(1, dtype=wp.float64, device=device)
         self._built = False
-        self._reserve(4096)
+        self._reserve(256)
+
+    @property
+    def capacity(self) -> int:
+        """Number of pairs there is room for; programs that launch on them must be recorded anew when it changes."""
+        return len(self.kind)
 
     def _reserve(self, capacity: int) -> None:
         self.kind = wp.zeros(capacity, dtype=int, device=self.model.device)
@@ -62,28 +75,43 @@ class Candidates:
             reach: barrier activation distance d_hat [m].
             skin: motion beyond the boxes that a rebuild leaves room for [m].
         """
-        if self._built and not self._left_boxes(start, end):
-            return
+        if self._built:
+            self._outside.zero_()
+            self.flag_outside(start, end, self._outside)
+            if not self._outside.numpy()[0]:
+                return
+        self.rebuild(start, end, reach, skin)
+
+    def flag_outside(self, start: wp.array, end: wp.array, flag: wp.array) -> None:
+        """Set flag[0] where a vertex moves out of its box between two positions [m]."""
+        wp.launch(
+            _outside_boxes, dim=len(self.model.vertex_rest), device=self.model.device,
+            inputs=[start, end, self._low, self._high, self._margin], outputs=[flag],
+        )  # fmt: skip
+
+    def rebuild(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
+        """Collect the pairs anew; arguments as of `cover`."""
         model = self.model
         close = self._prune(start, end, 0.5 * reach + skin)
-        self._inner = 0.5 * reach
+        self._margin.fill_(0.5 * reach)
+        lanes = LANES if wp.get_device(model.device).is_cuda else 1
         while True:
-            self._counter.zero_()
+            self.size.zero_()
             wp.launch(
                 _ground_candidates, dim=len(model.vertex_rest), device=model.device,
-                inputs=[model.vertex_body, model.body_dof, self._low, self._inner],
-                outputs=[self._counter, self.kind, self.primitives],
+                inputs=[model.vertex_body, model.body_dof, self._low, self._margin],
+                outputs=[self.size, self.kind, self.primitives],
             )  # fmt: skip
             wp.launch(
-                _pair_candidates, dim=close, device=model.device,
+                _pair_candidates, dim=(close, lanes), device=model.device,
                 inputs=[
-                    self._close, model.part_ranges, self._part_low, self._part_high,
+                    lanes, self._close, model.part_ranges, self._part_low, self._part_high,
                     model.edges, model.triangles, self._low, self._high,
                 ],
-                outputs=[self._counter, self.kind, self.primitives],
+                outputs=[self.size, self.kind, self.primitives],
             )  # fmt: skip
-            self.count = int(self._counter.numpy()[0])
-            if self.count <= len(self.kind):
+            self.count = int(self.size.numpy()[0])
+            if self.count <= self.capacity:
                 break
             self._reserve(2 * self.count)
         self._built = True
@@ -111,14 +139,6 @@ class Candidates:
         )  # fmt: skip
         return int(self._counter.numpy()[0])
 
-    def _left_boxes(self, start: wp.array, end: wp.array) -> bool:
-        self._outside.zero_()
-        wp.launch(
-            _outside_boxes, dim=len(self.model.vertex_rest), device=self.model.device,
-            inputs=[start, end, self._low, self._high, self._inner], outputs=[self._outside],
-        )  # fmt: skip
-        return bool(self._outside.numpy()[0])
-
 
 @wp.kernel
 def _vertex_boxes(
@@ -141,7 +161,7 @@ def _outside_boxes(
     end: wp.array(dtype=wp.vec3d),
     low: wp.array(dtype=wp.vec3d),
     high: wp.array(dtype=wp.vec3d),
-    margin: wp.float64,
+    margin: wp.array(dtype=wp.float64),
     # Out
     outside: wp.array(dtype=int),
 ):
@@ -149,7 +169,7 @@ def _outside_boxes(
     a = wp.min(start[v], end[v])
     b = wp.max(start[v], end[v])
     for i in range(3):
-        if a[i] - margin < low[v][i] or b[i] + margin > high[v][i]:
+        if a[i] - margin[0] < low[v][i] or b[i] + margin[0] > high[v][i]:
             outside[0] = 1
 
 
@@ -227,7 +247,7 @@ def _ground_candidates(
     body_dof: wp.array(dtype=int),
     # State in
     low: wp.array(dtype=wp.vec3d),
-    half_reach: wp.float64,
+    half_reach: wp.array(dtype=wp.float64),
     # Out
     counter: wp.array(dtype=int),
     kinds: wp.array(dtype=int),
@@ -235,7 +255,7 @@ def _ground_candidates(
 ):
     v = wp.tid()
     # One half of the reach is in the vertex's box; the ground has no box to hold the other.
-    if body_dof[vertex_body[v]] >= 0 and low[v][2] <= half_reach:
+    if body_dof[vertex_body[v]] >= 0 and low[v][2] <= half_reach[0]:
         _append(counter, kinds, primitives, POINT_GROUND, wp.vec4i(v, -1, -1, -1))
 
 
@@ -243,6 +263,8 @@ def _ground_candidates(
 def _points_against_faces(
     points: int,
     faces: int,
+    lane: int,
+    lanes: int,
     part_ranges: wp.array2d(dtype=int),
     part_low: wp.array(dtype=wp.vec3d),
     part_high: wp.array(dtype=wp.vec3d),
@@ -253,7 +275,7 @@ def _points_against_faces(
     kinds: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
 ):
-    for f in range(part_ranges[faces, 4], part_ranges[faces, 5]):
+    for f in range(part_ranges[faces, 4] + lane, part_ranges[faces, 5], lanes):
         t = triangles[f]
         a = wp.min(wp.min(low[t[0]], low[t[1]]), low[t[2]])
         b = wp.max(wp.max(high[t[0]], high[t[1]]), high[t[2]])
@@ -265,6 +287,7 @@ def _points_against_faces(
 
 @wp.kernel
 def _pair_candidates(
+    lanes: int,
     # Model
     close: wp.array(dtype=wp.vec2i),
     part_ranges: wp.array2d(dtype=int),
@@ -280,16 +303,16 @@ def _pair_candidates(
     kinds: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
 ):
-    pair = close[wp.tid()]
-    p = pair[0]
-    q = pair[1]
+    slot, lane = wp.tid()
+    p = close[slot][0]
+    q = close[slot][1]
     _points_against_faces(
-        p, q, part_ranges, part_low, part_high, triangles, low, high, counter, kinds, primitives
+        p, q, lane, lanes, part_ranges, part_low, part_high, triangles, low, high, counter, kinds, primitives
     )  # fmt: skip
     _points_against_faces(
-        q, p, part_ranges, part_low, part_high, triangles, low, high, counter, kinds, primitives
+        q, p, lane, lanes, part_ranges, part_low, part_high, triangles, low, high, counter, kinds, primitives
     )  # fmt: skip
-    for i in range(part_ranges[p, 2], part_ranges[p, 3]):
+    for i in range(part_ranges[p, 2] + lane, part_ranges[p, 3], lanes):
         e = edges[i]
         a = wp.min(low[e[0]], low[e[1]])
         b = wp.max(high[e[0]], high[e[1]])

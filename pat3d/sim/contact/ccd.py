@@ -34,11 +34,13 @@ def safe_step(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
         candidates: pairs that cover the motion.
         start: vertex positions [m], shape (vertices,), vec3d, without intersection.
         end: vertex positions [m] at step 1, shape (vertices,), vec3d.
-        step: fraction of the motion, lowered in place, shape (worlds,), float64.
+        step: fraction of the motion, lowered in place, shape (worlds,), float64; worlds at 0 are left out.
     """
     wp.launch(
-        _advance, dim=candidates.count, device=model.device,
-        inputs=[candidates.kind, candidates.primitives, model.vertex_body, model.body_world, start, end],
+        _advance, dim=candidates.capacity, device=model.device,
+        inputs=[
+            candidates.size, candidates.kind, candidates.primitives, model.vertex_body, model.body_world, start, end,
+        ],
         outputs=[step],
     )  # fmt: skip
 
@@ -55,6 +57,7 @@ def _distance(kind: int, a: wp.vec3d, b: wp.vec3d, c: wp.vec3d, d: wp.vec3d) -> 
 @wp.kernel
 def _advance(
     # Pairs
+    size: wp.array(dtype=int),
     kinds: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     # Model
@@ -67,12 +70,16 @@ def _advance(
     step: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
     kind = kinds[pair]
     index = primitives[pair]
     i = index[0]
     world = body_world[vertex_body[i]]
     one = wp.float64(1.0)
     limit = step[world]
+    if limit == wp.float64(0.0):
+        return
     if kind == POINT_GROUND:
         height = start[i][2]
         fall = height - end[i][2]

@@ -18,18 +18,30 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.model import Model
-from pat3d.sim.potential import Potential
+from pat3d.sim.potential import SKIN, Potential
+from pat3d.sim.program import Program
 from pat3d.sim.solvers.linear import DenseSolver
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
 BACKTRACKS = 60
-SUFFICIENT_DECREASE = 1.0e-4
+SUFFICIENT_DECREASE = wp.constant(wp.float64(1.0e-4))
 """Armijo constant."""
 
 UNRESOLVED = 1.0e-14
 """Decreases below the heaviest body's weight over this height [m] drown in the energy's rounding."""
+
+LONGEST_STEP = wp.constant(wp.float64(0.03))
+"""Motion of a vertex that a first trial may make [m]; the pairs along longer ones are many, and contact shortens
+them."""
+
+OUTSIDE = wp.constant(0)
+PENDING = wp.constant(1)
+RUNNING = wp.constant(2)
+"""What the first numbers of the status count: whether candidates must be collected anew, worlds that search, worlds
+that go on."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,21 +50,52 @@ class NewtonResult:
 
     converged: NDArray[np.bool_]
     """shape (worlds,)."""
+    stalled: NDArray[np.bool_]
+    """Worlds in which no step along the direction was both safe and downhill, shape (worlds,)."""
     iterations: NDArray[np.int64]
     """shape (worlds,)."""
 
 
 class Newton:
-    """Minimises a potential in place, all active worlds at once."""
+    """Minimises a potential in place, all active worlds at once.
+
+    Every world has its own step, convergence and kind of Hessian. All of it is decided on the device; the host reads
+    one array of counts a trial step.
+    """
 
     def __init__(self, potential: Potential):
         self.potential = potential
         self.model: Model = potential.model
-        self.solver = DenseSolver(self.model)
-        device = self.model.device
-        self._direction = wp.zeros((self.model.bodies, 4), dtype=wp.vec3d, device=device)
-        self._trial = wp.zeros_like(self._direction)
-        self._step = wp.zeros(self.model.worlds, dtype=wp.float64, device=device)
+        model, device = self.model, self.model.device
+        self.solver = DenseSolver(model)
+        self._q = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=device)
+        self._trial = wp.zeros_like(self._q)
+        self._direction = wp.zeros_like(self._q)
+        self._gradient, self._trial_gradient = wp.zeros_like(self._q), wp.zeros_like(self._q)
+        self._start = wp.zeros(len(model.vertex_rest), dtype=wp.vec3d, device=device)
+        self._end = wp.zeros_like(self._start)
+        self._hessian = potential._hessian
+
+        def number() -> wp.array:
+            return wp.zeros(model.worlds, dtype=wp.float64, device=device)
+
+        def flag() -> wp.array:
+            return wp.zeros(model.worlds, dtype=int, device=device)
+
+        self._energy, self._trial_energy = number(), number()
+        self._residual, self._trial_residual = number(), number()
+        self._slope, self._step, self._motion, self._fraction = number(), number(), number(), number()
+        self._exact, self._pending, self._safe, self._accepted, self._first = flag(), flag(), flag(), flag(), flag()
+        self._stalled, self._iterations = flag(), flag()
+        self._status = wp.zeros(3 + model.worlds, dtype=int, device=device)
+        self._running = self._status[3:]
+        self._tolerances = wp.zeros(3, dtype=wp.float64, device=device)
+        self._unresolved = wp.array(UNRESOLVED * model.weight, dtype=wp.float64, device=device)
+        self._capacities = 0, 0
+        self._programs = {
+            launches: Program(device, launches)
+            for launches in (self._begin, self._assemble, self._aim, self._try, self._give_up)
+        }
 
     def minimise(
         self,
@@ -75,61 +118,331 @@ class Newton:
                 energy differences vanish in rounding there.
             max_iterations: per world.
         """
-        potential = self.potential
+        wp.copy(self._q, q)
+        self._tolerances.assign(np.array([move_tolerance, residual_tolerance, exact_below]))
+        self._status.assign(np.concatenate([[0, 0, 0], active]).astype(np.int32))
+        self.potential.cover(q)
+        self._run(self._begin)
         running = active.copy()
-        stalled = np.zeros_like(active)
-        iterations = np.zeros(self.model.worlds, dtype=np.int64)
-        potential.cover(q)
         for _ in range(max_iterations):
-            gradient = potential.gradient(q)
-            residual = potential.residual(gradient)
-            exact = bool(np.all(residual[running] < exact_below))
-            direction = self.solver.direction(potential.hessian(q, exact), gradient, running)
-            slope = potential.per_world(np.einsum("bij,bij->b", gradient.numpy().reshape(-1, 4, 3), direction))
-            self._direction.assign(np.ascontiguousarray(direction))
-            _, motion = self._try(q, running.astype(np.float64))
-            running &= ~((motion < move_tolerance) & (residual < residual_tolerance))
             if not running.any():
                 break
-            iterations[running] += 1
-            failed = self._search(q, slope, residual, running, exact_below)
-            stalled |= failed
-            running &= ~failed
-            q.assign(self._trial)
-        return NewtonResult(converged=active & ~running & ~stalled, iterations=iterations)
+            self._run(self._assemble)
+            self.solver.factorise_and_solve(self._hessian, running)
+            self._run(self._aim)
+            running = self._search()
+        wp.copy(q, self._q)
+        stalled = self._stalled.numpy() != 0
+        return NewtonResult(
+            converged=active & ~running & ~stalled,
+            stalled=stalled,
+            iterations=self._iterations.numpy().astype(np.int64),
+        )
 
-    def _try(self, q: wp.array, step: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Put the state at `step` along the search curve into `_trial`; returns its safe fraction and motion [m]."""
-        self._step.assign(step)
-        wp.launch(
-            _along_curve, dim=self.model.bodies, device=self.model.device,
-            inputs=[self.model.body_world, q, self._direction, self._step], outputs=[self._trial],
-        )  # fmt: skip
-        return self.potential.safe_fraction(q, self._trial)
+    def _run(self, launches) -> None:
+        capacities = (self.potential.candidates.capacity, self.potential.friction.capacity)
+        if capacities != self._capacities:
+            self._capacities = capacities
+            for program in self._programs.values():
+                program.forget()
+        self._programs[launches].run()
 
-    def _search(self, q, slope, residual, running, exact_below) -> NDArray[np.bool_]:
-        """Backtrack until every running world decreases, into `_trial`; returns the worlds that cannot."""
-        potential = self.potential
-        step = running.astype(np.float64)
-        before = potential.value(q)
-        by_residual = (residual < exact_below) | (-slope < UNRESOLVED * self.model.weight)
-        pending = running.copy()
+    def _search(self) -> NDArray[np.bool_]:
+        """Backtrack until every running world decreases; returns the worlds that go on."""
         for _ in range(BACKTRACKS):
-            fraction, _ = self._try(q, step)
-            unsafe = pending & (fraction < 1.0)
-            if unsafe.any():
-                step[unsafe] *= 0.95 * fraction[unsafe]
-                continue
-            accepted = potential.value(self._trial) <= before + SUFFICIENT_DECREASE * step * slope
-            if np.any(pending & ~accepted & by_residual):
-                accepted |= by_residual & (potential.residual(potential.gradient(self._trial)) < residual)
-            pending &= ~accepted
-            if not pending.any():
-                return pending
-            step[pending] *= 0.5
-        step[pending] = 0.0
-        self._try(q, step)
-        return pending
+            self._run(self._try)
+            status = self._status.numpy()
+            if status[0]:
+                self.potential.candidates.rebuild(self._start, self._end, self.potential.contact.d_hat, SKIN)
+                self._run(self._try)
+                status = self._status.numpy()
+            if not status[1]:
+                return status[3:] != 0
+        self._run(self._give_up)
+        return self._status.numpy()[3:] != 0
+
+    def _begin(self) -> None:
+        """Energy, gradient and residual at the first state."""
+        potential = self.potential
+        self._stalled.zero_()
+        self._iterations.zero_()
+        self._direction.zero_()
+        potential.positions(self._q, self._start)
+        potential.evaluate(self._q, self._start, self._running, self._energy, self._gradient)
+        potential.measure_residual(self._gradient, self._residual)
+
+    def _assemble(self) -> None:
+        """The Newton system of every running world."""
+        wp.launch(
+            _choose_exact, dim=self.model.worlds, device=self.model.device,
+            inputs=[self._tolerances, self._residual], outputs=[self._exact],
+        )  # fmt: skip
+        self.potential.assemble(self._q, self._start, self._exact, self._running, self._hessian)
+        self.solver.set_right_side(self._hessian, self._gradient)
+
+    def _aim(self) -> None:
+        """A search from the full step, for every running world."""
+        self.solver.get_solution(self._direction)
+        wp.launch(
+            _start_search, dim=self.model.worlds, device=self.model.device,
+            inputs=[self._running], outputs=[self._pending, self._first, self._motion, self._slope],
+        )  # fmt: skip
+        wp.launch(
+            _slope, dim=self.model.bodies, device=self.model.device,
+            inputs=[self.model.body_world, self._gradient, self._direction], outputs=[self._slope],
+        )  # fmt: skip
+        wp.launch(
+            _linear_motion, dim=len(self.model.vertex_rest), device=self.model.device,
+            inputs=[self.model.vertex_rest, self.model.vertex_body, self.model.body_world, self._direction],
+            outputs=[self._motion],
+        )  # fmt: skip
+        wp.launch(
+            _first_step, dim=self.model.worlds, device=self.model.device, inputs=[self._motion], outputs=[self._step]
+        )  # fmt: skip
+
+    def _try(self) -> None:
+        """One trial of every pending world: accepted, shortened, or found to be converged."""
+        model, potential = self.model, self.potential
+        wp.launch(
+            _along_curve, dim=model.bodies, device=model.device,
+            inputs=[model.body_world, self._pending, self._q, self._direction, self._step], outputs=[self._trial],
+        )  # fmt: skip
+        potential.positions(self._trial, self._end)
+        potential.measure_motion(self._start, self._end, self._motion)
+        wp.launch(
+            _clear_status, dim=model.worlds, device=model.device,
+            inputs=[self._pending], outputs=[self._fraction, self._status],
+        )  # fmt: skip
+        potential.candidates.flag_outside(self._start, self._end, self._status)
+        safe_step(model, potential.candidates, self._start, self._end, self._fraction)
+        wp.launch(
+            _select_safe, dim=model.worlds, device=model.device,
+            inputs=[self._fraction, self._status], outputs=[self._safe],
+        )  # fmt: skip
+        potential.evaluate(self._trial, self._end, self._safe, self._trial_energy, self._trial_gradient)
+        potential.measure_residual(self._trial_gradient, self._trial_residual)
+        wp.launch(
+            _decide, dim=model.worlds, device=model.device,
+            inputs=[
+                self._tolerances, self._unresolved, self._slope, self._motion, self._fraction, self._trial_energy,
+                self._trial_residual, self._first, self._step, self._energy, self._residual, self._iterations,
+                self._pending, self._accepted, self._running, self._status,
+            ],
+        )  # fmt: skip
+        wp.launch(
+            _accept_bodies, dim=model.bodies, device=model.device,
+            inputs=[model.body_world, self._accepted, self._trial, self._trial_gradient],
+            outputs=[self._q, self._gradient],
+        )  # fmt: skip
+        wp.launch(
+            _accept_vertices, dim=len(model.vertex_rest), device=model.device,
+            inputs=[model.vertex_body, model.body_world, self._accepted, self._end], outputs=[self._start],
+        )  # fmt: skip
+
+    def _give_up(self) -> None:
+        """Worlds that still search have stalled."""
+        wp.launch(
+            _stall, dim=self.model.worlds, device=self.model.device,
+            inputs=[self._pending], outputs=[self._stalled, self._running],
+        )  # fmt: skip
+
+
+@wp.kernel
+def _choose_exact(
+    tolerances: wp.array(dtype=wp.float64),
+    residual: wp.array(dtype=wp.float64),
+    # Out
+    exact: wp.array(dtype=int),
+):
+    world = wp.tid()
+    exact[world] = int(residual[world] < tolerances[2])
+
+
+@wp.kernel
+def _start_search(
+    running: wp.array(dtype=int),
+    # Out
+    pending: wp.array(dtype=int),
+    first: wp.array(dtype=int),
+    motion: wp.array(dtype=wp.float64),
+    slope: wp.array(dtype=wp.float64),
+):
+    world = wp.tid()
+    pending[world] = running[world]
+    first[world] = 1
+    motion[world] = wp.float64(0.0)
+    slope[world] = wp.float64(0.0)
+
+
+@wp.kernel
+def _slope(
+    # Model
+    body_world: wp.array(dtype=int),
+    # State in
+    gradient: wp.array2d(dtype=wp.vec3d),
+    direction: wp.array2d(dtype=wp.vec3d),
+    # Out
+    slope: wp.array(dtype=wp.float64),
+):
+    body = wp.tid()
+    total = wp.float64(0.0)
+    for i in range(4):
+        total += wp.dot(gradient[body, i], direction[body, i])
+    wp.atomic_add(slope, body_world[body], total)
+
+
+@wp.kernel
+def _linear_motion(
+    # Model
+    vertex_rest: wp.array(dtype=wp.vec3d),
+    vertex_body: wp.array(dtype=int),
+    body_world: wp.array(dtype=int),
+    # State in
+    direction: wp.array2d(dtype=wp.vec3d),
+    # Out
+    motion: wp.array(dtype=wp.float64),
+):
+    v = wp.tid()
+    body = vertex_body[v]
+    move = direction[body, 0]
+    for k in range(3):
+        move += vertex_rest[v][k] * direction[body, 1 + k]
+    wp.atomic_max(motion, body_world[body], wp.length(move))
+
+
+@wp.kernel
+def _first_step(
+    motion: wp.array(dtype=wp.float64),
+    # Out
+    step: wp.array(dtype=wp.float64),
+):
+    world = wp.tid()
+    step[world] = wp.min(wp.float64(1.0), LONGEST_STEP / wp.max(motion[world], wp.float64(1.0e-300)))
+
+
+@wp.kernel
+def _clear_status(
+    pending: wp.array(dtype=int),
+    # Out
+    fraction: wp.array(dtype=wp.float64),
+    status: wp.array(dtype=int),
+):
+    world = wp.tid()
+    fraction[world] = wp.float64(pending[world])
+    if world == 0:
+        status[OUTSIDE] = 0
+        status[PENDING] = 0
+        status[RUNNING] = 0
+
+
+@wp.kernel
+def _select_safe(
+    fraction: wp.array(dtype=wp.float64),
+    status: wp.array(dtype=int),
+    # Out
+    safe: wp.array(dtype=int),
+):
+    world = wp.tid()
+    safe[world] = int(status[OUTSIDE] == 0 and fraction[world] >= wp.float64(1.0))
+
+
+@wp.kernel
+def _decide(
+    tolerances: wp.array(dtype=wp.float64),
+    unresolved: wp.array(dtype=wp.float64),
+    # Trial
+    slope: wp.array(dtype=wp.float64),
+    motion: wp.array(dtype=wp.float64),
+    fraction: wp.array(dtype=wp.float64),
+    trial_energy: wp.array(dtype=wp.float64),
+    trial_residual: wp.array(dtype=wp.float64),
+    # In and out
+    first: wp.array(dtype=int),
+    step: wp.array(dtype=wp.float64),
+    energy: wp.array(dtype=wp.float64),
+    residual: wp.array(dtype=wp.float64),
+    iterations: wp.array(dtype=int),
+    pending: wp.array(dtype=int),
+    accepted: wp.array(dtype=int),
+    running: wp.array(dtype=int),
+    status: wp.array(dtype=int),
+):
+    world = wp.tid()
+    accepted[world] = 0
+    if pending[world] != 0 and status[OUTSIDE] == 0:
+        if first[world] != 0 and motion[world] < tolerances[0] and residual[world] < tolerances[1]:
+            running[world] = 0
+            pending[world] = 0
+        else:
+            if first[world] != 0:
+                iterations[world] = iterations[world] + 1
+                first[world] = 0
+            if fraction[world] < wp.float64(1.0):
+                step[world] = wp.float64(0.95) * fraction[world] * step[world]
+            else:
+                limit = energy[world] + SUFFICIENT_DECREASE * step[world] * slope[world]
+                downhill = trial_energy[world] <= limit
+                if not downhill and (residual[world] < tolerances[2] or -slope[world] < unresolved[world]):
+                    downhill = trial_residual[world] < residual[world]
+                if downhill:
+                    accepted[world] = 1
+                    pending[world] = 0
+                    energy[world] = trial_energy[world]
+                    residual[world] = trial_residual[world]
+                else:
+                    step[world] = wp.float64(0.5) * step[world]
+    if pending[world] != 0:
+        wp.atomic_add(status, PENDING, 1)
+    if running[world] != 0:
+        wp.atomic_add(status, RUNNING, 1)
+
+
+@wp.kernel
+def _accept_bodies(
+    # Model
+    body_world: wp.array(dtype=int),
+    # State in
+    accepted: wp.array(dtype=int),
+    trial: wp.array2d(dtype=wp.vec3d),
+    trial_gradient: wp.array2d(dtype=wp.vec3d),
+    # Out
+    q: wp.array2d(dtype=wp.vec3d),
+    gradient: wp.array2d(dtype=wp.vec3d),
+):
+    body = wp.tid()
+    if accepted[body_world[body]] != 0:
+        for i in range(4):
+            q[body, i] = trial[body, i]
+            gradient[body, i] = trial_gradient[body, i]
+
+
+@wp.kernel
+def _accept_vertices(
+    # Model
+    vertex_body: wp.array(dtype=int),
+    body_world: wp.array(dtype=int),
+    # State in
+    accepted: wp.array(dtype=int),
+    end: wp.array(dtype=wp.vec3d),
+    # Out
+    start: wp.array(dtype=wp.vec3d),
+):
+    v = wp.tid()
+    if accepted[body_world[vertex_body[v]]] != 0:
+        start[v] = end[v]
+
+
+@wp.kernel
+def _stall(
+    pending: wp.array(dtype=int),
+    # Out
+    stalled: wp.array(dtype=int),
+    running: wp.array(dtype=int),
+):
+    world = wp.tid()
+    if pending[world] != 0:
+        stalled[world] = 1
+        running[world] = 0
 
 
 @wp.kernel
@@ -137,6 +450,7 @@ def _along_curve(
     # Model
     body_world: wp.array(dtype=int),
     # State in
+    pending: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     direction: wp.array2d(dtype=wp.vec3d),
     step: wp.array(dtype=wp.float64),
@@ -144,6 +458,10 @@ def _along_curve(
     trial: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
+    if pending[body_world[body]] == 0:
+        for k in range(4):
+            trial[body, k] = q[body, k]
+        return
     t = step[body_world[body]]
     half = wp.float64(0.5)
     trial[body, 0] = q[body, 0] + t * direction[body, 0]
