@@ -9,6 +9,8 @@ E(q) = inertia and gravity + affine stiffness + attachments + barrier contact + 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
@@ -20,6 +22,7 @@ from pat3d.sim.energies.friction import Friction
 from pat3d.sim.energies.inertia import Inertia
 from pat3d.sim.energies.orthogonality import Orthogonality
 from pat3d.sim.model import GRAVITY, Model
+from pat3d.sim.program import Mirror, Program
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
@@ -56,6 +59,9 @@ class Potential:
         self._end = wp.zeros_like(self._position)
         self._per_world = wp.zeros(model.worlds, dtype=wp.float64, device=device)
         self._no_inertia = wp.zeros(model.worlds, dtype=wp.float64, device=device)
+        self._counts = Mirror(wp.zeros(2, dtype=int, device=device))
+        self._recorded: Any = None
+        self._record = Program(device, self._launch_record)
         free, world = model.is_free, model.world_of
         weight = np.maximum(model.body_mass.numpy() * GRAVITY, LIGHTEST * model.weight[world])
         scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
@@ -81,9 +87,25 @@ class Potential:
         self.candidates.cover(position, position, self.contact.d_hat, SKIN)
 
     def record_friction(self, q: wp.array) -> None:
-        """Lag the friction's normal forces and directions at state q."""
-        self.cover(q)
-        self.friction.record(self.candidates, self._position, self.contact.d_hat, self.contact.stiffness)
+        """Lag the friction's normal forces and directions at state q; afterwards the candidates cover it."""
+        if q is not self._recorded:
+            self._recorded = q
+            self._record = Program(self.model.device, self._launch_record)
+        while True:
+            self._record.run((self.candidates.capacity, self.friction.capacity))
+            outside, size = self._counts.read()
+            if outside or not self.candidates.built:
+                self.candidates.rebuild(self._position, self._position, self.contact.d_hat, SKIN)
+            elif self.friction.fits(int(size)):
+                return
+
+    def _launch_record(self) -> None:
+        position = self.positions(self._recorded, self._position)
+        self._counts.array.zero_()
+        self.candidates.flag_outside(position, position, self._counts.array)
+        self.friction.launch_record(self.candidates, position, self.contact.reach, self.contact.stiffness)
+        wp.copy(self._counts.array, self.friction.size, dest_offset=1, count=1)
+        self._counts.fetch()
 
     def evaluate(
         self, q: wp.array, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array
@@ -104,6 +126,16 @@ class Potential:
         self.attachment.add_value(q, worlds, energy, gradient)
         self.contact.add_value(position, worlds, energy, gradient)
         self.friction.add_value(q, worlds, energy, gradient)
+
+    def evaluate_everywhere(self, q: wp.array, position: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """`evaluate` in all worlds."""
+        self.evaluate(q, position, self.everywhere, energy, gradient)
+
+    def evaluate_at_rest(self, q: wp.array, position: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """`evaluate` in all worlds without the pull of inertia."""
+        sigma, self.inertia.sigma = self.inertia.sigma, self._no_inertia
+        self.evaluate_everywhere(q, position, energy, gradient)
+        self.inertia.sigma = sigma
 
     def assemble(
         self, q: wp.array, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array
@@ -142,16 +174,13 @@ class Potential:
 
     def value(self, q: wp.array) -> NDArray[np.float64]:
         """E [J], shape (worlds,); candidates must cover q."""
-        self.evaluate(q, self.positions(q, self._position), self.everywhere, self._energy, self._gradient)
+        self.evaluate_everywhere(q, self.positions(q, self._position), self._energy, self._gradient)
         return self._energy.numpy().copy()
 
     def gradient(self, q: wp.array, inertia: bool = True) -> wp.array:
         """dE/dq [N, N m], shape (bodies, 4), vec3d; without inertia it is the unbalanced force at rest."""
-        sigma = self.inertia.sigma
-        if not inertia:
-            self.inertia.sigma = self._no_inertia
-        self.evaluate(q, self.positions(q, self._position), self.everywhere, self._energy, self._gradient)
-        self.inertia.sigma = sigma
+        evaluate = self.evaluate_everywhere if inertia else self.evaluate_at_rest
+        evaluate(q, self.positions(q, self._position), self._energy, self._gradient)
         return self._gradient
 
     def hessian(self, q: wp.array, exact: bool) -> wp.array:

@@ -1,10 +1,12 @@
-"""Fixed sequences of kernel launches, replayed without Python between them."""
+"""Fixed sequences of kernel launches, replayed without Python between them, and what the host reads of them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import warp as wp
+from numpy.typing import NDArray
 
 
 class Program:
@@ -17,23 +19,44 @@ class Program:
         """Of the kernels that `launches` launches; it must not read anything back."""
         self._device = wp.get_device(device)
         self._launches = launches
-        self._graph: wp.Graph | None = None
-        self._runs = 0
+        self._graph: Any = None
+        self._loaded = False
+        self._shape: Any = None
 
-    def run(self) -> None:
-        """Launch everything."""
-        self._runs += 1
-        # The first run may load modules, which must not happen while recording.
-        if self._runs == 1:
+    def run(self, shape: Any = None) -> None:
+        """Launch everything.
+
+        Args:
+            shape: whatever the recorded launches depend on besides the contents of arrays; a change records anew.
+        """
+        if not self._loaded:
+            # The first run may load modules, which must not happen while recording.
+            self._loaded = True
             self._launches()
             return
-        if self._graph is None:
+        if self._graph is None or shape != self._shape:
             with wp.ScopedCapture(self._device, force_module_load=False) as capture:
                 self._launches()
-            self._graph = capture.graph
-        assert self._graph is not None
+            self._graph, self._shape = capture.graph, shape
         wp.capture_launch(self._graph)
 
-    def forget(self) -> None:
-        """Record anew: an array was replaced or a number of threads has changed."""
-        self._graph = None
+
+class Mirror:
+    """A copy on the host of a device array, made by a program."""
+
+    def __init__(self, array: wp.array):
+        self.array = array
+        self._device = wp.get_device(array.device)
+        self._pinned = wp.empty_like(array, device="cpu", pinned=True) if self._device.is_cuda else array
+        self._view = self._pinned.numpy()
+
+    def fetch(self) -> None:
+        """Copy the array; part of a program."""
+        if self._device.is_cuda:
+            wp.copy(self._pinned, self.array)
+
+    def read(self) -> NDArray:
+        """What was fetched last; overwritten by the next fetch."""
+        if self._device.is_cuda:
+            wp.synchronize_stream(wp.get_stream(self._device))
+        return self._view

@@ -50,7 +50,8 @@ class Candidates:
         self.size = wp.zeros(1, dtype=int, device=device)
         self._outside = wp.zeros(1, dtype=int, device=device)
         self._margin = wp.zeros(1, dtype=wp.float64, device=device)
-        self._built = False
+        self.built = False
+        """Whether the boxes hold for the present reach."""
         self._reserve(256)
 
     @property
@@ -64,7 +65,7 @@ class Candidates:
 
     def invalidate(self) -> None:
         """Forget the boxes, so that the next `cover` rebuilds (the barrier's reach changed)."""
-        self._built = False
+        self.built = False
 
     def cover(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
         """Hold every pair that comes within `reach` while vertices move straight from `start` to `end`.
@@ -75,7 +76,7 @@ class Candidates:
             reach: barrier activation distance d_hat [m].
             skin: motion beyond the boxes that a rebuild leaves room for [m].
         """
-        if self._built:
+        if self.built:
             self._outside.zero_()
             self.flag_outside(start, end, self._outside)
             if not self._outside.numpy()[0]:
@@ -114,11 +115,11 @@ class Candidates:
             if self.count <= self.capacity:
                 break
             self._reserve(2 * self.count)
-        self._built = True
+        self.built = True
 
     def close_parts(self, position: wp.array) -> tuple[wp.array, int]:
         """Pairs of parts whose boxes overlap at vertex positions [m], vec2i, and how many of the array they fill."""
-        self._built = False
+        self.built = False
         return self._close, self._prune(position, position, 0.0)
 
     def _prune(self, start: wp.array, end: wp.array, margin: float) -> int:

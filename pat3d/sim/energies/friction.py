@@ -65,23 +65,29 @@ class Friction:
         self._normal = wp.zeros(capacity, dtype=wp.vec3d, device=device)
         self._force = wp.zeros(capacity, dtype=wp.float64, device=device)
 
-    def record(self, candidates: Candidates, position: wp.array, d_hat: float, stiffness: wp.array) -> None:
-        """Record normals, closest points and normal forces of the contacts at vertex positions [m]."""
+    def launch_record(self, candidates: Candidates, position: wp.array, reach: wp.array, stiffness: wp.array) -> None:
+        """Record normals, closest points and normal forces of the contacts at vertex positions [m]; part of a program.
+
+        Where `size` exceeds `capacity` afterwards, not all of them were.
+        """
         model = self.model
-        while True:
-            self.size.zero_()
-            wp.launch(
-                _record, dim=candidates.capacity, device=model.device,
-                inputs=[
-                    model.body_world, model.vertex_rest, model.vertex_body, stiffness, d_hat,
-                    candidates.size, candidates.kind, candidates.primitives, position,
-                ],
-                outputs=[self.size, self._bodies, self._coefficients, self._normal, self._force],
-            )  # fmt: skip
-            self.count = int(self.size.numpy()[0])
-            if self.count <= self.capacity:
-                return
-            self._reserve(2 * self.count)
+        self.size.zero_()
+        wp.launch(
+            _record, dim=candidates.capacity, device=model.device,
+            inputs=[
+                model.body_world, model.vertex_rest, model.vertex_body, stiffness, reach,
+                candidates.size, candidates.kind, candidates.primitives, position,
+            ],
+            outputs=[self.size, self._bodies, self._coefficients, self._normal, self._force],
+        )  # fmt: skip
+
+    def fits(self, size: int) -> bool:
+        """Take note that `size` contacts were found; without room for them, make it and return False."""
+        self.count = size
+        if size <= self.capacity:
+            return True
+        self._reserve(2 * size)
+        return False
 
     def _inputs(self, q: wp.array, worlds: wp.array) -> list:
         model = self.model
@@ -115,7 +121,7 @@ def _record(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    reach: wp.array(dtype=wp.float64),
     # State in
     size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
@@ -132,6 +138,7 @@ def _record(
     if pair >= size[0]:
         return
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    d_hat = reach[0]
     if contact.distance >= d_hat:
         return
     slot = wp.atomic_add(recorded, 0, 1)

@@ -12,6 +12,7 @@ symmetric parts of dA A^-1. Safety is checked on the straight segment to each po
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.model import Model
 from pat3d.sim.potential import SKIN, Potential
-from pat3d.sim.program import Program
+from pat3d.sim.program import Mirror, Program
 from pat3d.sim.solvers.linear import DenseSolver
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
@@ -68,10 +69,11 @@ class Newton:
         self.model: Model = potential.model
         model, device = self.model, self.model.device
         self.solver = DenseSolver(model)
-        self._q = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=device)
-        self._trial = wp.zeros_like(self._q)
-        self._direction = wp.zeros_like(self._q)
-        self._gradient, self._trial_gradient = wp.zeros_like(self._q), wp.zeros_like(self._q)
+        self.q = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=device)
+        """Present state, shape (bodies, 4), vec3d."""
+        self._trial = wp.zeros_like(self.q)
+        self._direction = wp.zeros_like(self.q)
+        self._gradient, self._trial_gradient = wp.zeros_like(self.q), wp.zeros_like(self.q)
         self._start = wp.zeros(len(model.vertex_rest), dtype=wp.vec3d, device=device)
         self._end = wp.zeros_like(self._start)
         self._hessian = potential._hessian
@@ -86,15 +88,18 @@ class Newton:
         self._residual, self._trial_residual = number(), number()
         self._slope, self._step, self._motion, self._fraction = number(), number(), number(), number()
         self._exact, self._pending, self._safe, self._accepted, self._first = flag(), flag(), flag(), flag(), flag()
-        self._stalled, self._iterations = flag(), flag()
-        self._status = wp.zeros(3 + model.worlds, dtype=int, device=device)
-        self._running = self._status[3:]
+        self._status = wp.zeros(3 + 3 * model.worlds, dtype=int, device=device)
+        self._running, self._iterations, self._stalled = (
+            self._status[3 + k * model.worlds : 3 + (k + 1) * model.worlds] for k in range(3)
+        )
+        self._mirror = Mirror(self._status)
+        self._active = flag()
         self._tolerances = wp.zeros(3, dtype=wp.float64, device=device)
         self._unresolved = wp.array(UNRESOLVED * model.weight, dtype=wp.float64, device=device)
-        self._capacities = 0, 0
+        self._settings: tuple | None = None
         self._programs = {
             launches: Program(device, launches)
-            for launches in (self._begin, self._assemble, self._aim, self._try, self._give_up)
+            for launches in (self._begin, self._assemble, self._first_try, self._try, self._give_up)
         }
 
     def minimise(
@@ -106,6 +111,7 @@ class Newton:
         residual_tolerance: float = np.inf,
         exact_below: float = 0.0,
         max_iterations: int = 200,
+        covered: bool = False,
     ) -> NewtonResult:
         """Minimise the potential of the active worlds.
 
@@ -117,59 +123,65 @@ class Newton:
             exact_below: residual under which the Hessian is exact and progress is judged by the residual, because
                 energy differences vanish in rounding there.
             max_iterations: per world.
+            covered: whether the candidates of the potential are known to cover q.
         """
-        wp.copy(self._q, q)
-        self._tolerances.assign(np.array([move_tolerance, residual_tolerance, exact_below]))
-        self._status.assign(np.concatenate([[0, 0, 0], active]).astype(np.int32))
-        self.potential.cover(q)
+        if q is not self.q:
+            wp.copy(self.q, q)
+        settings = (move_tolerance, residual_tolerance, exact_below, active.tobytes())
+        if settings != self._settings:
+            self._settings = settings
+            self._tolerances.assign(np.array(settings[:3]))
+            self._active.assign(active.astype(np.int32))
+        if not covered:
+            self.potential.cover(self.q)
         self._run(self._begin)
-        running = active.copy()
+        status, running = self._mirror.read(), active
         for _ in range(max_iterations):
             if not running.any():
                 break
             self._run(self._assemble)
             self.solver.factorise_and_solve(self._hessian, running)
-            self._run(self._aim)
-            running = self._search()
-        wp.copy(q, self._q)
-        stalled = self._stalled.numpy() != 0
+            status = self._search()
+            running = self._worlds(status, 0) != 0
+        if q is not self.q:
+            wp.copy(q, self.q)
+        stalled = self._worlds(status, 2) != 0
         return NewtonResult(
             converged=active & ~running & ~stalled,
             stalled=stalled,
-            iterations=self._iterations.numpy().astype(np.int64),
+            iterations=self._worlds(status, 1).astype(np.int64),
         )
 
-    def _run(self, launches) -> None:
-        capacities = (self.potential.candidates.capacity, self.potential.friction.capacity)
-        if capacities != self._capacities:
-            self._capacities = capacities
-            for program in self._programs.values():
-                program.forget()
-        self._programs[launches].run()
+    def _worlds(self, status: NDArray[np.int32], row: int) -> NDArray[np.int32]:
+        first = 3 + row * self.model.worlds
+        return status[first : first + self.model.worlds]
 
-    def _search(self) -> NDArray[np.bool_]:
-        """Backtrack until every running world decreases; returns the worlds that go on."""
+    def _run(self, launches: Callable[[], None]) -> None:
+        self._programs[launches].run((self.potential.candidates.capacity, self.potential.friction.capacity))
+
+    def _search(self) -> NDArray[np.int32]:
+        """Backtrack until every running world decreases; returns the status."""
+        self._run(self._first_try)
         for _ in range(BACKTRACKS):
-            self._run(self._try)
-            status = self._status.numpy()
+            status = self._mirror.read()
             if status[0]:
                 self.potential.candidates.rebuild(self._start, self._end, self.potential.contact.d_hat, SKIN)
-                self._run(self._try)
-                status = self._status.numpy()
-            if not status[1]:
-                return status[3:] != 0
+            elif not status[1]:
+                return status
+            self._run(self._try)
         self._run(self._give_up)
-        return self._status.numpy()[3:] != 0
+        return self._mirror.read()
 
     def _begin(self) -> None:
         """Energy, gradient and residual at the first state."""
         potential = self.potential
-        self._stalled.zero_()
-        self._iterations.zero_()
+        self._status.zero_()
+        wp.copy(self._running, self._active)
         self._direction.zero_()
-        potential.positions(self._q, self._start)
-        potential.evaluate(self._q, self._start, self._running, self._energy, self._gradient)
+        potential.positions(self.q, self._start)
+        potential.evaluate(self.q, self._start, self._running, self._energy, self._gradient)
         potential.measure_residual(self._gradient, self._residual)
+        self._mirror.fetch()
 
     def _assemble(self) -> None:
         """The Newton system of every running world."""
@@ -177,11 +189,11 @@ class Newton:
             _choose_exact, dim=self.model.worlds, device=self.model.device,
             inputs=[self._tolerances, self._residual], outputs=[self._exact],
         )  # fmt: skip
-        self.potential.assemble(self._q, self._start, self._exact, self._running, self._hessian)
+        self.potential.assemble(self.q, self._start, self._exact, self._running, self._hessian)
         self.solver.set_right_side(self._hessian, self._gradient)
 
-    def _aim(self) -> None:
-        """A search from the full step, for every running world."""
+    def _first_try(self) -> None:
+        """Start the search of every running world with the full step."""
         self.solver.get_solution(self._direction)
         wp.launch(
             _start_search, dim=self.model.worlds, device=self.model.device,
@@ -199,13 +211,14 @@ class Newton:
         wp.launch(
             _first_step, dim=self.model.worlds, device=self.model.device, inputs=[self._motion], outputs=[self._step]
         )  # fmt: skip
+        self._try()
 
     def _try(self) -> None:
         """One trial of every pending world: accepted, shortened, or found to be converged."""
         model, potential = self.model, self.potential
         wp.launch(
             _along_curve, dim=model.bodies, device=model.device,
-            inputs=[model.body_world, self._pending, self._q, self._direction, self._step], outputs=[self._trial],
+            inputs=[model.body_world, self._pending, self.q, self._direction, self._step], outputs=[self._trial],
         )  # fmt: skip
         potential.positions(self._trial, self._end)
         potential.measure_motion(self._start, self._end, self._motion)
@@ -232,12 +245,13 @@ class Newton:
         wp.launch(
             _accept_bodies, dim=model.bodies, device=model.device,
             inputs=[model.body_world, self._accepted, self._trial, self._trial_gradient],
-            outputs=[self._q, self._gradient],
+            outputs=[self.q, self._gradient],
         )  # fmt: skip
         wp.launch(
             _accept_vertices, dim=len(model.vertex_rest), device=model.device,
             inputs=[model.vertex_body, model.body_world, self._accepted, self._end], outputs=[self._start],
         )  # fmt: skip
+        self._mirror.fetch()
 
     def _give_up(self) -> None:
         """Worlds that still search have stalled."""
@@ -245,6 +259,7 @@ class Newton:
             _stall, dim=self.model.worlds, device=self.model.device,
             inputs=[self._pending], outputs=[self._stalled, self._running],
         )  # fmt: skip
+        self._mirror.fetch()
 
 
 @wp.kernel
