@@ -15,9 +15,15 @@ class Program:
     A launch from Python costs 20 us, a replayed one 0.3 us on a CPU and 2 us on a GPU.
     """
 
-    def __init__(self, device: str, launches: Callable[[], None]):
-        """Of the kernels that `launches` launches; it must not read anything back."""
-        self._device = wp.get_device(device)
+    def __init__(self, device: str, launches: Callable[[], None], torch: Any = None):
+        """Of the kernels that `launches` launches; it must not read anything back.
+
+        Args:
+            device: of the kernels.
+            launches: launches them.
+            torch: the module, where `launches` also calls it on Warp's stream.
+        """
+        self._device, self._torch = wp.get_device(device), torch
         self._launches = launches
         self._graph: Any = None
         self._loaded = False
@@ -35,10 +41,31 @@ class Program:
             self._launches()
             return
         if self._graph is None or shape != self._shape:
+            self._graph, self._shape = self._record(), shape
+        self._graph()
+
+    def _record(self) -> Callable[[], None]:
+        if self._torch is None or not self._device.is_cuda:
             with wp.ScopedCapture(self._device, force_module_load=False) as capture:
                 self._launches()
-            self._graph, self._shape = capture.graph, shape
-        wp.capture_launch(self._graph)
+            graph: Any = capture.graph
+            return lambda: wp.capture_launch(graph)
+        # Torch's allocator must know of the recording.
+        torch, stream = self._torch, wp.stream_to_torch(wp.get_stream(self._device))
+        graph = torch.cuda.CUDAGraph()
+        with torch.cuda.stream(stream):
+            torch.cuda.synchronize()
+            with (
+                torch.cuda.graph(graph, stream=stream, capture_error_mode="thread_local"),
+                wp.ScopedCapture(self._device, force_module_load=False, external=True),
+            ):
+                self._launches()
+
+        def replay() -> None:
+            with torch.cuda.stream(stream):
+                graph.replay()
+
+        return replay
 
 
 class Mirror:

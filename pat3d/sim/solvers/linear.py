@@ -11,6 +11,8 @@ a hundred times too short, turned eigenvalues keep Newton's pace.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -37,8 +39,11 @@ class DenseSolver:
         self._solution = wp.zeros(shape, dtype=wp.float64, device=model.device)
         self._free = wp.array(model.free_bodies, dtype=int, device=model.device)
         self._uneven = bool(np.any(model.free_bodies * 12 < model.unknowns))
-        self._on_gpu = wp.get_device(model.device).is_cuda
-        self._torch = _import_torch() if self._on_gpu else None
+        self.on_gpu = wp.get_device(model.device).is_cuda
+        """Whether torch solves the systems, with all worlds at once."""
+        self.torch = _import_torch() if self.on_gpu else None
+        self.unsolved = wp.zeros(model.worlds, dtype=int, device=model.device)
+        """Nonzero for worlds whose Hessian `launch_solve` found not to be positive definite, shape (worlds,), int."""
 
     def set_right_side(self, hessian: wp.array, gradient: wp.array) -> None:
         """Take b = -gradient, shape (bodies, 4), vec3d, and complete the systems of worlds with fewer free bodies."""
@@ -70,8 +75,8 @@ class DenseSolver:
         Raises:
             SimulationError: a system is not finite.
         """
-        if self._torch is not None:
-            self._solve_on_gpu(self._torch, hessian, active)
+        if self.torch is not None:
+            self._solve_some(self.torch, hessian, np.flatnonzero(active), _solve_convex_batch)
             return
         matrices, right, solution = hessian.numpy(), self._right.numpy(), self._solution.numpy()
         for w in np.flatnonzero(active):
@@ -102,22 +107,32 @@ class DenseSolver:
         self.get_solution(x)
         return x.numpy().reshape(-1, 4, 3).copy()
 
-    def _solve_on_gpu(self, torch: Any, hessian: wp.array, active: NDArray[np.bool_]) -> None:
-        with torch.cuda.stream(wp.stream_to_torch(wp.get_stream(self.model.device))):
+    def launch_solve(self, hessian: wp.array) -> None:
+        """Solve the systems of all worlds on the GPU, or mark them as unsolved; part of a program."""
+        with self._on_stream() as torch:
             matrix, right, solution = (wp.to_torch(x) for x in (hessian, self._right, self._solution))
-            chosen = None
-            if not active.all():
-                chosen = torch.as_tensor(np.flatnonzero(active), device=matrix.device)
-                matrix, right = matrix[chosen], right[chosen]
             factor, info = torch.linalg.cholesky_ex(matrix)
-            x = torch.cholesky_solve(right[..., None], factor)[..., 0]
-            if bool(info.any()):
-                bad = info.nonzero()[:, 0]
-                x[bad] = _turn_eigenvalues(torch, matrix[bad], right[bad])
-            if chosen is None:
-                solution.copy_(x)
-            else:
-                solution[chosen] = x
+            solution.copy_(torch.cholesky_solve(right[..., None], factor)[..., 0])
+            wp.to_torch(self.unsolved).copy_(info)
+
+    def turn_eigenvalues(self, hessian: wp.array) -> None:
+        """Solve the unsolved worlds with their negative eigenvalues made positive."""
+        worlds = np.flatnonzero(self.unsolved.numpy())
+        self._solve_some(self.torch, hessian, worlds, _turn_eigenvalues)
+        self.unsolved.zero_()
+
+    def _solve_some(self, torch: Any, hessian: wp.array, worlds: NDArray[np.int64], solve_batch: Any) -> None:
+        with self._on_stream():
+            matrix, right, solution = (wp.to_torch(x) for x in (hessian, self._right, self._solution))
+            chosen = torch.as_tensor(worlds, device=matrix.device)
+            solution[chosen] = solve_batch(torch, matrix[chosen], right[chosen])
+
+    @contextmanager
+    def _on_stream(self) -> Iterator[Any]:
+        """Torch, working on the stream of Warp."""
+        torch: Any = self.torch
+        with torch.cuda.stream(wp.stream_to_torch(wp.get_stream(self.model.device))):
+            yield torch
 
 
 def _import_torch() -> Any:
@@ -128,6 +143,16 @@ def _import_torch() -> Any:
             "simulating on a GPU needs torch for its linear systems: pip install 'pat3d[gpu]'."
         ) from error
     return torch
+
+
+def _solve_convex_batch(torch: Any, matrix: Any, right: Any) -> Any:
+    """Batched solution, negative eigenvalues made positive, shape (worlds, unknowns)."""
+    factor, info = torch.linalg.cholesky_ex(matrix)
+    x = torch.cholesky_solve(right[..., None], factor)[..., 0]
+    if bool(info.any()):
+        bad = info.nonzero()[:, 0]
+        x[bad] = _turn_eigenvalues(torch, matrix[bad], right[bad])
+    return x
 
 
 def _turn_eigenvalues(torch: Any, matrix: Any, right: Any) -> Any:

@@ -41,8 +41,12 @@ them."""
 OUTSIDE = wp.constant(0)
 PENDING = wp.constant(1)
 RUNNING = wp.constant(2)
+UNSOLVED = wp.constant(3)
 """What the first numbers of the status count: whether candidates must be collected anew, worlds that search, worlds
-that go on."""
+that go on, and worlds whose Hessian was not positive definite. A trial decides nothing while the first or the last is
+not zero."""
+
+COUNTS = 4
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,9 +92,9 @@ class Newton:
         self._residual, self._trial_residual = number(), number()
         self._slope, self._step, self._motion, self._fraction = number(), number(), number(), number()
         self._exact, self._pending, self._safe, self._accepted, self._first = flag(), flag(), flag(), flag(), flag()
-        self._status = wp.zeros(3 + 3 * model.worlds, dtype=int, device=device)
+        self._status = wp.zeros(COUNTS + 3 * model.worlds, dtype=int, device=device)
         self._running, self._iterations, self._stalled = (
-            self._status[3 + k * model.worlds : 3 + (k + 1) * model.worlds] for k in range(3)
+            self._status[COUNTS + k * model.worlds : COUNTS + (k + 1) * model.worlds] for k in range(3)
         )
         self._mirror = Mirror(self._status)
         self._active = flag()
@@ -98,8 +102,8 @@ class Newton:
         self._unresolved = wp.array(UNRESOLVED * model.weight, dtype=wp.float64, device=device)
         self._settings: tuple | None = None
         self._programs = {
-            launches: Program(device, launches)
-            for launches in (self._begin, self._assemble, self._first_try, self._try, self._give_up)
+            launches: Program(device, launches, torch=self.solver.torch if launches == self._iterate else None)
+            for launches in (self._begin, self._assemble, self._first_try, self._iterate, self._try, self._give_up)
         }
 
     def minimise(
@@ -139,8 +143,12 @@ class Newton:
         for _ in range(max_iterations):
             if not running.any():
                 break
-            self._run(self._assemble)
-            self.solver.factorise_and_solve(self._hessian, running)
+            if self.solver.on_gpu and running.all():
+                self._run(self._iterate)
+            else:
+                self._run(self._assemble)
+                self.solver.factorise_and_solve(self._hessian, running)
+                self._run(self._first_try)
             status = self._search()
             running = self._worlds(status, 0) != 0
         if q is not self.q:
@@ -153,7 +161,7 @@ class Newton:
         )
 
     def _worlds(self, status: NDArray[np.int32], row: int) -> NDArray[np.int32]:
-        first = 3 + row * self.model.worlds
+        first = COUNTS + row * self.model.worlds
         return status[first : first + self.model.worlds]
 
     def _run(self, launches: Callable[[], None]) -> None:
@@ -161,12 +169,15 @@ class Newton:
 
     def _search(self) -> NDArray[np.int32]:
         """Backtrack until every running world decreases; returns the status."""
-        self._run(self._first_try)
         for _ in range(BACKTRACKS):
             status = self._mirror.read()
-            if status[0]:
+            if status[int(UNSOLVED)]:
+                self.solver.turn_eigenvalues(self._hessian)
+                self._run(self._first_try)
+                continue
+            if status[int(OUTSIDE)]:
                 self.potential.candidates.rebuild(self._start, self._end, self.potential.contact.d_hat, SKIN)
-            elif not status[1]:
+            elif not status[int(PENDING)]:
                 return status
             self._run(self._try)
         self._run(self._give_up)
@@ -192,12 +203,20 @@ class Newton:
         self.potential.assemble(self.q, self._start, self._exact, self._running, self._hessian)
         self.solver.set_right_side(self._hessian, self._gradient)
 
+    def _iterate(self) -> None:
+        """A whole iteration up to its first trial, where all worlds run."""
+        self._assemble()
+        self.solver.launch_solve(self._hessian)
+        self._first_try()
+
     def _first_try(self) -> None:
         """Start the search of every running world with the full step."""
+        self._status[int(UNSOLVED) : int(UNSOLVED) + 1].zero_()
         self.solver.get_solution(self._direction)
         wp.launch(
             _start_search, dim=self.model.worlds, device=self.model.device,
-            inputs=[self._running], outputs=[self._pending, self._first, self._motion, self._slope],
+            inputs=[self._running, self.solver.unsolved],
+            outputs=[self._pending, self._first, self._motion, self._slope, self._status],
         )  # fmt: skip
         wp.launch(
             _slope, dim=self.model.bodies, device=self.model.device,
@@ -276,13 +295,17 @@ def _choose_exact(
 @wp.kernel
 def _start_search(
     running: wp.array(dtype=int),
+    unsolved: wp.array(dtype=int),
     # Out
     pending: wp.array(dtype=int),
     first: wp.array(dtype=int),
     motion: wp.array(dtype=wp.float64),
     slope: wp.array(dtype=wp.float64),
+    status: wp.array(dtype=int),
 ):
     world = wp.tid()
+    if running[world] != 0 and unsolved[world] != 0:
+        wp.atomic_add(status, UNSOLVED, 1)
     pending[world] = running[world]
     first[world] = 1
     motion[world] = wp.float64(0.0)
@@ -358,7 +381,7 @@ def _select_safe(
     safe: wp.array(dtype=int),
 ):
     world = wp.tid()
-    safe[world] = int(status[OUTSIDE] == 0 and fraction[world] >= wp.float64(1.0))
+    safe[world] = int(status[OUTSIDE] + status[UNSOLVED] == 0 and fraction[world] >= wp.float64(1.0))
 
 
 @wp.kernel
@@ -384,7 +407,7 @@ def _decide(
 ):
     world = wp.tid()
     accepted[world] = 0
-    if pending[world] != 0 and status[OUTSIDE] == 0:
+    if pending[world] != 0 and status[OUTSIDE] + status[UNSOLVED] == 0:
         if first[world] != 0 and motion[world] < tolerances[0] and residual[world] < tolerances[1]:
             running[world] = 0
             pending[world] = 0
