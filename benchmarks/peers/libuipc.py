@@ -12,9 +12,9 @@ import sys
 import time
 
 import numpy as np
-from uipc import Engine, Logger, Scene, World
+from uipc import Engine, Logger, Scene, World, view
 from uipc.constitution import AffineBodyConstitution
-from uipc.geometry import ground, label_surface, trimesh, view
+from uipc.geometry import ground, label_surface, trimesh
 
 
 def main() -> None:
