@@ -143,7 +143,7 @@ class Newton:
         for _ in range(max_iterations):
             if not running.any():
                 break
-            if self.solver.on_gpu and running.all():
+            if self.solver.on_gpu and self.model.worlds == 1:
                 self._run(self._iterate)
             else:
                 self._run(self._assemble)
@@ -204,7 +204,7 @@ class Newton:
         self.solver.set_right_side(self._hessian, self._gradient)
 
     def _iterate(self) -> None:
-        """A whole iteration up to its first trial, where all worlds run."""
+        """A whole iteration up to its first trial, of a single world: torch records no batched solves."""
         self._assemble()
         self.solver.launch_solve(self._hessian)
         self._first_try()
