@@ -16,6 +16,10 @@ from numpy.typing import NDArray
 from pat3d.sim.model import Model
 from pat3d.sim.settle import Progress, Run, SettleOptions, StepRecord, Tape
 
+GRADIENT_RESIDUAL = 1.0e-9
+"""Unbalanced force over weight to which every step of a differentiated run is converged: the gradient takes it for zero
+at the end of a step, and rounding leaves a few 1e-10."""
+
 Call = tuple[NDArray[np.float64], dict[str, Any]]
 """Weight of inertia per world and tolerances with which a step was run."""
 
@@ -67,7 +71,8 @@ class RecordedRun(Run):
         self.potential.friction.coefficient.assign(friction)
 
     def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NDArray[np.float64]:
-        """As `Run.step`; forgets the state that it starts from unless that is to be kept."""
+        """As `Run.step`, but tightly converged; forgets the state that it starts from unless that is to be kept."""
+        tolerances["residual_tolerance"] = min(tolerances["residual_tolerance"], GRADIENT_RESIDUAL)
         number, tape = self.steps, self.tape
         assert tape is not None
         reference = self.reference[active]

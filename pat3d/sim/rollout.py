@@ -26,10 +26,6 @@ from pat3d.sim.model import Model
 from pat3d.sim.recording import RecordedRun, Recording
 from pat3d.sim.settle import Progress, SettleOptions
 
-GRADIENT_RESIDUAL = 1.0e-9
-"""Unbalanced force over weight to which the steps of a differentiated rollout are converged."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rollout:
     """A finished rollout."""
@@ -74,7 +70,7 @@ def rollout(
         friction: coefficient of every contact [-], one or shape (worlds,); that of `options` where None.
         mass: of every body [kg], its second moment in proportion, shape (worlds, bodies); the model's where None.
         d_hat: barrier activation distance of the drop [m], a scalar; that of `options` where None.
-        options: settings; every step is converged at least to GRADIENT_RESIDUAL.
+        options: settings; every step is converged to rounding all the same, which `drop_residual` need not ask for.
         progress: called with the phase, step number and largest motion [m].
 
     Raises:
@@ -98,14 +94,10 @@ def rollout(
         _parameter("mass", own_mass if mass is None else mass, shape[:2]),
         _parameter("d_hat", options.d_hat if d_hat is None else d_hat, ()),
     )
-    if inputs[3].requires_grad and float(inputs[3]) <= max(options.final_d_hat, options.friction_speed * options.time_step):
+    reach = float(inputs[3].detach())
+    if inputs[3].requires_grad and reach <= max(options.final_d_hat, options.friction_speed * options.time_step):
         raise SimulationError("d_hat has a gradient only above final_d_hat and above friction_speed * time_step.")
-    options = replace(
-        options,
-        drop_residual=min(options.drop_residual, GRADIENT_RESIDUAL),
-        residual=min(options.residual, 10 * GRADIENT_RESIDUAL),
-        d_hat=float(inputs[3]),
-    )
+    options = replace(options, d_hat=reach)
     if mass is not None:
         model = _with_mass(model, inputs[2].detach().cpu().numpy().reshape(-1))
     run = RecordedRun(
