@@ -10,7 +10,7 @@ a difference compares, or where they differ in a decision (how many steps, where
 kink inside the difference interval. Such intervals are not used. A direction without usable intervals is reported as
 not smooth, and the picture shows what the derivative does there.
 
-python benchmarks/gradients.py [--quick] [--device cuda] [--only WORD] [--picture benchmarks/pictures/gradients.png]
+python -m benchmarks.gradients [--quick] [--device cuda] [--only WORD] [--picture benchmarks/pictures/gradients.png]
 """
 
 from __future__ import annotations
@@ -18,22 +18,20 @@ from __future__ import annotations
 import argparse
 import math
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 import warp as wp
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import ConvexPart
-from pat3d.assets.hull import convex_part
-from pat3d.assets.mass import mass_properties
+from benchmarks.gradient_cases import Case, cases
+from benchmarks.gradient_plot import save_picture
 from pat3d.kernels import quiet_warp
-from pat3d.scene import Pose
 from pat3d.sim.contact.distance import contact_at
-from pat3d.sim.model import Model, ModelBuilder
+from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.recording import Recording
 from pat3d.sim.rollout import rollout
@@ -44,156 +42,9 @@ wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 STEPS = 1.6e-5 * 0.25 ** np.arange(6)
 """h; perturbations are h [m] of positions, 0.2 h of affine entries, and parameters times 1 + 1000 h."""
 DIRECTIONS = 3
+UNRESOLVED = 1e-2
+"""Relative disagreement of neighbouring estimates beyond which a direction counts as not smooth."""
 TARGETS = {"step": 1e-6, "frames": 1e-4, "rest": 1e-4}
-
-
-# The cases
-
-
-def box(x: float, y: float, z: float) -> NDArray[np.float64]:
-    """Corners [m], shape (8, 3)."""
-    return np.array([[i, j, k] for i in (-x / 2, x / 2) for j in (-y / 2, y / 2) for k in (-z / 2, z / 2)])
-
-
-def ball(radius: float, points: int = 40) -> NDArray[np.float64]:
-    """Points evenly on a sphere [m], shape (points, 3)."""
-    z = 1 - (2 * np.arange(points) + 1) / points
-    turn = np.pi * (1 + math.sqrt(5)) * np.arange(points)
-    ring = np.sqrt(1 - z**2)
-    return radius * np.stack([ring * np.cos(turn), ring * np.sin(turn), z], axis=1)
-
-
-def bowl(radius: float, thick: float, sectors: int = 8, rings: int = 3) -> list[ConvexPart]:
-    """Convex parts of a spherical shell up to 60 degrees from its lowest point, which is over the origin."""
-    parts = []
-    polar = np.linspace(0, np.pi / 3, rings + 1)
-    around = np.linspace(0, 2 * np.pi, sectors + 1)
-    for a, b in zip(polar[:-1], polar[1:], strict=True):
-        for c, d in zip(around[:-1], around[1:], strict=True):
-            rays = [(math.sin(p) * math.cos(t), math.sin(p) * math.sin(t), -math.cos(p)) for p in (a, b) for t in (c, d)]
-            rays = np.unique(np.round(rays, 12), axis=0)
-            parts.append(convex_part(np.concatenate([radius * rays, (radius + thick) * rays]) + (0, 0, radius + thick)))
-    return parts
-
-
-def placed(x: float, y: float, z: float, *, turn: tuple[float, float, float] = (0, 0, 0)) -> Pose:
-    """A pose whose rotation vector is `turn` [rad]."""
-    angle = math.sqrt(sum(t * t for t in turn))
-    axis = [t / max(angle, 1e-300) * math.sin(angle / 2) for t in turn]
-    return Pose(position=(x, y, z), quat_wxyz=(math.cos(angle / 2), *axis))
-
-
-def add(builder: ModelBuilder, points: NDArray[np.float64], pose: Pose, *, fixed: bool = False) -> int:
-    """Add the hull of `points`, of the density of wood."""
-    part = convex_part(points)
-    solid = mass_properties(part.vertices, part.faces, density=500.0)
-    return builder.add_body(
-        [part], mass=solid.mass, volume=solid.volume, centre=np.array(solid.centre_of_mass),
-        second_moment=solid.second_moment, pose=pose, fixed=fixed,
-    )  # fmt: skip
-
-
-def one_box() -> ModelBuilder:
-    """A box a millimetre over the ground, tilted by 5e-3."""
-    builder = ModelBuilder()
-    add(builder, box(0.1, 0.08, 0.06), placed(0, 0, 0.0312, turn=(4e-3, 3e-3, 0.2)))
-    return builder
-
-
-def stack(count: int) -> Callable[[], ModelBuilder]:
-    """Boxes on one another, each tilted by 5e-3 and turned about the vertical."""
-
-    def build() -> ModelBuilder:
-        builder = ModelBuilder()
-        for k in range(count):
-            size = (0.1, 0.08, 0.06) if k % 2 == 0 else (0.08, 0.1, 0.06)
-            tilt = 5e-3 * np.array([math.cos(2.0 * k + 0.7), math.sin(2.0 * k + 0.7)])
-            add(builder, box(*size), placed(0.004 * k, 0.003 * k, 0.0312 + 0.0617 * k, turn=(*tilt, 0.2 + 0.4 * k)))
-        return builder
-
-    return build
-
-
-def balls_in_bowl() -> ModelBuilder:
-    """Three polyhedral balls released on the wall of a bowl."""
-    builder = ModelBuilder()
-    parts = bowl(0.12, 0.012)
-    builder.add_body(
-        parts, mass=1.0, volume=1e-3, centre=np.zeros(3), second_moment=1e-3 * np.eye(3), pose=Pose(), fixed=True
-    )
-    for k, angle in enumerate((0.3, 2.4, 4.6)):
-        reach = 0.12 - 0.038
-        place = reach * np.array([math.sin(0.6) * math.cos(angle), math.sin(0.6) * math.sin(angle), -math.cos(0.6)])
-        add(builder, ball(0.03), placed(*(place + (0, 0, 0.132)), turn=(0.3 * k, 0.2, 0.5 * k)))
-    return builder
-
-
-def incline(angle: float = 0.35) -> ModelBuilder:
-    """A block on a fixed slope of 20 degrees, tilted against it by 5e-3."""
-    builder = ModelBuilder()
-    wedge = np.array([[x, y, z] for y in (-0.3, 0.3) for x, z in ((0, 0), (2.4, 0), (0, 2.4 * math.tan(angle)))])
-    add(builder, wedge, Pose(), fixed=True)
-    place = np.array([0.4, 0, 2.0 * math.tan(angle)]) + 0.0209 * np.array([math.sin(angle), 0, math.cos(angle)])
-    add(builder, box(0.06, 0.06, 0.04), placed(*place, turn=(2e-3, angle + 4e-3, 2e-3)))
-    return builder
-
-
-def hung_rod() -> ModelBuilder:
-    """A rod hung at one end, aslant, from an arm of a block that slides on the ground."""
-    builder = ModelBuilder()
-    block = add(builder, box(0.2, 0.2, 0.1), placed(0, 0, 0.0509, turn=(3e-3, 4e-3, 0.1)))
-    rod = add(builder, box(0.2, 0.03, 0.03), placed(0.25, 0, 0.18, turn=(0.1, 0.2, 0.0)))
-    builder.add_attachment(rod, np.array([-0.1, 0.0, 0.0]), block, np.array([0.15, 0.0, 0.15]))
-    return builder
-
-
-def aligned_boxes() -> ModelBuilder:
-    """Two boxes with exactly parallel faces: every direction changes the closest features."""
-    builder = ModelBuilder()
-    add(builder, box(0.1, 0.1, 0.06), placed(0, 0, 0.0305))
-    add(builder, box(0.1, 0.1, 0.06), placed(0, 0, 0.0911))
-    return builder
-
-
-@dataclass(frozen=True, kw_only=True)
-class Case:
-    """One row of the table."""
-
-    name: str
-    build: Callable[[], ModelBuilder]
-    until: int | str
-    friction: float = 0.3
-    by: str = "q0"
-    """What is varied: q0, friction, mass or d_hat."""
-    quick: bool = False
-
-    @property
-    def kind(self) -> str:
-        return "rest" if self.until == "rest" else "step" if self.until == 1 else "frames"
-
-
-def cases() -> list[Case]:
-    scenes: list[tuple[str, Callable[[], ModelBuilder], float, bool]] = [
-        ("box", one_box, 0.3, True),
-        ("stack of 2", stack(2), 0.3, True),
-        ("stack of 4", stack(4), 0.3, False),
-        ("3 balls in a bowl", balls_in_bowl, 0.3, False),
-        ("block slides (mu 0.3, slope 0.36)", incline, 0.3, True),
-        ("block sticks (mu 0.5, slope 0.36)", incline, 0.5, True),
-        ("rod hung from a block", hung_rod, 0.3, False),
-    ]
-    rows = []
-    for until in (1, 60, "rest"):
-        for name, build, mu, quick in scenes:
-            # What slides never rests.
-            if until != "rest" or not name.startswith("block slides"):
-                rows.append(Case(name=name, build=build, until=until, friction=mu, quick=quick and until != "rest"))
-    for by in ("friction", "mass", "d_hat"):
-        for until in (1, 60):
-            rows.append(Case(name="stack of 2", build=stack(2), until=until, by=by, quick=until == 1))
-            rows.append(Case(name=scenes[4][0], build=incline, until=until, by=by))
-    rows.append(Case(name="parallel boxes", build=aligned_boxes, until=1, quick=True))
-    return rows
 
 
 # Which contacts touch how
@@ -275,7 +126,7 @@ class Outcome:
     """h of every chosen estimate, nan where not smooth."""
     one_sided: float
     """Largest difference between forward and backward differences where not smooth, relative as the errors."""
-    curve: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+    curve: tuple[NDArray, NDArray, NDArray]
     """h, and forward and backward differences over the adjoint's derivative, in one direction."""
     seconds: float
     time_steps: int
@@ -285,10 +136,11 @@ def measure(case: Case, device: str) -> Outcome:
     """Differentiate a case both ways."""
     begun = time.perf_counter()
     rng = np.random.default_rng(1)
+    sizes = STEPS * case.finer
     count = DIRECTIONS if case.by in ("q0", "mass") else 1
     # World 0 is the case itself, then come direction, h, and the sign of the perturbation.
-    shifts = np.array([0.0, *(sign * h for _ in range(count) for h in STEPS for sign in (1, -1))])
-    which = np.array([0, *np.repeat(np.arange(count), 2 * len(STEPS))])
+    shifts = np.array([0.0, *(sign * h for _ in range(count) for h in sizes for sign in (1, -1))])
+    which = np.array([0, *np.repeat(np.arange(count), 2 * len(sizes))])
     worlds = len(shifts)
     model = case.build().finalize(device, worlds)
     bodies = model.bodies // worlds
@@ -310,14 +162,15 @@ def measure(case: Case, device: str) -> Outcome:
         target += shifts * directions[which]
     weights = torch.from_numpy(rng.normal(size=(2, bodies, 12)) * free[:, None])
 
-    def run(model: Model, chosen: slice) -> tuple[torch.Tensor, dict[str, torch.Tensor], NDArray[np.uint64]]:
+    def run(model: Model, chosen: slice) -> tuple[torch.Tensor, dict[str, Any], NDArray[np.uint64]]:
         given = {"q0": q0[chosen], "friction": friction[chosen], "mass": mass[chosen], "d_hat": d_hat[chosen][0]}
-        tensors = {key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()}
+        tensors: dict[str, Any] = {key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()}
         done = rollout(model, until=case.until, options=SettleOptions(), **tensors)
         middle = done.frames[len(done.frames) // 2]
         losses = (middle * weights[0] + done.q_end * weights[1]).sum(dim=(1, 2))
+        record: Any = done.frames.grad_fn
         states = done.frames.detach().numpy().reshape(len(done.frames), -1, 4, 3)
-        return losses, tensors, signatures(model, done.frames.grad_fn.record, states)
+        return losses, tensors, signatures(model, record.record, states)
 
     if case.by == "d_hat":
         # Worlds of one rollout share it.
@@ -332,9 +185,9 @@ def measure(case: Case, device: str) -> Outcome:
     gradient = (gradient if case.by == "d_hat" else gradient[0]).numpy()
     analytic = np.array([float((gradient * direction).sum()) for direction in directions])
     values = losses.detach().numpy()
-    sides = values[1:].reshape(count, len(STEPS), 2)
-    smooth = np.all(marks[1:] == marks[0], axis=1).reshape(count, len(STEPS), 2).all(axis=2)
-    forward, back = (sides[..., 0] - values[0]) / STEPS, (values[0] - sides[..., 1]) / STEPS
+    sides = values[1:].reshape(count, len(sizes), 2)
+    smooth = np.all(marks[1:] == marks[0], axis=1).reshape(count, len(sizes), 2).all(axis=2)
+    forward, back = (sides[..., 0] - values[0]) / sizes, (values[0] - sides[..., 1]) / sizes
     central = (forward + back) / 2
     fourth = (16 * central[:, 1:] - central[:, :-1]) / 15
     scale = np.sqrt(np.mean(analytic**2))
@@ -342,16 +195,16 @@ def measure(case: Case, device: str) -> Outcome:
     for d in range(count):
         usable = smooth[d, :-1] & smooth[d, 1:]
         apart = np.where(usable[:-1] & usable[1:], np.abs(np.diff(fourth[d])), np.inf)
-        if np.isfinite(apart).any():
+        if np.isfinite(apart).any() and apart.min() < UNRESOLVED * scale:
             best = int(np.argmin(apart))
-            errors[d], steps[d] = abs(fourth[d, best] - analytic[d]) / scale, STEPS[best]
+            errors[d], steps[d] = abs(fourth[d, best] - analytic[d]) / scale, sizes[best]
             spread = max(spread, apart[best] / scale)
         else:
             one_sided = max(one_sided, np.abs(forward[d] - back[d]).min() / scale)
     shown = int(np.argmax(np.isnan(errors)))
     return Outcome(
         case=case, errors=errors, spread=spread, steps=steps, one_sided=one_sided,
-        curve=(STEPS, forward[shown] / analytic[shown], back[shown] / analytic[shown]),
+        curve=(sizes, forward[shown] / analytic[shown], back[shown] / analytic[shown]),
         seconds=time.perf_counter() - begun, time_steps=marks.shape[1] // 2,
     )  # fmt: skip
 
@@ -364,15 +217,17 @@ def row(outcome: Outcome) -> str:
     verdict = f"not smooth in {rough} of {len(outcome.errors)}: sides differ by {outcome.one_sided:.1e}" if rough else (
         "ok" if np.nanmax(outcome.errors) <= TARGETS[case.kind] else "ABOVE TARGET"
     )  # fmt: skip
+    chosen = np.nanmin(outcome.steps) if rough < len(outcome.errors) else math.nan
     until = f"{outcome.time_steps} to rest" if case.until == "rest" else str(case.until)
     return (
         f"{case.name:<34} {case.by:<9} {until:>11} {error:>9} {outcome.spread:>9.1e} "
-        f"{np.nanmin(outcome.steps) if rough < len(outcome.errors) else math.nan:>8.0e} {outcome.seconds:>6.1f}  {verdict}"
+        f"{chosen:>8.0e} {outcome.seconds:>6.1f}  {verdict}"
     )
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    """Measure, print the table, and draw the picture that is asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a subset, under a minute")
     parser.add_argument("--only", default="", help="cases whose name contains this")
     parser.add_argument("--device", default="cpu")
@@ -385,12 +240,15 @@ def main() -> None:
         if (case.quick or not arguments.quick) and arguments.only in case.name:
             outcomes.append(measure(case, arguments.device))
             print(row(outcomes[-1]), flush=True)
+    if arguments.picture:
+        save_picture(outcomes, TARGETS, arguments.picture)
     for kind, label in (("step", "single steps"), ("frames", "60 frames"), ("rest", "to rest")):
         group = [outcome for outcome in outcomes if outcome.case.kind == kind]
         errors = np.concatenate([outcome.errors for outcome in group] or [np.array([])])
         if np.isfinite(errors).any():
             print(
-                f"{label}: worst {np.nanmax(errors):.1e} (target {TARGETS[kind]:.0e}), median {np.nanmedian(errors):.1e}; "
+                f"{label}: worst {np.nanmax(errors):.1e} (target {TARGETS[kind]:.0e}), "
+                f"median {np.nanmedian(errors):.1e}; "
                 f"{int(np.isnan(errors).sum())} of {len(errors)} directions not smooth"
             )
 

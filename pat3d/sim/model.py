@@ -243,7 +243,9 @@ class ModelBuilder:
         built = bodies[-1]["world"] + 1
         copies = 1 if worlds is None else worlds
         if copies < 1 or (worlds is not None and built > 1):
-            raise SimulationError(f"only one world can be copied, at least once; got {built} worlds and {worlds} copies.")
+            raise SimulationError(
+                f"only one world can be copied, at least once; got {built} worlds and {worlds} copies."
+            )
         fixed = np.array([body["fixed"] for body in bodies])
         mass = np.array([body["mass"] for body in bodies])
         body_world = np.array([body["world"] for body in bodies], dtype=np.int32)

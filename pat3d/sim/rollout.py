@@ -26,6 +26,7 @@ from pat3d.sim.model import Model
 from pat3d.sim.recording import RecordedRun, Recording
 from pat3d.sim.settle import Progress, SettleOptions
 
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rollout:
     """A finished rollout."""

@@ -1,6 +1,7 @@
 """Worlds that are copies of one another."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ def built(worlds: int) -> ModelBuilder:
     return builder
 
 
-def contents(model: Model) -> dict[str, object]:
+def contents(model: Model) -> dict[str, Any]:
     values = {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}
     return {name: value.numpy() if isinstance(value, wp.array) else value for name, value in values.items()}
 

@@ -1,5 +1,7 @@
 """Rollouts that keep few states, and gradients by physical parameters."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 import torch
@@ -8,7 +10,6 @@ from pat3d.errors import SimulationError
 from pat3d.scene import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions
 from tests.sim.builders import add_hull, box_points
 
 
@@ -54,7 +55,8 @@ def test_recomputed_steps_change_no_bit_of_the_gradient(until, every):
         q0, mu = states(model), torch.tensor(0.3, requires_grad=True)
         run = rollout(model, q0, until=until, every=stride, friction=mu)
         # The same frames count in both: the first, and of the rest those that both keep.
-        assert run.steps[0] == 0 and np.all(np.diff(run.steps)[:-1] == stride)
+        assert run.steps[0] == 0
+        assert np.all(np.diff(run.steps)[:-1] == stride)
         shared = np.flatnonzero((run.steps % every == 0) | (run.steps == run.steps[-1]))
         weight = torch.from_numpy(np.random.default_rng(0).normal(size=(len(shared), *q0.shape)))
         (run.frames[shared] * weight).sum().backward()
@@ -62,7 +64,8 @@ def test_recomputed_steps_change_no_bit_of_the_gradient(until, every):
     (frames, by_state, by_friction, last), (few, few_by_state, few_by_friction, few_last) = found
     assert last == few_last > 6
     np.testing.assert_array_equal(few, frames)
-    assert torch.equal(few_by_state, by_state) and bool(by_state.any())
+    assert bool(by_state.any())
+    assert torch.equal(few_by_state, by_state)
     assert torch.equal(few_by_friction, by_friction)
 
 
@@ -95,10 +98,12 @@ def test_parameters_have_the_gradient_of_central_differences(name, scene, until)
     direction = value * (1.0 if value.ndim == 0 else rng.normal(size=value.shape) * model.is_free)
 
     def loss(parameter: torch.Tensor) -> torch.Tensor:
-        return (rollout(model, q0, until=until, **{name: parameter}).q_end * weight).sum()
+        given: Any = {name: parameter}
+        return (rollout(model, q0, until=until, **given).q_end * weight).sum()
 
     parameter = torch.tensor(value, requires_grad=True)
     loss(parameter).backward()
+    assert parameter.grad is not None
     analytic = float((parameter.grad * torch.from_numpy(np.asarray(direction))).sum())
     # Fourth order in the step.
     with torch.no_grad():
@@ -116,7 +121,8 @@ def test_a_heavier_twin_slides_the_same_way():
     mass = torch.tensor(model.body_mass.numpy()[None], requires_grad=True)
     run = rollout(model, states(model).detach(), until=4, mass=mass)
     run.q_end[0, 1, 0].backward()
-    assert mass.grad is not None and mass.grad[0, 0] == 0
+    assert mass.grad is not None
+    assert mass.grad[0, 0] == 0
     slid = abs(float((run.q_end - run.frames[1])[0, 1, 0].detach()))
     assert slid > 1e-3
     assert abs(float(mass.grad[0, 1] * mass[0, 1].detach())) < 1e-2 * slid
@@ -131,7 +137,8 @@ def test_worlds_have_their_own_friction():
     stuck, sliding = slid.detach().numpy()
     assert abs(stuck) < 5 * 3e-5 < 2e-3 < sliding
     slid.sum().backward()
-    assert friction.grad is not None and float(friction.grad[1]) < -1e-2
+    assert friction.grad is not None
+    assert float(friction.grad[1]) < -1e-2
     assert abs(float(friction.grad[0])) < 1e-2 * abs(float(friction.grad[1]))
 
 
