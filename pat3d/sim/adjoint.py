@@ -1,104 +1,137 @@
 """The backward pass through recorded time steps.
 
-A step from q_n to q ends where the gradient F(q, q_n) of its potential vanishes, so by the implicit function theorem
-dq/dq_n = -H^-1 dF/dq_n with the exact Hessian H = dF/dq. Backward, with an adjoint l of q:
+A step from q_n to q ends where the gradient F(q, q_n, theta) of its potential vanishes, so by the implicit function
+theorem dq/dq_n = -H^-1 dF/dq_n with the exact Hessian H = dF/dq. Backward, with an adjoint l of q:
 
-    H w = l,    l_n = sigma M w - d(w . F_friction)/dq_n
+    H w = l,    l_n = sigma M w - d(w . F_friction)/dq_n,    dL/dtheta -= w . dF/dtheta
 
-(the paper prints the factor of H^-1 inverted; finite differences refute that form).
+(the paper prints the factor of H^-1 inverted; finite differences refute that form). Where friction counts from an
+anchor, its share d(w . F)/dq_ref waits until the pass reaches the step at whose start the anchor was set.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.energies.contact_reach import pull_back_reach
 from pat3d.sim.energies.friction_lag import pull_back_lag
-from pat3d.sim.model import Model
-from pat3d.sim.potential import Potential
-from pat3d.sim.settle import SettleOptions, StepRecord, Tape, barrier_stiffness
-from pat3d.sim.solvers.linear import DenseSolver
+from pat3d.sim.model import GRAVITY
+from pat3d.sim.recording import Recording, Replay
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gradients:
+    """Derivatives of a loss."""
+
+    q0: NDArray[np.float64]
+    """By the first state, shape (bodies, 4, 3); zero for fixed bodies."""
+    friction: NDArray[np.float64]
+    """By the coefficient of every world, shape (worlds,)."""
+    mass: NDArray[np.float64]
+    """By the mass of every body, its second moment in proportion [1/kg], shape (bodies,); zero for fixed bodies."""
+    d_hat: float
+    """By the barrier activation distance of the drop [1/m]; zero unless asked for."""
 
 
 def backward(
-    model: Model, options: SettleOptions, tape: Tape, losses: Mapping[int, NDArray[np.float64]]
-) -> NDArray[np.float64]:
-    """Gradient of a loss with respect to the first state of a recorded run.
+    record: Recording, states: NDArray[np.float64], losses: NDArray[np.float64], *, d_hat: bool = False
+) -> Gradients:
+    """Gradient of a loss of a recorded run.
 
     Args:
-        model: the worlds of the run.
-        options: settings of the run.
-        tape: states and steps of the run.
-        losses: derivative of the loss with respect to recorded states by their index, shape (bodies, 4, 3) each.
-
-    Returns:
-        Derivative with respect to the first state, shape (bodies, 4, 3); zero for fixed bodies.
+        record: of the run.
+        states: its kept states, shape (kept, bodies, 4, 3).
+        losses: derivative of the loss with respect to each, of the same shape.
+        d_hat: whether its derivative is wanted.
     """
-    pass_ = _Backward(model, options)
-    adjoints = [np.zeros_like(tape.states[0]) for _ in tape.states]
-    for index, gradient in losses.items():
-        adjoints[index] += gradient
-    for k in range(len(tape.steps) - 1, -1, -1):
-        pass_.step(tape, k, adjoints)
-    return np.where(pass_.free[:, None, None], adjoints[0], 0.0)
+    pass_ = _Backward(record, states, d_hat)
+    pass_.adjoint += losses[-1]
+    for index in range(len(record.kept) - 2, -1, -1):
+        pass_.stretch(index)
+        pass_.adjoint += losses[index]
+    return Gradients(
+        q0=np.where(pass_.free, pass_.adjoint, 0.0),
+        friction=pass_.friction,
+        mass=np.where(record.model.is_free, pass_.mass, 0.0),
+        d_hat=float(pass_.reach.numpy().sum()),
+    )
 
 
 class _Backward:
-    def __init__(self, model: Model, options: SettleOptions):
-        self.model = model
-        self.potential = Potential(model)
-        self.potential.contact.stiffness.assign(barrier_stiffness(model))
-        self.potential.friction.coefficient.fill_(options.friction)
-        self.solver = DenseSolver(model)
-        self.world, self.free = model.world_of, model.is_free
-        mass = np.zeros((model.bodies, 4, 4))
-        mass[:, 0, 0] = model.body_mass.numpy()
-        mass[:, 1:, 1:] = model.body_moment.numpy()
-        self.mass = mass
+    def __init__(self, record: Recording, states: NDArray[np.float64], d_hat: bool):
+        self.record, self.states, self.model, self.with_d_hat = record, states, record.model, d_hat
+        self.replay = Replay(record)
+        self.potential = self.replay.run.potential
+        self.solver = self.replay.run.newton.solver
+        model = self.model
+        self.world, self.free = model.world_of, model.is_free[:, None, None]
+        self.body_mass = model.body_mass.numpy()
+        self.mass_matrix = np.zeros((model.bodies, 4, 4))
+        self.mass_matrix[:, 0, 0] = self.body_mass
+        self.mass_matrix[:, 1:, 1:] = model.body_moment.numpy()
+        self.adjoint = np.zeros((model.bodies, 4, 3))
+        self.anchored = np.zeros((model.bodies, 4, 3))
+        self.friction = np.zeros(model.worlds)
+        self.mass = np.zeros(model.bodies)
+        self.reach = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
 
-    def step(self, tape: Tape, k: int, adjoints: list[NDArray[np.float64]]) -> None:
+    def stretch(self, index: int) -> None:
+        """Pull the adjoint of kept state `index` + 1 back to the one before."""
+        first, last = (int(number) for number in self.record.kept[index : index + 2])
+        inner = self.replay.stretch(first, last, self.states)
+        for k in range(last - 1, first - 1, -1):
+            reference = self.replay.reference(k, first, inner, self.states)
+            self.step(k, inner[k - first], inner[k + 1 - first], reference)
+
+    def step(
+        self, k: int, start: NDArray[np.float64], end: NDArray[np.float64], reference: NDArray[np.float64]
+    ) -> None:
         """Pull the adjoint of state k + 1 back to state k and to the friction reference of step k."""
-        record: StepRecord = tape.steps[k]
-        potential, model = self.potential, self.model
-        stepped = record.active[self.world] & self.free
-        incoming = adjoints[k + 1]
-        start = self._array(tape.states[k])
-        end = self._array(tape.states[k + 1])
-        reference = np.stack([tape.states[record.reference[w]][b] for b, w in enumerate(self.world)])
-        potential.inertia.start.assign(start)
-        potential.inertia.sigma.assign(record.sigma)
-        potential.friction.epsilon = record.epsilon
-        potential.friction.reference.assign(reference)
-        self._reach(record.lag_d_hat)
-        potential.record_friction(start)
-        self._reach(record.d_hat)
-        potential.cover(end)
-        hessian = potential.hessian(end, exact=True)
-        w = self.solver.solve(hessian, np.where(stepped[:, None, None], incoming, 0.0), record.active)
-        adjoints[k] += np.where(stepped[:, None, None], 0.0, incoming)
-        sigma = record.sigma[self.world][:, None, None]
-        adjoints[k] += sigma * np.einsum("bij,bjk->bik", self.mass, w)
+        record, potential, model = self.record.steps[k], self.potential, self.model
+        stepped = record.active[self.world][:, None, None] & self.free
+        begun = self.replay.prepare(k, start, reference)
+        ended = wp.array(np.ascontiguousarray(end), dtype=wp.vec3d, device=model.device)
+        potential.cover(ended)
+        hessian = potential.hessian(ended, exact=True)
+        w = self.solver.solve(hessian, np.where(stepped, self.adjoint, 0.0), record.active)
+        adjoint = wp.array(w, dtype=wp.vec3d, device=model.device)
+
+        pull = record.sigma[self.world][:, None, None] * np.einsum("bij,bjk->bik", self.mass_matrix, w)
+        self.parameters(w, pull, end - start, ended)
+        if self.with_d_hat and record.d_hat == self.record.options.d_hat:
+            pull_back_reach(model, potential.contact, potential.vertex_positions, adjoint, self.reach)
 
         recorded = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
         moved = wp.zeros_like(recorded)
-        self._reach(record.lag_d_hat)
-        potential.cover(start)
+        lagged = wp.zeros_like(self.reach)
+        self.replay.run.set_reach(record.lag_d_hat)
+        potential.cover(begun)
         pull_back_lag(
             model, potential.friction, potential.candidates, potential.vertex_positions, record.lag_d_hat,
-            potential.contact.stiffness, end, self._array(w), recorded, moved,
+            potential.contact.stiffness, ended, adjoint, recorded, moved, lagged,
         )  # fmt: skip
-        adjoints[k] -= recorded.numpy().reshape(-1, 4, 3)
-        share = moved.numpy().reshape(-1, 4, 3)
-        for index in np.unique(record.reference):
-            members = (record.reference[self.world] == index)[:, None, None]
-            adjoints[index] -= np.where(members, share, 0.0)
+        if self.with_d_hat and record.lag_d_hat == self.record.options.d_hat:
+            self.reach.assign(self.reach.numpy() - lagged.numpy())
+        self.adjoint = np.where(stepped, pull, self.adjoint) - recorded.numpy().reshape(-1, 4, 3)
+        self.anchored -= moved.numpy().reshape(-1, 4, 3)
+        here = (record.active & (record.reference == k))[self.world][:, None, None]
+        self.adjoint += np.where(here, self.anchored, 0.0)
+        self.anchored = np.where(here, 0.0, self.anchored)
 
-    def _reach(self, d_hat: float) -> None:
-        self.potential.contact.d_hat = d_hat
-        self.potential.candidates.invalidate()
-
-    def _array(self, values: NDArray[np.float64]) -> wp.array:
-        return wp.array(np.ascontiguousarray(values), dtype=wp.vec3d, device=self.model.device)
+    def parameters(
+        self, w: NDArray[np.float64], pull: NDArray[np.float64], motion: NDArray[np.float64], end: wp.array
+    ) -> None:
+        """Add -w . dF/dtheta for mass and friction; friction's record must be that of the step."""
+        inertia = np.einsum("bij,bij->b", pull, motion) / self.body_mass
+        self.mass -= inertia + GRAVITY * w[:, 0, 2]
+        friction = self.potential.friction
+        friction.coefficient.fill_(1.0)
+        force = wp.zeros((self.model.bodies, 4), dtype=wp.vec3d, device=self.model.device)
+        friction.add_gradient(end, force)
+        friction.coefficient.assign(self.record.friction)
+        power = np.einsum("bij,bij->b", w, force.numpy().reshape(-1, 4, 3))
+        self.friction -= np.bincount(self.world, weights=power, minlength=self.model.worlds)

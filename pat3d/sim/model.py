@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 import warp as wp
@@ -100,12 +101,19 @@ class ModelBuilder:
     Example:
         builder = ModelBuilder()
         builder.add_asset(asset, pose)
-        model = builder.finalize(device="cpu")
+        model = builder.finalize(device="cuda", worlds=256)
     """
 
     _bodies: list[dict] = field(default_factory=list)
     _anchors: list[tuple[int, NDArray[np.float64], int, NDArray[np.float64]]] = field(default_factory=list)
     _world: int = 0
+
+    @classmethod
+    def from_scene(cls, scene: Scene) -> ModelBuilder:
+        """A builder that holds the objects of `scene` at their initial poses, and its attachments."""
+        builder = cls()
+        builder.add_scene(scene)
+        return builder
 
     def new_world(self) -> None:
         """Bodies added from here on belong to the next world."""
@@ -219,36 +227,51 @@ class ModelBuilder:
             raise SimulationError(f"the attachment of {labels} needs points of 3 finite numbers.")
         self._anchors.append((body_a, points[0] - first["centre"], body_b, points[1] - second["centre"]))
 
-    def finalize(self, device: str = "cpu") -> Model:
+    def finalize(self, device: str = "cpu", worlds: int | None = None) -> Model:
         """The model on `device` ("cpu" or "cuda").
 
+        Args:
+            device: Warp's name of the device.
+            worlds: number of copies of the one world that was built; as built where None.
+
         Raises:
-            SimulationError: no bodies were added.
+            SimulationError: no bodies were added, or copies of more than one world are asked for.
         """
-        if not self._bodies:
-            raise SimulationError("a model needs at least one body.")
         bodies = self._bodies
-        worlds = bodies[-1]["world"] + 1
-        free_count = np.zeros(worlds, dtype=np.int64)
-        weight = np.zeros(worlds)
+        if not bodies:
+            raise SimulationError("a model needs at least one body.")
+        built = bodies[-1]["world"] + 1
+        copies = 1 if worlds is None else worlds
+        if copies < 1 or (worlds is not None and built > 1):
+            raise SimulationError(
+                f"only one world can be copied, at least once; got {built} worlds and {worlds} copies."
+            )
+        fixed = np.array([body["fixed"] for body in bodies])
+        mass = np.array([body["mass"] for body in bodies])
+        body_world = np.array([body["world"] for body in bodies], dtype=np.int32)
+        free_count = np.bincount(body_world[~fixed], minlength=built)
+        weight = np.zeros(built)
+        np.maximum.at(weight, body_world[~fixed], mass[~fixed] * GRAVITY)
         dof = np.full(len(bodies), -1, dtype=np.int32)
+        # Worlds are contiguous, so a free body's index is its rank among all free ones less those of earlier worlds.
+        earlier = np.cumsum(free_count) - free_count
+        dof[~fixed] = np.arange(free_count.sum()) - earlier[body_world[~fixed]]
         vertices, vertex_body, edges, triangles = [], [], [], []
         part_body, ranges = [], []
+        sharp_edges: dict[int, NDArray[np.int32]] = {}
         base = edge_base = triangle_base = 0
         radius = np.zeros(len(bodies))
         q0 = np.zeros((len(bodies), 4, 3))
         for b, body in enumerate(bodies):
-            if not body["fixed"]:
-                dof[b] = free_count[body["world"]]
-                free_count[body["world"]] += 1
-                weight[body["world"]] = max(weight[body["world"]], body["mass"] * GRAVITY)
             pose: Pose = body["pose"]
             q0[b, 0] = pose.apply(body["centre"][None])[0]
             q0[b, 1:] = pose.rotation.T
             for part in body["parts"]:
                 rest = part.vertices - body["centre"]
                 radius[b] = max(radius[b], np.linalg.norm(rest, axis=1).max())
-                sharp = _sharp_edges(part)
+                if id(part) not in sharp_edges:
+                    sharp_edges[id(part)] = _sharp_edges(part)
+                sharp = sharp_edges[id(part)]
                 vertices.append(rest)
                 vertex_body.append(np.full(len(rest), b, dtype=np.int32))
                 edges.append(sharp + base)
@@ -266,37 +289,46 @@ class ModelBuilder:
         anchors = self._anchors
         bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in anchors]
         owner = np.array(part_body, dtype=np.int32)
-        body_world = np.array([body["world"] for body in bodies], dtype=np.int32)
+        part_pairs = _part_pairs(owner, body_world, dof)
+        if copies * max(base, edge_base, triangle_base, len(part_pairs)) > np.iinfo(np.int32).max:
+            raise SimulationError(f"{copies} copies of this world have more pairs of parts than can be counted.")
 
-        def array(values, dtype) -> wp.array:
-            return wp.array(np.ascontiguousarray(values), dtype=dtype, device=device)
+        def array(values, dtype, shift: int | list[int] = 0) -> wp.array:
+            """One row of `values` for each of every copy, the indices in it raised by `shift` a copy."""
+            values = np.asarray(values)
+            rise = np.arange(copies).reshape(-1, *[1] * values.ndim) * np.asarray(shift, dtype=values.dtype)
+            repeated = np.broadcast_to(values, (copies, *values.shape)) + rise.astype(values.dtype)
+            return wp.array(repeated.reshape(-1, *values.shape[1:]), dtype=dtype, device=device)
+
+        def whole(rows, width: int) -> NDArray[np.int32]:
+            return np.array(rows, dtype=np.int32).reshape(-1, width)
 
         return Model(
             device=device,
-            worlds=worlds,
-            body_world=array(body_world, int),
+            worlds=built * copies,
+            body_world=array(body_world, int, 1),
             body_dof=array(dof, int),
-            body_mass=array([body["mass"] for body in bodies], wp.float64),
+            body_mass=array(mass, wp.float64),
             body_moment=array(np.stack([body["moment"] for body in bodies]), wp.mat33d),
             body_volume=array([body["volume"] for body in bodies], wp.float64),
             vertex_rest=array(np.concatenate(vertices), wp.vec3d),
-            vertex_body=array(np.concatenate(vertex_body), int),
-            edges=array(np.concatenate(edges).astype(np.int32), wp.vec2i),
-            triangles=array(np.concatenate(triangles).astype(np.int32), wp.vec3i),
-            part_body=array(owner, int),
-            part_ranges=wp.array(np.array(ranges, dtype=np.int32), dtype=int, device=device),
-            part_pairs=array(_part_pairs(owner, body_world, dof), wp.vec2i),
-            anchor_bodies=array(np.array([(one[0], one[2]) for one in anchors], np.int32).reshape(-1, 2), wp.vec2i),
+            vertex_body=array(np.concatenate(vertex_body), int, len(bodies)),
+            edges=array(whole(np.concatenate(edges), 2), wp.vec2i, base),
+            triangles=array(whole(np.concatenate(triangles), 3), wp.vec3i, base),
+            part_body=array(owner, int, len(bodies)),
+            part_ranges=array(whole(ranges, 6), int, [base] * 2 + [edge_base] * 2 + [triangle_base] * 2),
+            part_pairs=array(part_pairs, wp.vec2i, len(owner)),
+            anchor_bodies=array(whole([(one[0], one[2]) for one in anchors], 2), wp.vec2i, len(bodies)),
             anchor_rest=array(np.array([(one[1], one[3]) for one in anchors]).reshape(-1, 2, 3), wp.vec3d),
             anchor_stiffness=array(np.array(bearing) * (GRAVITY / ATTACHMENT_STRETCH), wp.float64),
-            free_bodies=free_count,
-            world_of=body_world.astype(np.int64),
-            is_free=dof >= 0,
-            weight=weight,
-            body_radius=radius,
-            q0=q0,
-            labels=tuple(body["label"] for body in bodies),
-            centres=np.stack([body["centre"] for body in bodies]),
+            free_bodies=np.tile(free_count, copies),
+            world_of=(body_world.astype(np.int64) + np.arange(copies)[:, None]).reshape(-1),
+            is_free=np.tile(dof >= 0, copies),
+            weight=np.tile(weight, copies),
+            body_radius=np.tile(radius, copies),
+            q0=np.tile(q0, (copies, 1, 1)),
+            labels=tuple(body["label"] for body in bodies) * copies,
+            centres=np.tile(np.stack([body["centre"] for body in bodies]), (copies, 1)),
         )
 
 
@@ -332,11 +364,10 @@ def _sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
 def _part_pairs(owner: NDArray[np.int32], world: NDArray[np.int32], dof: NDArray[np.int32]) -> NDArray[np.int32]:
     """All pairs of parts of different bodies of one world, not both fixed, shape (pairs, 2)."""
     pairs = []
-    part_world = world[owner]
-    for w in range(int(world.max()) + 1):
-        parts = np.flatnonzero(part_world == w)
-        first, second = np.triu_indices(len(parts), 1)
-        first, second = parts[first], parts[second]
+    bounds = np.searchsorted(world[owner], np.arange(int(world.max()) + 2))
+    for begin, end in pairwise(bounds):
+        first, second = np.triu_indices(end - begin, 1)
+        first, second = first + begin, second + begin
         keep = (owner[first] != owner[second]) & ((dof[owner[first]] >= 0) | (dof[owner[second]] >= 0))
         pairs.append(np.stack([first[keep], second[keep]], axis=1))
     return np.concatenate(pairs).astype(np.int32).reshape(-1, 2)

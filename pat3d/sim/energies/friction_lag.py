@@ -40,6 +40,7 @@ def pull_back_lag(
     adjoint: wp.array,
     recorded: wp.array,
     reference: wp.array,
+    reach: wp.array,
 ) -> None:
     """Pull an adjoint of the friction force at state q back to the state it was recorded at.
 
@@ -54,6 +55,7 @@ def pull_back_lag(
         adjoint: w, shape (bodies, 4), vec3d.
         recorded: increased by d(w . F)/dq_n through lambda, n and c, shape (bodies, 4), vec3d.
         reference: increased by d(w . F)/dq_ref, shape (bodies, 4), vec3d.
+        reach: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
     """
     wp.launch(
         _pull_back, dim=candidates.count, device=model.device,
@@ -61,7 +63,7 @@ def pull_back_lag(
             model.body_world, model.vertex_rest, model.vertex_body, stiffness, d_hat, friction.coefficient,
             friction.epsilon, candidates.kind, candidates.primitives, position, friction.reference, q, adjoint,
         ],
-        outputs=[recorded, reference],
+        outputs=[recorded, reference, reach],
     )  # fmt: skip
 
 
@@ -102,6 +104,7 @@ def _pull_back(
     # Out
     recorded: wp.array2d(dtype=wp.vec3d),
     reference: wp.array2d(dtype=wp.vec3d),
+    reach: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
@@ -167,6 +170,8 @@ def _pull_back(
             solved1 = beta1 / e11
 
     bar_distance = -bar_force * contact.mollifier * barrier_curvature(d, d_hat, stiffness[world])
+    # The slope depends on d / d_hat alone.
+    wp.atomic_add(reach, world, -bar_distance * d / d_hat)
     bar_cross = -bar_force * slope * mollifier_slope(contact)
     gu = wp.vec3d()
     gv = wp.vec3d()
