@@ -164,7 +164,9 @@ def measure(case: Case, device: str) -> Outcome:
 
     def run(model: Model, chosen: slice) -> tuple[torch.Tensor, dict[str, Any], NDArray[np.uint64]]:
         given = {"q0": q0[chosen], "friction": friction[chosen], "mass": mass[chosen], "d_hat": d_hat[chosen][0]}
-        tensors: dict[str, Any] = {key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()}
+        tensors: dict[str, Any] = {
+            key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()
+        }
         done = rollout(model, until=case.until, options=SettleOptions(), **tensors)
         middle = done.frames[len(done.frames) // 2]
         losses = (middle * weights[0] + done.q_end * weights[1]).sum(dim=(1, 2))

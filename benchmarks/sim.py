@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 import warp as wp
-
 from sim_scenes import DENSITY, Pile, blobs, pile, tower
+
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.settle import Run, SettleOptions, settle
 

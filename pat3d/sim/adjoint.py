@@ -131,7 +131,7 @@ class _Backward:
         friction = self.potential.friction
         friction.coefficient.fill_(1.0)
         force = wp.zeros((self.model.bodies, 4), dtype=wp.vec3d, device=self.model.device)
-        friction.add_gradient(end, force)
+        friction.add_value(end, self.potential.everywhere, wp.zeros_like(self.reach), force)
         friction.coefficient.assign(self.record.friction)
         power = np.einsum("bij,bij->b", w, force.numpy().reshape(-1, 4, 3))
         self.friction -= np.bincount(self.world, weights=power, minlength=self.model.worlds)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.sim.model import Model
 from pat3d.sim.settle import Progress, Run, SettleOptions, StepRecord, Tape
+from pat3d.sim.solvers.newton import NewtonResult
 
 GRADIENT_RESIDUAL = 1.0e-9
 """Unbalanced force over weight to which every step of a differentiated run is converged: the gradient takes it for zero
@@ -70,7 +71,7 @@ class RecordedRun(Run):
         self.coefficient = friction
         self.potential.friction.coefficient.assign(friction)
 
-    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NDArray[np.float64]:
+    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NewtonResult:
         """As `Run.step`, but tightly converged; forgets the state that it starts from unless that is to be kept."""
         tolerances["residual_tolerance"] = min(tolerances["residual_tolerance"], GRADIENT_RESIDUAL)
         number, tape = self.steps, self.tape
@@ -79,11 +80,11 @@ class RecordedRun(Run):
         if number % self.every == 0 and np.any((reference != number) & (reference % self.every != 0)):
             self.references[number] = self.potential.friction.reference.numpy().reshape(-1, 4, 3).copy()
         self.calls.append((weight.copy(), tolerances))
-        motion = super().step(active, weight, **tolerances)
+        result = super().step(active, weight, **tolerances)
         if number % self.every:
             del tape.states[-2], self.kept[-1]
         self.kept.append(number + 1)
-        return motion
+        return result
 
     def recorded(self) -> tuple[Recording, NDArray[np.float64]]:
         """The record so far, and the kept states, shape (kept, bodies, 4, 3)."""
