@@ -96,8 +96,8 @@ class StepRecord:
 class Tape:
     """All states of a run and the steps between them, for the backward pass."""
 
-    states: list[NDArray[np.float64]] = field(default_factory=list)
-    """Shape (bodies, 4, 3) each; one more than steps."""
+    states: list[wp.array] = field(default_factory=list)
+    """Shape (bodies, 4), vec3d each, on the device; one more than steps."""
     steps: list[StepRecord] = field(default_factory=list)
 
 
@@ -151,7 +151,7 @@ class Run:
         self.reference = np.zeros(model.worlds, dtype=np.int64)
         self.lag_d_hat = options.d_hat
         if tape is not None:
-            tape.states.append(self.state())
+            tape.states.append(wp.clone(self.q))
         self.frames = self.polish_steps = self.iterations = self.steps = 0
         self._frames = [wp.clone(self.q)]
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
@@ -185,7 +185,7 @@ class Run:
     def set_reach(self, d_hat: float) -> None:
         """Change the barrier activation distance [m]."""
         self.potential.contact.d_hat = d_hat
-        self.potential.candidates.invalidate()
+        self.potential.candidates.require(d_hat)
 
     def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NewtonResult:
         """One time step with inertia scaled by `weight`, shape (worlds,), from a state whose friction is recorded."""
@@ -199,7 +199,7 @@ class Run:
         self.iterations += int(result.iterations.max(initial=0))
         self.steps += 1
         if self.tape is not None:
-            self.tape.states.append(self.state())
+            self.tape.states.append(wp.clone(self.q))
             self.tape.steps.append(
                 StepRecord(
                     active=active.copy(), sigma=sigma, d_hat=potential.contact.d_hat,
@@ -214,10 +214,7 @@ class Run:
         if self._last_anchored is None or not np.array_equal(worlds, self._last_anchored):
             self._last_anchored = worlds.copy()
             self._anchored.assign(worlds.astype(np.int32))
-        wp.launch(
-            _anchor, dim=self.model.bodies, device=self.model.device,
-            inputs=[self.model.body_world, self._anchored, self.q], outputs=[self.potential.friction.reference],
-        )  # fmt: skip
+        copy_worlds(self.model, self._anchored, self.q, self.potential.friction.reference)
 
     def record_friction(self) -> None:
         """Lag friction at the present state."""
@@ -321,17 +318,31 @@ def settle(model: Model, options: SettleOptions | None = None, progress: Progres
     )
 
 
+def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.array) -> None:
+    """Copy the states of the bodies of chosen worlds, shape (bodies, 4), vec3d, on the device.
+
+    Args:
+        model: the worlds.
+        worlds: nonzero for those to copy, shape (worlds,), int.
+        source: copied from.
+        target: copied to.
+    """
+    wp.launch(
+        _copy_worlds, dim=model.bodies, device=model.device, inputs=[model.body_world, worlds, source], outputs=[target]
+    )  # fmt: skip
+
+
 @wp.kernel
-def _anchor(
+def _copy_worlds(
     # Model
     body_world: wp.array(dtype=int),
     # State in
     worlds: wp.array(dtype=int),
-    q: wp.array2d(dtype=wp.vec3d),
+    source: wp.array2d(dtype=wp.vec3d),
     # Out
-    reference: wp.array2d(dtype=wp.vec3d),
+    target: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
     if worlds[body_world[body]] != 0:
         for i in range(4):
-            reference[body, i] = q[body, i]
+            target[body, i] = source[body, i]
