@@ -10,7 +10,8 @@ a difference compares, or where they differ in a decision (how many steps, where
 kink inside the difference interval. Such intervals are not used. A direction without usable intervals is reported as
 not smooth, and the picture shows what the derivative does there.
 
-python -m benchmarks.gradients [--quick] [--device cuda] [--only WORD] [--picture benchmarks/pictures/gradients.png]
+python -m benchmarks.gradients [--quick] [--device cuda] [--only WORD] [--memory]
+    [--picture benchmarks/pictures/gradients.png]
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from __future__ import annotations
 import argparse
 import math
 import time
+import tracemalloc
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,7 +29,7 @@ import torch
 import warp as wp
 from numpy.typing import NDArray
 
-from benchmarks.gradient_cases import Case, cases
+from benchmarks.gradient_cases import Case, cases, stack
 from benchmarks.gradient_plot import save_picture
 from pat3d.kernels import quiet_warp
 from pat3d.sim.contact.distance import contact_at
@@ -164,7 +166,9 @@ def measure(case: Case, device: str) -> Outcome:
 
     def run(model: Model, chosen: slice) -> tuple[torch.Tensor, dict[str, Any], NDArray[np.uint64]]:
         given = {"q0": q0[chosen], "friction": friction[chosen], "mass": mass[chosen], "d_hat": d_hat[chosen][0]}
-        tensors: dict[str, Any] = {key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()}
+        tensors: dict[str, Any] = {
+            key: torch.tensor(value, requires_grad=key == case.by) for key, value in given.items()
+        }
         done = rollout(model, until=case.until, options=SettleOptions(), **tensors)
         middle = done.frames[len(done.frames) // 2]
         losses = (middle * weights[0] + done.q_end * weights[1]).sum(dim=(1, 2))
@@ -225,6 +229,30 @@ def row(outcome: Outcome) -> str:
     )
 
 
+def memory(device: str, worlds: int = 64, steps: int = 100) -> None:
+    """Print host memory and time of rollouts that keep every state or few, and how far their gradients differ."""
+    model = stack(4)().finalize(device, worlds)
+    print(f"{worlds} worlds of {model.bodies // worlds} bodies, {steps} steps")
+    print(f"{'every':>6} {'kept after forward':>19} {'peak':>9} {'forward':>8} {'backward':>9}  gradients differ")
+    first = None
+    for every in (1, 10, steps):
+        q0 = torch.tensor(model.q0.reshape(worlds, -1, 12), requires_grad=True)
+        tracemalloc.start()
+        begun = time.perf_counter()
+        done = rollout(model, q0, until=steps, every=every)
+        ran = time.perf_counter()
+        kept = tracemalloc.get_traced_memory()[0]
+        done.q_end.square().sum().backward()
+        ended, peak = time.perf_counter(), tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        first = q0.grad if first is None else first
+        assert q0.grad is not None
+        print(
+            f"{every:>6} {kept / 2**20:>15.1f} MiB {peak / 2**20:>5.1f} MiB {ran - begun:>6.1f} s {ended - ran:>7.1f} s"
+            f"  {float((q0.grad - first).abs().max()):.1e}"
+        )
+
+
 def main() -> None:
     """Measure, print the table, and draw the picture that is asked for."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
@@ -232,8 +260,12 @@ def main() -> None:
     parser.add_argument("--only", default="", help="cases whose name contains this")
     parser.add_argument("--device", default="cpu")
     parser.add_argument("--picture", type=Path)
+    parser.add_argument("--memory", action="store_true", help="what keeping fewer states saves, instead of the table")
     arguments = parser.parse_args()
     quiet_warp()
+    if arguments.memory:
+        memory(arguments.device)
+        return
     print(f"{'case':<34} {'by':<9} {'steps':>11} {'error':>9} {'spread':>9} {'h':>8} {'s':>6}")
     outcomes = []
     for case in cases():
