@@ -36,8 +36,8 @@ from pat3d.sim.contact.distance import contact_at
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.recording import Recording
-from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 

@@ -12,8 +12,8 @@ from pat3d.scene import Pose
 from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.recording import RecordedRun, Recording
-from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions
 from tests.sim.builders import add_hull, box_points
 
 
