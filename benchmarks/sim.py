@@ -22,7 +22,7 @@ import warp as wp
 from sim_scenes import DENSITY, Pile, blobs, pile, tower
 
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.settle import Run, SettleOptions, settle
+from pat3d.sim.settling import Run, SettleOptions, settle
 
 TIME_STEP, FRICTION = 0.03, 0.2
 FRAMES = 60
@@ -158,7 +158,7 @@ def gradients(device: str, frames: int = 300) -> list[Row]:
     """Seconds of an optimisation iteration, forward and backward, and memory of many worlds."""
     import torch
 
-    from pat3d.sim.rollout import rollout
+    from pat3d.sim.rollouts import rollout
 
     rows = []
     many = [(tower(10), 256)] if wp.get_device(device).is_cuda else []

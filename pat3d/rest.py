@@ -44,7 +44,7 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
         SimulationError: objects intersect at the start, the state degenerates.
     """
     from pat3d.sim.model import ModelBuilder, poses_from_states
-    from pat3d.sim.settle import SettleOptions, settle
+    from pat3d.sim.settling import SettleOptions, settle
 
     builder = ModelBuilder()
     builder.add_scene(scene)

@@ -26,7 +26,7 @@ from pat3d.optimize.refine import Epoch, refine
 from pat3d.optimize.starts import Start, make_starts
 from pat3d.scene import Pose, Relation, Scene, SceneObject, check_tree
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settle import SettleOptions, settle
+from pat3d.sim.settling import SettleOptions, settle
 
 MARGIN_OF = 3
 """Among equally good scenes, how many are compared by their certificates."""

@@ -19,8 +19,8 @@ from pat3d.optimize.loss import SemanticLoss
 from pat3d.optimize.placement import Placement
 from pat3d.scene import Pose, Relation
 from pat3d.sim.model import Model, ModelBuilder, poses_from_states
-from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions
 
 HALVINGS = 5
 """How often a step that cannot be made is halved."""

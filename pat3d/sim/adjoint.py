@@ -28,7 +28,7 @@ from pat3d.sim.model import GRAVITY
 from pat3d.sim.potential import SKIN
 from pat3d.sim.program import Mirror, Program
 from pat3d.sim.recording import Recording, Replay
-from pat3d.sim.settle import StepRecord
+from pat3d.sim.settling import StepRecord
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 

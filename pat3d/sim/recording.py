@@ -14,7 +14,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.sim.model import Model
-from pat3d.sim.settle import Progress, Run, SettleOptions, StepRecord, Tape, copy_worlds
+from pat3d.sim.settling import Progress, Run, SettleOptions, StepRecord, Tape, copy_worlds
 from pat3d.sim.solvers.newton import NewtonResult
 
 GRADIENT_RESIDUAL = 1.0e-9
