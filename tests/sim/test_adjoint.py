@@ -7,6 +7,7 @@ interval. Steps of 1e-7 balance truncation against what rollouts converged to th
 import numpy as np
 import pytest
 import torch
+import warp as wp
 
 from pat3d.scene import Pose
 from pat3d.sim.adjoint import backward
@@ -115,12 +116,14 @@ def test_an_anchor_that_stays_behind_carries_its_share_of_the_gradient(scene):
                 everything, np.ones(1), move_tolerance=1e-5, residual_tolerance=1e-9, exact_below=1e-2,
                 max_iterations=100,
             )  # fmt: skip
-        return recorded.recorded()
+        record, states = recorded.recorded()
+        return record, np.stack([state.numpy() for state in states])
 
     record, states = run(model.q0)
     losses = np.zeros_like(states)
     losses[-1] = weight
-    analytic = float(np.sum(backward(record, states, losses).q0 * direction))
+    kept, by_kept = (wp.array(x, dtype=wp.vec3d, device="cpu") for x in (states, losses))
+    analytic = float(np.sum(backward(record, kept, by_kept).q0 * direction))
     ends = [np.sum(run(model.q0 + h * direction)[1][-1] * weight) for h in (1e-7, -1e-7)]
     assert analytic == pytest.approx((ends[0] - ends[1]) / 2e-7, rel=1e-6)
 
