@@ -7,7 +7,8 @@
 First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
 (pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
 through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
-loss, then the most robust certificate.
+loss; among scenes in which everything holds, the one that can be tilted furthest before its certificate fails. If that
+is not far, loads are centred on their supports (pat3d.optimize.steady).
 """
 
 from __future__ import annotations
@@ -24,12 +25,18 @@ from pat3d.optimize.loss import SemanticLoss, states
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.refine import Epoch, refine
 from pat3d.optimize.starts import Start, make_starts
-from pat3d.scene import Pose, Relation, Scene, SceneObject, check_tree
+from pat3d.optimize.steady import recentred
+from pat3d.scene import Attachment, Pose, Relation, Scene, check_tree
 from pat3d.sim.model import ModelBuilder, poses_from_states
 from pat3d.sim.settle import SettleOptions, settle
 
-MARGIN_OF = 3
-"""Among equally good scenes, how many are compared by their certificates."""
+STEADY = 2.0
+"""Tilt of the ground [degrees] that a scene should endure; what endures less may fall in engines whose contacts give
+way."""
+STEADYING = 4
+"""Times that loads are centred at most."""
+MORE_THAN_STEADY = 4.0
+"""Tilt [degrees] beyond which more is not better."""
 
 Progress = Callable[[str, int, float], None]
 """Called with the phase ("settling", "settling starts", "epoch"), a step number, and its motion [m] or loss [m^2]."""
@@ -75,7 +82,7 @@ class Trial:
     """One layout and what it settles into."""
 
     source: str
-    """"layout", "balanced", "shifted", "arranged anew" or "gradient"."""
+    """"layout", "balanced", "shifted", "arranged anew", "gradient" or "recentred"."""
     poses0: Mapping[str, Pose]
     """Intersection-free layout."""
     poses: Mapping[str, Pose]
@@ -86,6 +93,10 @@ class Trial:
     """Semantic loss at rest [m^2]."""
     results: tuple[RelationResult, ...]
     """Every relation at rest."""
+    attachments: tuple[Attachment, ...] = ()
+    """What holds the things that hang."""
+    steadiness: float | None = None
+    """Tilt that it endures [degrees], see pat3d.check.certificate.steadiness; None where that made no difference."""
 
     @property
     def broken(self) -> tuple[RelationResult, ...]:
@@ -98,9 +109,16 @@ class Trial:
         return self.at_rest and not self.broken
 
     @property
-    def rank(self) -> tuple[int, bool, float]:
+    def steady(self) -> bool:
+        """Satisfied, and not about to fall."""
+        return self.satisfied and self.steadiness is not None and self.steadiness >= STEADY
+
+    @property
+    def rank(self) -> tuple[int, bool, float, float]:
         """The least is best."""
-        return len(self.broken), not self.at_rest, self.loss
+        # A loss is left where everything holds, though not by its margin.
+        steadiness = -min(self.steadiness or 0.0, MORE_THAN_STEADY) if self.satisfied else 0.0
+        return len(self.broken), not self.at_rest, steadiness, self.loss
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -142,7 +160,8 @@ class Optimized:
             "loss_after": self.best.loss,
             "broken": [str(result.relation) for result in self.best.broken],
             "trials": [
-                {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest}
+                {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest,
+                 "steadiness_degrees": one.steadiness}
                 for one in self.trials
             ],
             "history": [
@@ -159,6 +178,8 @@ def optimize(
     *,
     options: OptimizeOptions | None = None,
     fixed: Collection[str] = (),
+    pinned: Collection[str] = (),
+    attachments: tuple[Attachment, ...] = (),
     progress: Progress = lambda *_: None,
 ) -> Optimized:
     """Find an initial layout near `poses0` (or another one) that settles into what `relations` say.
@@ -169,6 +190,8 @@ def optimize(
         poses0: intersection-free layout of every object.
         options: settings.
         fixed: objects that never move.
+        pinned: objects that settle like others but always start where they are.
+        attachments: by which things hang; what hangs moves with its carrier.
         progress: told what is going on.
 
     Returns:
@@ -180,46 +203,59 @@ def optimize(
     """
     options = options or OptimizeOptions()
     check_tree(list(assets), relations)
-    missing = [name for name in (*assets, *fixed) if name not in poses0]
+    missing = [name for name in (*assets, *fixed, *pinned) if name not in poses0]
     if missing:
         raise SpecError(f'"{missing[0]}" has no initial pose. Poses given: {", ".join(poses0)}.')
-    search = _Search(assets, relations, poses0, options, frozenset(fixed), progress)
-    first = search.settled([Start(source="layout", poses=search.placement.poses, balance=0.0)], "settling")[0]
+    placement = Placement(assets, relations, poses0, fixed=fixed, pinned=pinned, attachments=attachments)
+    search = _Search(placement, options, progress)
+    start = Start(source="layout", poses=placement.poses, balance=0.0, attachments=attachments)
+    first = search.settled([start], "settling")[0]
     if first.satisfied or not search.placement.movable.any():
         return Optimized(best=first, first=first, skipped=first.satisfied, trials=(first,), history=())
     return search.run(first)
 
 
-def scene_after(scene: Scene, found: Optimized) -> Scene:
-    """`scene` with the layout and the poses at rest that were found."""
-    objects = tuple(
-        replace(obj, initial_pose=found.poses0[obj.name], pose=found.poses[obj.name]) for obj in scene.objects
+def optimize_scene(
+    scene: Scene,
+    *,
+    options: OptimizeOptions | None = None,
+    pinned: Collection[str] = (),
+    progress: Progress = lambda *_: None,
+) -> Optimized:
+    """`optimize` from the initial poses of `scene`, which settles with its own friction."""
+    options = options or OptimizeOptions()
+    return optimize(
+        {obj.name: obj.asset for obj in scene.objects},
+        scene.relations,
+        {obj.name: obj.initial_pose for obj in scene.objects},
+        options=replace(options, settle=replace(options.settle, friction=scene.settling_friction)),
+        fixed={obj.name for obj in scene.objects if obj.fixed},
+        pinned=pinned,
+        attachments=scene.attachments,
+        progress=progress,
     )
-    return replace(scene, objects=objects)
+
+
+def scene_after(scene: Scene, trial: Trial) -> Scene:
+    """`scene` with the layout and the poses at rest of `trial`."""
+    objects = tuple(
+        replace(obj, initial_pose=trial.poses0[obj.name], pose=trial.poses[obj.name]) for obj in scene.objects
+    )
+    return replace(scene, objects=objects, attachments=trial.attachments)
 
 
 class _Search:
-    def __init__(
-        self,
-        assets: Mapping[str, Asset],
-        relations: tuple[Relation, ...],
-        poses0: Mapping[str, Pose],
-        options: OptimizeOptions,
-        fixed: frozenset[str],
-        progress: Progress,
-    ) -> None:
-        self.assets, self.relations, self.options, self.fixed = assets, relations, options, fixed
-        self.progress = progress
-        self.placement = Placement(assets, relations, poses0, fixed=fixed)
+    def __init__(self, placement: Placement, options: OptimizeOptions, progress: Progress) -> None:
+        self.placement, self.options, self.progress = placement, options, progress
 
     def run(self, first: Trial) -> Optimized:
         """Other starts, then gradients where no start holds."""
-        options = self.options
+        options, placement = self.options, self.placement
         trials = [first]
         starts = make_starts(
-            self.placement, self.relations, count=options.starts, seed=options.seed, relayout=options.relayout
+            placement, placement.relations, count=options.starts, seed=options.seed, relayout=options.relayout
         )
-        trials += self.settled(starts[1:], "settling starts")
+        trials += [self._judged(trial) for trial in self.settled(starts[1:], "settling starts")]
         history: list[Epoch] = []
         if options.epochs and not any(trial.satisfied for trial in trials):
             for trial in sorted(trials, key=lambda trial: trial.rank)[: options.refined]:
@@ -227,9 +263,11 @@ class _Search:
                 trials += polished
                 if any(one.satisfied for one in polished):
                     break
+        trials += self._steadied(min(trials, key=lambda trial: trial.rank))
         return Optimized(
-            best=self._best(trials), first=first, skipped=False, trials=tuple(trials), history=tuple(history)
-        )
+            best=min(trials, key=lambda trial: trial.rank), first=first, skipped=False, trials=tuple(trials),
+            history=tuple(history),
+        )  # fmt: skip
 
     def settled(self, starts: list[Start], phase: str) -> list[Trial]:
         """What every start settles into; starts that cannot be simulated are left out, unless there is but one."""
@@ -238,8 +276,7 @@ class _Search:
         builder = ModelBuilder()
         for start in starts:
             builder.new_world()
-            for name, asset in self.assets.items():
-                builder.add_asset(asset, start.poses[name], fixed=name in self.fixed, label=name)
+            builder.add_scene(self.placement.scene(start.poses, start.attachments))
         model = builder.finalize(self.options.device)
         try:
             found = settle(model, self.options.settle, lambda _, step, motion: self.progress(phase, step, motion))
@@ -247,7 +284,7 @@ class _Search:
             if len(starts) == 1:
                 raise
             return [trial for start in starts for trial in self._alone(start, phase)]
-        count = len(self.assets)
+        count = len(self.placement.names)
         poses = poses_from_states(model, found.q)
         return [
             self._trial(start, poses[w * count : (w + 1) * count], bool(found.at_rest[w]))
@@ -261,56 +298,74 @@ class _Search:
             return []
 
     def _trial(self, start: Start, settled: list[Pose], at_rest: bool) -> Trial:
+        assets, relations = self.placement.assets, self.placement.relations
         poses = {
-            name: start.poses[name] if name in self.fixed else pose
-            for name, pose in zip(self.assets, settled, strict=True)
+            name: start.poses[name] if name in self.placement.fixed else pose
+            for name, pose in zip(assets, settled, strict=True)
         }
-        loss = SemanticLoss(self.assets, self.relations, start.poses)
+        loss = SemanticLoss(assets, relations, start.poses)
         return Trial(
             source=start.source,
             poses0=start.poses,
             poses=poses,
             at_rest=at_rest,
-            loss=float(loss(states(self.assets, poses))),
-            results=check_relations(self.relations, self.assets, poses),
+            loss=float(loss(states(assets, poses))),
+            results=check_relations(relations, assets, poses, attachments=start.attachments),
+            attachments=start.attachments,
         )
+
+    def _judged(self, trial: Trial) -> Trial:
+        """`trial` with its steadiness, where everything holds in it."""
+        if not trial.satisfied:
+            return trial
+        from pat3d.check.certificate import steadiness
+
+        return replace(trial, steadiness=steadiness(self._scene(trial)))
 
     def _refined(self, trial: Trial, number: int, history: list[Epoch]) -> list[Trial]:
         """Gradient steps from one trial's layout; what its promising iterates settle into."""
-        placement = Placement(self.assets, self.relations, trial.poses0, fixed=self.fixed)
+        placement = self._at(trial)
         found: list[Trial] = []
 
         def confirm(poses: Mapping[str, Pose]) -> bool:
-            start = Start(source="gradient", poses=poses, balance=0.0)
-            found.extend(self._alone(start, "settling"))
+            start = Start(source="gradient", poses=poses, balance=0.0, attachments=trial.attachments)
+            found.extend(self._judged(one) for one in self._alone(start, "settling"))
             return bool(found) and found[-1].satisfied
 
         options = self.options
         best = refine(
-            placement, self.relations, confirm=confirm, start=number, history=history, progress=self.progress,
+            placement, placement.relations, confirm=confirm, start=number, history=history, progress=self.progress,
             epochs=options.epochs, learning_rate=options.learning_rate, every=options.every, patience=options.patience,
             frames=min(options.frames, options.settle.max_frames), settings=options.settle, device=options.device,
         )  # fmt: skip
-        if not (found and found[-1].satisfied):
+        if not any(one.satisfied for one in found):
             confirm(best)
         return found
 
-    def _best(self, trials: list[Trial]) -> Trial:
-        """The best trial; ties are decided by how little friction suffices to hold the scene."""
-        ranked = sorted(trials, key=lambda trial: trial.rank)
-        tied = [trial for trial in ranked if trial.satisfied and trial.loss <= ranked[0].loss + 1e-9][:MARGIN_OF]
-        if len(tied) < 2:
-            return ranked[0]
-        from pat3d.check.certificate import smallest_friction
+    def _steadied(self, trial: Trial) -> list[Trial]:
+        """What `trial` becomes when its loads are centred on their supports, for as long as that helps."""
+        found: list[Trial] = []
+        while trial.satisfied and not trial.steady and len(found) < STEADYING:
+            placement = self._at(trial)
+            poses0 = recentred(placement, self._scene(trial))
+            if poses0 is None:
+                break
+            start = Start(source="recentred", poses=poses0, balance=0.0, attachments=trial.attachments)
+            tried = [self._judged(one) for one in self._alone(start, "settling")]
+            found += tried
+            if not tried or tried[0].rank >= trial.rank:
+                break
+            trial = tried[0]
+        return found
 
-        return min(tied, key=lambda trial: smallest_friction(self._scene(trial)))
+    def _at(self, trial: Trial) -> Placement:
+        """The placement with the layout of `trial`."""
+        now = self.placement
+        return Placement(
+            now.assets, now.relations, trial.poses0, fixed=now.fixed, pinned=now.held, attachments=trial.attachments
+        )
 
     def _scene(self, trial: Trial) -> Scene:
-        objects = tuple(
-            SceneObject(
-                name=name, asset=asset, pose=trial.poses[name], initial_pose=trial.poses0[name],
-                fixed=name in self.fixed,
-            )
-            for name, asset in self.assets.items()
-        )  # fmt: skip
-        return Scene(objects=objects, relations=self.relations, settling_friction=self.options.settle.friction)
+        return self.placement.scene(
+            trial.poses0, trial.attachments, poses=trial.poses, friction=self.options.settle.friction
+        )
