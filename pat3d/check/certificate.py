@@ -217,10 +217,10 @@ class _Problem:
         most = MAX_TILT
         for bodies, contacts, anchors in self.groups:
 
-            def holds(tilt: float, group=(bodies, contacts, anchors)) -> bool:
+            def holds(tilt: float, bodies=bodies, contacts=contacts, anchors=anchors) -> bool:
                 s, c = math.sin(math.radians(tilt)), math.cos(math.radians(tilt))
                 downs = [(s * math.cos(a), s * math.sin(a), -c) for a in angles] if tilt else [(0.0, 0.0, -1.0)]
-                return all(max(self._balance(*group, friction, down)) <= TOLERANCE for down in downs)
+                return all(max(self._balance(bodies, contacts, anchors, friction, down)) <= TOLERANCE for down in downs)
 
             if holds(most):
                 continue

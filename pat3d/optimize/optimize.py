@@ -63,6 +63,8 @@ class OptimizeOptions:
     """How many of them gradients refine."""
     relayout: bool = True
     """Whether layouts with other seeds may be among the starts."""
+    steady: bool = False
+    """Whether a layout in which everything holds, but hardly, is improved too."""
     seed: int = 0
     """Of the random starts."""
     settle: SettleOptions = field(default_factory=SettleOptions)
@@ -146,6 +148,11 @@ class Optimized:
         return self.best.poses
 
     @property
+    def improved(self) -> bool:
+        """Whether there is a better layout than the one as given."""
+        return self.best.rank < self.first.rank
+
+    @property
     def satisfied(self) -> bool:
         """Whether every relation holds in the best scene."""
         return self.best.satisfied
@@ -159,6 +166,7 @@ class Optimized:
             "loss_before": self.first.loss,
             "loss_after": self.best.loss,
             "broken": [str(result.relation) for result in self.best.broken],
+            "steadiness_degrees": self.best.steadiness,
             "trials": [
                 {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest,
                  "steadiness_degrees": one.steadiness}
@@ -180,6 +188,7 @@ def optimize(
     fixed: Collection[str] = (),
     pinned: Collection[str] = (),
     attachments: tuple[Attachment, ...] = (),
+    settled: tuple[Mapping[str, Pose], bool] | None = None,
     progress: Progress = lambda *_: None,
 ) -> Optimized:
     """Find an initial layout near `poses0` (or another one) that settles into what `relations` say.
@@ -192,6 +201,7 @@ def optimize(
         fixed: objects that never move.
         pinned: objects that settle like others but always start where they are.
         attachments: by which things hang; what hangs moves with its carrier.
+        settled: what `poses0` settles into and whether that is at rest, where it is known already.
         progress: told what is going on.
 
     Returns:
@@ -209,9 +219,12 @@ def optimize(
     placement = Placement(assets, relations, poses0, fixed=fixed, pinned=pinned, attachments=attachments)
     search = _Search(placement, options, progress)
     start = Start(source="layout", poses=placement.poses, balance=0.0, attachments=attachments)
-    first = search.settled([start], "settling")[0]
-    if first.satisfied or not search.placement.movable.any():
-        return Optimized(best=first, first=first, skipped=first.satisfied, trials=(first,), history=())
+    first = search.trial(start, *settled) if settled else search.settled([start], "settling")[0]
+    if options.steady:
+        first = search.judged(first)
+    done = first.steady if options.steady else first.satisfied
+    if done or not placement.movable.any():
+        return Optimized(best=first, first=first, skipped=done, trials=(first,), history=())
     return search.run(first)
 
 
@@ -220,9 +233,18 @@ def optimize_scene(
     *,
     options: OptimizeOptions | None = None,
     pinned: Collection[str] = (),
+    at_rest: bool | None = None,
     progress: Progress = lambda *_: None,
 ) -> Optimized:
-    """`optimize` from the initial poses of `scene`, which settles with its own friction."""
+    """`optimize` from the initial poses of `scene`, which settles with its own friction.
+
+    Args:
+        scene: laid out.
+        options: settings.
+        pinned: as for `optimize`.
+        at_rest: whether the objects' poses are at rest; None where they are not what the layout settles into.
+        progress: told what is going on.
+    """
     options = options or OptimizeOptions()
     return optimize(
         {obj.name: obj.asset for obj in scene.objects},
@@ -232,6 +254,7 @@ def optimize_scene(
         fixed={obj.name for obj in scene.objects if obj.fixed},
         pinned=pinned,
         attachments=scene.attachments,
+        settled=None if at_rest is None else ({obj.name: obj.pose for obj in scene.objects}, at_rest),
         progress=progress,
     )
 
@@ -244,6 +267,11 @@ def scene_after(scene: Scene, trial: Trial) -> Scene:
     return replace(scene, objects=objects, attachments=trial.attachments)
 
 
+def _result(trials: list[Trial], history: list[Epoch]) -> Optimized:
+    best = min(trials, key=lambda trial: trial.rank)
+    return Optimized(best=best, first=trials[0], skipped=False, trials=tuple(trials), history=tuple(history))
+
+
 class _Search:
     def __init__(self, placement: Placement, options: OptimizeOptions, progress: Progress) -> None:
         self.placement, self.options, self.progress = placement, options, progress
@@ -251,11 +279,13 @@ class _Search:
     def run(self, first: Trial) -> Optimized:
         """Other starts, then gradients where no start holds."""
         options, placement = self.options, self.placement
-        trials = [first]
+        trials = [first, *self._steadied(first)]
+        if trials[-1].steady:
+            return _result(trials, [])
         starts = make_starts(
             placement, placement.relations, count=options.starts, seed=options.seed, relayout=options.relayout
         )
-        trials += [self._judged(trial) for trial in self.settled(starts[1:], "settling starts")]
+        trials += [self.judged(trial) for trial in self.settled(starts[1:], "settling starts")]
         history: list[Epoch] = []
         if options.epochs and not any(trial.satisfied for trial in trials):
             for trial in sorted(trials, key=lambda trial: trial.rank)[: options.refined]:
@@ -264,10 +294,7 @@ class _Search:
                 if any(one.satisfied for one in polished):
                     break
         trials += self._steadied(min(trials, key=lambda trial: trial.rank))
-        return Optimized(
-            best=min(trials, key=lambda trial: trial.rank), first=first, skipped=False, trials=tuple(trials),
-            history=tuple(history),
-        )  # fmt: skip
+        return _result(trials, history)
 
     def settled(self, starts: list[Start], phase: str) -> list[Trial]:
         """What every start settles into; starts that cannot be simulated are left out, unless there is but one."""
@@ -286,8 +313,9 @@ class _Search:
             return [trial for start in starts for trial in self._alone(start, phase)]
         count = len(self.placement.names)
         poses = poses_from_states(model, found.q)
+        names = self.placement.names
         return [
-            self._trial(start, poses[w * count : (w + 1) * count], bool(found.at_rest[w]))
+            self.trial(start, dict(zip(names, poses[w * count : (w + 1) * count], strict=True)), bool(found.at_rest[w]))
             for w, start in enumerate(starts)
         ]
 
@@ -297,12 +325,10 @@ class _Search:
         except SimulationError:
             return []
 
-    def _trial(self, start: Start, settled: list[Pose], at_rest: bool) -> Trial:
+    def trial(self, start: Start, settled: Mapping[str, Pose], at_rest: bool) -> Trial:
+        """`start` with what it settled into."""
         assets, relations = self.placement.assets, self.placement.relations
-        poses = {
-            name: start.poses[name] if name in self.placement.fixed else pose
-            for name, pose in zip(assets, settled, strict=True)
-        }
+        poses = {name: (start.poses if name in self.placement.fixed else settled)[name] for name in assets}
         loss = SemanticLoss(assets, relations, start.poses)
         return Trial(
             source=start.source,
@@ -314,7 +340,7 @@ class _Search:
             attachments=start.attachments,
         )
 
-    def _judged(self, trial: Trial) -> Trial:
+    def judged(self, trial: Trial) -> Trial:
         """`trial` with its steadiness, where everything holds in it."""
         if not trial.satisfied:
             return trial
@@ -329,7 +355,7 @@ class _Search:
 
         def confirm(poses: Mapping[str, Pose]) -> bool:
             start = Start(source="gradient", poses=poses, balance=0.0, attachments=trial.attachments)
-            found.extend(self._judged(one) for one in self._alone(start, "settling"))
+            found.extend(self.judged(one) for one in self._alone(start, "settling"))
             return bool(found) and found[-1].satisfied
 
         options = self.options
@@ -351,7 +377,7 @@ class _Search:
             if poses0 is None:
                 break
             start = Start(source="recentred", poses=poses0, balance=0.0, attachments=trial.attachments)
-            tried = [self._judged(one) for one in self._alone(start, "settling")]
+            tried = [self.judged(one) for one in self._alone(start, "settling")]
             found += tried
             if not tried or tried[0].rank >= trial.rank:
                 break
