@@ -27,8 +27,8 @@ from pat3d.workspace import Workspace
 
 CLEARANCE = 1e-5
 """Gap between a fixed object and the ground [m]."""
-EPOCHS = 20
-"""Gradient steps of an optimisation at most; `pat3d optimize` takes more."""
+STARTS, EPOCHS = 4, 20
+"""Layouts and gradient steps of an optimisation at most; `pat3d optimize` takes more."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -218,7 +218,13 @@ class Attempts:
             device = prepare(self.device, self.progress)
         # Other layouts have been tried by the attempts; what they share is left to balancing and gradients.
         options = OptimizeOptions(
-            epochs=EPOCHS, refined=1, relayout=False, steady=True, seed=attempt.layout_seed, device=device
+            epochs=EPOCHS,
+            starts=STARTS,
+            refined=1,
+            relayout=False,
+            steady=True,
+            seed=attempt.layout_seed,
+            device=device,
         )
         with self.clock("optimising"):
             try:

@@ -16,22 +16,12 @@ from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
 from pat3d.scene import Pose, Relation
 from tests.layout.things import ball, block, gap_by_manifold, pen, table, vessel
-from tests.optimize.published import HATS, SOFA, askew, in_mujoco, ingredients
+from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
+from tests.optimize.scenes import on, overhanging
 from tests.optimize.stacks import stack
 
 GRADIENTS_ONLY = OptimizeOptions(starts=1, refined=1)
 GLOBAL_ONLY = OptimizeOptions(starts=2, epochs=0)
-
-
-def on(child: str, parent: str, kind: str = "on") -> Relation:
-    return Relation(child=child, kind=kind, parent=parent)  # type: ignore[arg-type]
-
-
-def overhanging() -> tuple[dict, tuple[Relation, ...], dict[str, Pose]]:
-    """A plank on a block, its middle 15 mm beyond the edge."""
-    assets = {"block": block(0.08, 0.08, 0.06), "plank": block(0.1, 0.06, 0.02)}
-    poses = {"block": Pose(position=(0, 0, 0.002)), "plank": Pose(position=(0.055, 0, 0.065))}
-    return assets, (on("plank", "block"),), poses
 
 
 def bowl_on_table() -> tuple[dict, tuple[Relation, ...], dict[str, Pose]]:
@@ -66,7 +56,7 @@ def test_the_record_of_an_optimisation_is_plain_data(rescued):
 
 def test_the_plank_that_was_moved_stays_in_mujoco(rescued, tmp_path):
     assets, relations, _ = overhanging()
-    assert in_mujoco(assets, relations, rescued.best, tmp_path / "after", 1.0).worst_mm < 0.5
+    assert in_mujoco(assets, relations, rescued.poses, tmp_path / "after", 1.0).worst_mm < 0.5
 
 
 def test_the_loss_curve_is_a_picture_with_a_falling_line(rescued, tmp_path):
@@ -183,14 +173,15 @@ def test_options_and_poses_are_checked():
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("options", [GRADIENTS_ONLY, OptimizeOptions()], ids=["gradients", "all"])
 def test_a_stack_of_six_irregular_blocks_stands_after_optimisation_and_collapses_without(seed, options, tmp_path):
+    """The published failure: weights that are not in the middle, one on another; MuJoCo judges both layouts."""
     assets, relations, poses = stack(seed, 6)
     found = optimize(assets, relations, poses, options=options)
     assert len(found.first.broken) >= 2
+    assert in_mujoco(assets, relations, poses, tmp_path / "before").worst_mm > 20.0
     assert found.satisfied
-    if options is not GRADIENTS_ONLY:
-        # Gradients alone stop at the first layout that stands, which may be a hair from falling (seed 4 falls in
-        # MuJoCo); among several starts, the one that needs least friction is chosen.
-        assert in_mujoco(assets, relations, found.best, tmp_path).worst_mm < 1.0
+    assert found.best.steadiness is not None
+    assert found.best.steadiness >= 2.0
+    assert in_mujoco(assets, relations, found.poses, tmp_path / "after").worst_mm < 1.0
 
 
 @pytest.mark.slow
@@ -204,19 +195,16 @@ def test_five_hats_stay_on_the_dogs_head(tmp_path):
     assert len(rescued.first.broken) == 5
     assert rescued.satisfied
     for k, found in enumerate((good, rescued)):
-        assert in_mujoco(assets, relations, found.best, tmp_path / str(k)).worst_mm < 0.5
+        assert in_mujoco(assets, relations, found.poses, tmp_path / str(k)).worst_mm < 0.5
 
 
 @pytest.mark.slow
 def test_two_large_bears_and_everything_else_stay_on_the_sofa(tmp_path):
     """From a layout with a bear beyond the front edge of the sofa, from which it falls onto the floor."""
-    assets, relations = ingredients(SOFA)
-    poses = arrange(assets, relations, seed=0).poses
-    placement = Placement(assets, relations, poses)
-    variables = np.zeros((len(assets), 3))
-    variables[list(assets).index("large teddy bear 2"), 1] = -0.5
-    shifted = placement.project(variables)
+    assets, relations, shifted = sofa_with_a_bear_over_the_edge()
     found = optimize(assets, relations, shifted, options=OptimizeOptions(starts=4))
-    assert not found.first.satisfied
+    assert any(result.relation.child == "large teddy bear 2" for result in found.first.broken)
     assert found.satisfied
-    assert in_mujoco(assets, relations, found.best, tmp_path).worst_mm < 0.5
+    toys = [rel.child for rel in relations if rel.parent == "leather sofa" and rel.supports]
+    assert len(toys) == 7
+    assert in_mujoco(assets, relations, found.poses, tmp_path).worst_mm < 0.5
