@@ -7,8 +7,9 @@
 First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
 (pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
 through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
-loss; among scenes in which everything holds, the one that can be tilted furthest before its certificate fails. If that
-is not far, loads are centred on their supports (pat3d.optimize.steady).
+loss; among scenes in which everything holds, those that can be tilted furthest before their certificate fails, and of
+these, those near the layout as given. If even the best endures little, loads are centred on their supports
+(pat3d.optimize.steady).
 """
 
 from __future__ import annotations
@@ -116,11 +117,12 @@ class Trial:
         return self.satisfied and self.steadiness is not None and self.steadiness >= STEADY
 
     @property
-    def rank(self) -> tuple[int, bool, float, float]:
+    def rank(self) -> tuple[int, bool, float, bool, float]:
         """The least is best."""
-        # A loss is left where everything holds, though not by its margin.
+        # Where everything holds, what is left of the loss matters less than standing firmly and near the layout given.
         steadiness = -min(self.steadiness or 0.0, MORE_THAN_STEADY) if self.satisfied else 0.0
-        return len(self.broken), not self.at_rest, steadiness, self.loss
+        elsewhere = self.satisfied and self.source == "arranged anew"
+        return len(self.broken), not self.at_rest, steadiness, elsewhere, self.loss
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

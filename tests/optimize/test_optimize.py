@@ -5,8 +5,11 @@ import json
 import numpy as np
 import pytest
 import torch
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from PIL import Image
 
+from pat3d.assets import shapes
 from pat3d.errors import LayoutError, SpecError
 from pat3d.layout.layout import arrange
 from pat3d.optimize.loss import states
@@ -14,8 +17,9 @@ from pat3d.optimize.optimize import Optimized, OptimizeOptions, optimize
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
+from pat3d.optimize.steady import deepest
 from pat3d.scene import Pose, Relation
-from tests.layout.things import ball, block, gap_by_manifold, pen, table, vessel
+from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
 from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
 from tests.optimize.scenes import on, overhanging
 from tests.optimize.stacks import stack
@@ -167,6 +171,90 @@ def test_options_and_poses_are_checked():
         OptimizeOptions(learning_rate=float("nan"))
     with pytest.raises(SpecError, match='"plank" has no initial pose'):
         optimize(assets, relations, {"block": poses["block"]})
+
+
+@given(angle=st.floats(0.0, 6.3), x=st.floats(-0.4, 0.4), y=st.floats(-0.2, 0.2))
+@settings(max_examples=50, deadline=None)
+def test_the_deepest_point_of_a_rectangle_is_half_its_shorter_side_inside(angle, x, y):
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    corners = np.array([[-0.5, -0.25], [0.5, -0.25], [0.5, 0.25], [-0.5, 0.25], [0.1, 0.2]]) @ turn.T
+    middle, depth = deepest(corners, turn @ np.array([x, y]))
+    assert deepest(corners, middle)[1] == pytest.approx(0.25, abs=1e-6)
+    assert depth == pytest.approx(min(0.5 - abs(x), 0.25 - abs(y)), abs=1e-9)
+
+
+def test_a_load_on_the_edge_is_moved_over_the_middle_of_its_support():
+    """A plank whose middle is 0.2 mm inside the edge of its block endures about a degree."""
+    assets, relations, poses = overhanging()
+    poses["plank"] = Pose(position=(0.0398, 0, 0.065))
+    found = optimize(assets, relations, poses, options=OptimizeOptions(steady=True, starts=1, epochs=0))
+    assert not found.skipped
+    assert found.best.source == "recentred"
+    assert found.poses0["plank"].position[:2] == pytest.approx((0.0, 0.0), abs=0.025)
+    assert found.first.steadiness is not None
+    assert found.best.steadiness is not None
+    assert found.first.steadiness < 2.0 < found.best.steadiness
+
+
+def test_pinned_objects_settle_but_always_start_where_they_are():
+    assets, relations, poses = overhanging()
+    found = optimize(assets, relations, poses, options=GLOBAL_ONLY, pinned={"block"})
+    assert found.satisfied
+    assert found.poses0["block"] == poses["block"]
+    assert found.poses["block"].position[2] < poses["block"].position[2]
+    stuck = optimize(assets, relations, poses, options=GLOBAL_ONLY, pinned={"block", "plank"})
+    assert not stuck.satisfied
+    assert not stuck.improved
+
+
+def lamp_on_a_gallows() -> tuple[dict, tuple[Relation, ...]]:
+    """A weight that hangs from the arm of a post on a table."""
+    post = shapes.join(
+        shapes.box(0.2, 0.2, 0.1), shapes.box(0.04, 0.04, 0.5), shapes.box(0.3, 0.04, 0.04).moved(x=0.13, z=0.46),
+    )  # fmt: skip
+    assets = {"table": table(), "gallows": asset("gallows", post), "weight": block(0.05, 0.05, 0.05), "cup": block()}
+    return assets, (
+        on("gallows", "table"), on("weight", "gallows", "hangs_from"), on("cup", "table"),
+        on("cup", "gallows", "left_of"),
+    )  # fmt: skip
+
+
+def apart(found, poses) -> float:
+    """Largest distance between the ends of any anchor [m]."""
+    ends = (one.ends(poses[one.child], poses[one.parent]) for one in found)
+    return max(float(np.linalg.norm(first - second, axis=1).max()) for first, second in ends)
+
+
+def test_what_hangs_moves_with_what_it_hangs_from():
+    assets, relations = lamp_on_a_gallows()
+    layout = arrange(assets, relations, seed=0)
+    assert len(layout.attachments) == 1
+    placement = Placement(assets, relations, layout.poses, attachments=layout.attachments)
+    variables = np.zeros((4, 3))
+    variables[1] = [0.1, -0.05, 0.1]
+    moved = placement.project(variables)
+    before, after = layout.poses["weight"].position, moved["weight"].position
+    assert np.linalg.norm(np.subtract(before, after)) > 0.05
+    rest = apart(layout.attachments, layout.poses)
+    assert apart(layout.attachments, moved) == pytest.approx(rest, abs=1e-9)
+    for start in make_starts(placement, relations, count=6, seed=0, relayout=True):
+        assert apart(start.attachments, start.poses) == pytest.approx(rest, abs=0.03)
+        assert start.attachments[0].child == "weight"
+
+
+def test_a_scene_with_something_hanging_is_optimised_with_its_attachment():
+    """The post stands half on a box and falls; another layout keeps it up, with the weight still on its arm."""
+    assets, relations = lamp_on_a_gallows()
+    del assets["cup"], assets["table"]
+    relations = (on("gallows", "box"), relations[1])
+    assets = {"box": block(0.3, 0.3, 0.1), **assets}
+    layout = arrange(assets, relations, seed=0)
+    placement = Placement(assets, relations, layout.poses, attachments=layout.attachments)
+    over_the_edge = placement.project(np.array([[0, 0, 0], [0.2, 0, 0], [0, 0, 0]]))
+    found = optimize(assets, relations, over_the_edge, options=GLOBAL_ONLY, attachments=layout.attachments)
+    assert found.first.broken
+    assert found.satisfied
+    assert apart(found.best.attachments, found.poses) < 1e-4
 
 
 @pytest.mark.slow
