@@ -15,7 +15,7 @@ from pat3d.check.proof import Proof, broken, prove, relations_at_rest
 from pat3d.errors import LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf import write_mjcf
 from pat3d.gather import Ingredient, Order, derived_seed
-from pat3d.improve import available, improve, lost
+from pat3d.improve import OPTIMISATION, available, improve, lost
 from pat3d.kernels import prepare
 from pat3d.progress import Event, Progress
 from pat3d.report import Clock
@@ -77,7 +77,9 @@ class Attempt:
     @property
     def lost(self) -> tuple[Relation, ...]:
         """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
-        return lost(self.scene) if self.scene is not None and self.rest is not None else ()
+        if self.scene is None or self.rest is None:
+            return ()
+        return lost(self.scene, self.checked.proof.relations if self.checked else relations_at_rest(self.scene))
 
     @property
     def passed(self) -> bool:
@@ -170,7 +172,9 @@ class Attempts:
         kept = self.workspace.layout(number, inputs["layout"])
         if kept is not None:
             scene = kept[0]
-            return replace(scene, settling_friction=self.friction, provenance=self._provenance(layout_seed)), kept[1]
+            own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
+            provenance = {**self._provenance(layout_seed), **own}
+            return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
         from pat3d.layout.layout import arrange
 
         if not self._made:

@@ -21,9 +21,9 @@ EXAMPLES = {
   pat3d build --schema > scene.schema.json
 """,
     "optimize": """
-  pat3d optimize scenes/tower                     mends the scene in its folder
-  pat3d optimize scenes/tower --out scenes/mended the same, and leaves the folder as it is
-  pat3d optimize scenes/tower --starts 1          gradient steps from the scene's own layout only
+  pat3d optimize scenes/tower                    mend the scene in its folder
+  pat3d optimize scenes/tower --out scenes/mend  write another folder, leave this one as it is
+  pat3d optimize scenes/tower --starts 1         gradient steps from the scene's own layout only
 """,
     "check": """
   pat3d check scenes/mug

@@ -13,17 +13,22 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pat3d.check.proof import relations_at_rest
 from pat3d.errors import SpecError
-from pat3d.layout.predicates import check_relations
+from pat3d.layout.predicates import RelationResult
 from pat3d.progress import Event, Progress, silent
 from pat3d.rest import Rest, come_to_rest
 from pat3d.scene import Relation, Scene
+from pat3d.versions import versions
 
 if TYPE_CHECKING:
     from pat3d.optimize.optimize import Optimized, OptimizeOptions
 
 GIVEN = "given_poses"
 """Key of a scene's provenance: names of the objects whose initial poses the user chose."""
+
+OPTIMISATION = "optimisation"
+"""Key of a scene's provenance: where its initial layout came from, if it was optimised."""
 
 PICTURES = ("loss.png", "before_after.png")
 
@@ -58,11 +63,11 @@ def given_poses(scene: Scene) -> frozenset[str]:
     return frozenset(obj.name for obj in scene.objects if obj.name in names)
 
 
-def lost(scene: Scene) -> tuple[Relation, ...]:
-    """Lateral relations that hold in the layout of `scene` and no longer at rest."""
-    before = _holding(scene, initial=True)
-    after = _holding(scene, initial=False)
-    return tuple(rel for rel in scene.relations if not rel.supports and rel in before and rel not in after)
+def lost(scene: Scene, at_rest: tuple[RelationResult, ...]) -> tuple[Relation, ...]:
+    """Lateral relations that hold in the layout of `scene` and not in the results `at_rest`."""
+    missed = [result.relation for result in at_rest if not result.relation.supports and not result.holds]
+    fulfilled = _fulfilled(scene) if missed else set()
+    return tuple(rel for rel in missed if rel in fulfilled)
 
 
 def improve(
@@ -93,7 +98,7 @@ def improve(
         else:
             progress(Event(stage=_PHASES.get(phase, phase), step=step, motion=value))
 
-    fulfilled = _holding(scene, initial=True)
+    fulfilled = _fulfilled(scene)
     wanted = replace(
         scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled)
     )  # fmt: skip
@@ -103,19 +108,25 @@ def improve(
     if not found.improved:
         return Improved(scene=scene, rest=None, found=found)
     after = scene_after(scene, found.best)
+    how = {"source": found.best.source, "seed": options.seed, "versions": versions()}
+    after = replace(after, provenance={**after.provenance, OPTIMISATION: how})
     rest = come_to_rest(after, device=options.device, progress=progress)
     after = rest.of(after)
+    if _count_broken(replace(after, relations=wanted.relations)) > len(found.first.broken):
+        return Improved(scene=scene, rest=None, found=found)
     progress(Event(stage="drawing the optimisation"))
     pictures = draw(found, scene_after(scene, found.first), after)
     return Improved(scene=after, rest=replace(rest, optimisation=found.as_dict(), pictures=pictures), found=found)
 
 
-def _holding(scene: Scene, *, initial: bool) -> set[Relation]:
-    poses = {obj.name: obj.initial_pose if initial else obj.pose for obj in scene.objects}
-    results = check_relations(
-        scene.relations, {obj.name: obj.asset for obj in scene.objects}, poses, attachments=scene.attachments
-    )  # fmt: skip
-    return {result.relation for result in results if result.holds}
+def _fulfilled(scene: Scene) -> set[Relation]:
+    """Relations that hold in the layout of `scene`."""
+    layout = replace(scene, objects=tuple(replace(obj, pose=obj.initial_pose) for obj in scene.objects))
+    return {result.relation for result in relations_at_rest(layout) if result.holds}
+
+
+def _count_broken(scene: Scene) -> int:
+    return sum(not result.holds for result in relations_at_rest(scene))
 
 
 _PHASES = {"settling": "settling the layout", "settling starts": "settling other layouts"}

@@ -62,9 +62,7 @@ class Outcome:
             return ()
         if self.proof is None:
             return broken(self.improved.found.first.results) or ("the scene stands, but no steadier layout was found.",)
-        rest = self.improved.rest
-        restless = () if rest is None or rest.at_rest else ("settling did not come to rest.",)
-        return (*restless, *self.proof.failures)
+        return _failures(self.improved.rest, self.proof)
 
 
 def optimize_folder(
@@ -142,12 +140,17 @@ def _write(scene: Scene, rest: Rest, earlier: dict[str, Any], fresh: Path, clock
         "format": FORMAT, "version": VERSION, "prompt": scene.prompt, "seed": scene.seed,
         **{key: value for key, value in earlier.items() if key not in _STALE},
         **of_scene(scene, rest, proof),
-        "passed": proof.passed and rest.at_rest,
-        "failures": list(proof.failures),
+        "passed": not _failures(rest, proof),
+        "failures": list(_failures(rest, proof)),
         "seconds": dict(clock.seconds),
     }  # fmt: skip
     write_json(fresh / "report.json", report)
     return proof
+
+
+def _failures(rest: Rest | None, proof: Proof) -> tuple[str, ...]:
+    restless = () if rest is None or rest.at_rest else ("settling did not come to rest.",)
+    return (*restless, *proof.failures)
 
 
 def _copy(source: Path, target: Path) -> None:

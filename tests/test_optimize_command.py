@@ -147,7 +147,8 @@ def test_without_torch_the_command_says_how_to_get_it(broken, monkeypatch, capfd
 
 @pytest.fixture
 def falling_layouts(monkeypatch):
-    """Every layout puts the plank beyond the edge of its block."""
+    """Every layout puts the plank beyond the edge of its block; the preview is left out, for speed."""
+    monkeypatch.setattr("pat3d.view.preview.save_preview", lambda *_: None)
     assets, relations, poses = overhanging()
 
     def arrange(*_, **__):
