@@ -236,7 +236,7 @@ class Attempts:
             except SimulationError:
                 return attempt
         # Recorded even where it changed nothing, so that it is not repeated when the run is resumed.
-        kept_scene, kept_rest = scene, replace(rest, optimisation=done.found.as_dict())
+        kept_scene, kept_rest = scene, replace(rest, optimisation=done.record(kept=False))
         if done.rest is not None:
             faults = broken(relations_at_rest(done.scene))
             other = replace(attempt, scene=done.scene, rest=done.rest, broken=faults, checked=None)
@@ -244,7 +244,8 @@ class Attempts:
             if other.rank < attempt.rank:
                 attempt, kept_scene, kept_rest = other, done.scene, done.rest
         self.workspace.save_rest(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept_rest)
-        return replace(attempt, rest=kept_rest)
+        checked = replace(attempt.checked, rest=kept_rest) if attempt.checked is not None else None
+        return replace(attempt, rest=kept_rest, checked=checked)
 
     def _checked(self, attempt: Attempt) -> Attempt:
         if attempt.checked is not None or attempt.scene is None or attempt.rest is None:

@@ -160,17 +160,15 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
 
 def show_mended(target: Console, outcome: Outcome) -> None:
     """The summary that ends `pat3d optimize`."""
-    from pat3d.improve import in_words
-
     if outcome.skipped:
         target.print("every relation holds already; the scene is left as it is", markup=False)
         return
     if outcome.proof is None:
-        target.print(f"nothing better was found: {in_words(outcome.improved.found.as_dict())}", markup=False)
+        show_optimisation(target, outcome.improved.record(kept=False))
         target.print("the scene is left as it is", markup=False)
         return
     show_proof(target, outcome.scene, outcome.proof)
-    show_optimisation(target, outcome.improved.found.as_dict())
+    show_optimisation(target, outcome.improved.record(kept=True))
     target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
     show_files(target, outcome.folder)
 
@@ -180,7 +178,7 @@ def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None
     from pat3d.improve import in_words
 
     if record is not None:
-        target.print(f"optimised: {in_words(record)}", markup=False)
+        target.print(f"optimisation: {in_words(record)}", markup=False)
 
 
 def show_files(target: Console, folder: Path) -> None:

@@ -45,6 +45,10 @@ class Improved:
     """How it settled, with the record and the pictures; None where nothing better was found."""
     found: Optimized
 
+    def record(self, *, kept: bool) -> dict[str, Any]:
+        """Plain data for report.json; `kept` tells whether the layout that was found is the scene's now."""
+        return {"kept": kept, **self.found.as_dict()}
+
 
 def available() -> bool:
     """Whether the optimisation can run here."""
@@ -116,7 +120,8 @@ def improve(
         return Improved(scene=scene, rest=None, found=found)
     progress(Event(stage="drawing the optimisation"))
     pictures = draw(found, scene_after(scene, found.first), after)
-    return Improved(scene=after, rest=replace(rest, optimisation=found.as_dict(), pictures=pictures), found=found)
+    done = Improved(scene=after, rest=rest, found=found)
+    return replace(done, rest=replace(rest, optimisation=done.record(kept=True), pictures=pictures))
 
 
 def _fulfilled(scene: Scene) -> set[Relation]:
@@ -148,14 +153,25 @@ def in_words(record: Mapping[str, Any]) -> str:
     """What an optimisation did, from its record in report.json."""
     trials, history = record.get("trials", []), record.get("history", [])
     before = trials[0]["broken"] if trials else 0
-    text = f"{_count(before, 'relation')} broken before, {len(record.get('broken', []))} after"
-    text += f"; loss {record['loss_before']:.2g} -> {record['loss_after']:.2g} m^2"
+    if not record["kept"]:
+        text = f"no better layout was found ({_count(before, 'relation')} broken)"
+    else:
+        text = f"{_count(before, 'relation')} broken before, {len(record.get('broken', []))} after"
+        text += f"; loss {record['loss_before']:.2g} -> {record['loss_after']:.2g} m^2"
     text += f"; {_count(len(trials), 'layout')} settled"
     if history:
         text += f", {_count(len(history), 'gradient step')}"
     if record.get("steadiness_degrees") is not None:
         text += f"; endures a tilt of {record['steadiness_degrees']:g} degrees"
     return text
+
+
+def readable(record: Any) -> bool:
+    """Whether `record`, read from a file, is a record of an optimisation."""
+    try:
+        return bool(in_words(record))
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError):
+        return False
 
 
 def _count(number: int, what: str) -> str:

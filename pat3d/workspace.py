@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.errors import ExportError, SpecError
-from pat3d.improve import PICTURES
+from pat3d.improve import PICTURES, readable
 from pat3d.rest import Rest
 from pat3d.scene import Scene
 from pat3d.scene_folder import (
@@ -77,7 +77,7 @@ class Workspace:
             if [obj.name for obj in settled.objects] != [obj.name for obj in scene.objects]:
                 continue
             optimisation = report.get("optimisation")
-            optimisation = optimisation if isinstance(optimisation, dict) else None
+            optimisation = optimisation if isinstance(optimisation, dict) and readable(optimisation) else None
             self.reused.append(f"settling {attempt + 1}")
             return Rest(
                 poses=tuple(obj.pose for obj in settled.objects),

@@ -293,6 +293,6 @@ def test_two_large_bears_and_everything_else_stay_on_the_sofa(tmp_path):
     found = optimize(assets, relations, shifted, options=OptimizeOptions(starts=4))
     assert any(result.relation.child == "large teddy bear 2" for result in found.first.broken)
     assert found.satisfied
-    toys = [rel.child for rel in relations if rel.parent == "leather sofa" and rel.supports]
+    toys = [rel.child for rel in relations if rel.parent == "brown leather sofa" and rel.supports]
     assert len(toys) == 7
     assert in_mujoco(assets, relations, found.poses, tmp_path).worst_mm < 0.5
