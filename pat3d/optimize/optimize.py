@@ -7,9 +7,8 @@
 First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
 (pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
 through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
-loss; among scenes in which everything holds, those that can be tilted furthest before their certificate fails, and of
-these, those near the layout as given. If even the best endures little, loads are centred on their supports
-(pat3d.optimize.steady).
+loss; among scenes in which everything holds, those that can be tilted furthest before their certificate fails come
+before those of less loss. If even the best endures little, loads are centred on their supports (pat3d.optimize.steady).
 """
 
 from __future__ import annotations

@@ -53,12 +53,11 @@ class Trial:
         return self.satisfied and self.steadiness is not None and self.steadiness >= STEADY
 
     @property
-    def rank(self) -> tuple[int, bool, float, bool, float]:
+    def rank(self) -> tuple[int, bool, float, float]:
         """The least is best."""
-        # Where everything holds, what is left of the loss matters less than standing firmly and near the layout given.
+        # Where everything holds, what is left of the loss (how far boxes jut out) matters less than standing firmly.
         steadiness = -min(self.steadiness or 0.0, MORE_THAN_STEADY) if self.satisfied else 0.0
-        elsewhere = self.satisfied and self.source == "arranged anew"
-        return len(self.broken), not self.at_rest, steadiness, elsewhere, self.loss
+        return len(self.broken), not self.at_rest, steadiness, self.loss
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
