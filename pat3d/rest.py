@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,10 @@ class Rest:
     """Centres of mass in the frames of the assets [m], shape (objects, 3)."""
     record: Mapping[str, Any]
     """at_rest, residual, frames, polish_steps, newton_iterations, time_step; JSON-serialisable."""
+    optimisation: Mapping[str, Any] | None = None
+    """Of the layout that settled, where there was one; JSON-serialisable."""
+    pictures: Mapping[str, bytes] = field(default_factory=dict)
+    """PNG files about the optimisation, by name."""
 
     @property
     def at_rest(self) -> bool:
