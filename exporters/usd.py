@@ -1,9 +1,9 @@
 """USD: a scene for Isaac Sim, Newton and every other reader of UsdPhysics.
 
 Metres, kilograms, Z up. Masses, centres and inertias are on the bodies and never on colliders; every convex part is a
-collider of its own, boxes as cubes where the MJCF export has boxes; objects that do not move carry no rigid body; nothing
-is an articulation. Poses and the places of colliders are in double precision; what the schema keeps in single precision
-is rounded once.
+collider of its own, boxes as cubes where the MJCF export has boxes; objects that do not move carry no rigid body;
+nothing is an articulation. Poses and the places of colliders are in double precision; what the schema keeps in single
+precision is rounded once.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.util import find_spec
 from pathlib import Path
 
 from pat3d.assets.asset import Asset
@@ -38,7 +37,6 @@ def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: 
     Raises:
         ExportError: `folder` is a file or holds something else than a USD export, or usd-core is not installed.
     """
-    _require_usd()
     from pat3d.exporters.usd_scene import write_scene
 
     with _replacing(Path(folder), "scene") as fresh:
@@ -63,7 +61,6 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
     Raises:
         ExportError: `folder` is a file or holds something else, or usd-core is not installed.
     """
-    _require_usd()
     from pat3d.exporters.usd_asset import write_asset
     from pat3d.exporters.usd_scene import prim_name
 
@@ -74,14 +71,9 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
     return Path(folder) / file
 
 
-def _require_usd() -> None:
-    if find_spec("pxr") is None:
-        raise ExportError("USD needs the package usd-core, which is not installed: pip install 'pat3d[usd]'.")
-
-
 def _package(path: Path) -> None:
     """Write everything that the layer at `path` needs as one .usdz beside it."""
-    from pxr import Sdf, UsdUtils
+    from pat3d.exporters.openusd import Sdf, UsdUtils
 
     if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(path)), str(path.with_suffix(".usdz"))):
         raise ExportError(f"{path.with_suffix('.usdz').name}: usd-core could not package {path.name}.")

@@ -15,17 +15,32 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade, Vt
 
-from pat3d.assets.asset import Asset, ConvexPart, MassProperties, Material, VisualMesh
+from pat3d.assets.asset import Asset, ConvexPart, MassProperties, VisualMesh
 from pat3d.exporters.meshes import corner_normals, write_texture
+from pat3d.exporters.openusd import (
+    Gf,
+    Kind,
+    Prim,
+    PrimPath,
+    Sdf,
+    Shape,
+    Stage,
+    Surface,
+    Usd,
+    UsdGeom,
+    UsdPhysics,
+    UsdSemantics,
+    UsdShade,
+    Vt,
+)
 from pat3d.exporters.usd_extras import extend_body, extend_collider, extend_material
 
 GUIDE_COLOUR = (0.4, 0.6, 0.9)
 """Linear RGB of colliders where guides are shown."""
 
 
-def set_metadata(stage: Usd.Stage, root: Usd.Prim) -> None:
+def set_metadata(stage: Stage, root: Prim) -> None:
     """Metres, kilograms, Z up, and `root` as what a reference to the layer means."""
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
@@ -69,7 +84,7 @@ def part_name(number: int) -> str:
     return f"part_{number:03d}"
 
 
-def physics_material(stage: Usd.Stage, path: Sdf.Path, friction: float) -> UsdShade.Material:
+def physics_material(stage: Stage, path: PrimPath, friction: float) -> Surface:
     """A material of static and dynamic `friction` [-] without restitution."""
     material = UsdShade.Material.Define(stage, path)
     physics = UsdPhysics.MaterialAPI.Apply(material.GetPrim())
@@ -80,7 +95,7 @@ def physics_material(stage: Usd.Stage, path: Sdf.Path, friction: float) -> UsdSh
     return material
 
 
-def bind_physics(prim: Usd.Prim, material: UsdShade.Material) -> None:
+def bind_physics(prim: Prim, material: Surface) -> None:
     """Bind a physics material to a collider.
 
     For physics alone, which is what the schema asks for, and for all purposes too: MuJoCo's reader looks no further,
@@ -92,12 +107,12 @@ def bind_physics(prim: Usd.Prim, material: UsdShade.Material) -> None:
 
 
 def define_box(
-    stage: Usd.Stage,
-    path: Sdf.Path,
+    stage: Stage,
+    path: PrimPath,
     centre: tuple[float, float, float],
     half: tuple[float, float, float],
     quat: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0),
-) -> Usd.Prim:
+) -> Prim:
     """A box collider with half sizes [m] and quat_wxyz about `centre` [m]."""
     cube = UsdGeom.Cube.Define(stage, path)
     cube.CreateSizeAttr(2.0)
@@ -109,8 +124,8 @@ def define_box(
 
 
 def define_mesh(
-    stage: Usd.Stage, path: Sdf.Path, points: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64]
-) -> UsdGeom.Mesh:
+    stage: Stage, path: PrimPath, points: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64]
+) -> Shape:
     """A polygonal mesh.
 
     Args:
@@ -133,7 +148,7 @@ def define_mesh(
 
 
 def place(
-    prim: Usd.Prim, position: tuple[float, float, float], quat: tuple[float, float, float, float] | None = None
+    prim: Prim, position: tuple[float, float, float], quat: tuple[float, float, float, float] | None = None
 ) -> None:
     """Author translation [m] and, where given, orientation (quat_wxyz) in double precision."""
     xform = UsdGeom.Xformable(prim)
@@ -142,7 +157,7 @@ def place(
         xform.AddOrientOp(UsdGeom.XformOp.PrecisionDouble).Set(Gf.Quatd(*quat))
 
 
-def _mass(prim: Usd.Prim, properties: MassProperties) -> None:
+def _mass(prim: Prim, properties: MassProperties) -> None:
     """Mass, centre and principal inertia."""
     from scipy.spatial.transform import Rotation
 
@@ -161,7 +176,7 @@ def _mass(prim: Usd.Prim, properties: MassProperties) -> None:
     mass.CreatePrincipalAxesAttr(Gf.Quatf(w, x, y, z))
 
 
-def _visual(stage: Usd.Stage, path: Sdf.Path, mesh: VisualMesh) -> Usd.Prim:
+def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> Prim:
     """The textured mesh."""
     prim = define_mesh(stage, path, mesh.vertices, mesh.faces, corner_normals(mesh.vertices, mesh.faces))
     uv, index = np.unique(mesh.uv.reshape(-1, 2), axis=0, return_inverse=True)
@@ -173,7 +188,7 @@ def _visual(stage: Usd.Stage, path: Sdf.Path, mesh: VisualMesh) -> Usd.Prim:
     return prim.GetPrim()
 
 
-def textured_material(stage: Usd.Stage, path: Sdf.Path, texture: str) -> UsdShade.Material:
+def textured_material(stage: Stage, path: PrimPath, texture: str) -> Surface:
     """A UsdPreviewSurface that takes its colour from the image at `texture`, relative to the layer."""
     material = UsdShade.Material.Define(stage, path)
     surface = plain_surface(stage, material, roughness=0.55)
@@ -193,7 +208,7 @@ def textured_material(stage: Usd.Stage, path: Sdf.Path, texture: str) -> UsdShad
     return material
 
 
-def plain_surface(stage: Usd.Stage, material: UsdShade.Material, *, roughness: float) -> UsdShade.Shader:
+def plain_surface(stage: Stage, material: Surface, *, roughness: float) -> Prim:
     """The UsdPreviewSurface of `material`, not metallic."""
     surface = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("surface"))
     surface.CreateIdAttr("UsdPreviewSurface")
@@ -203,7 +218,7 @@ def plain_surface(stage: Usd.Stage, material: UsdShade.Material, *, roughness: f
     return surface
 
 
-def _part(stage: Usd.Stage, path: Sdf.Path, part: ConvexPart, friction: UsdShade.Material, *, as_mesh: bool) -> None:
+def _part(stage: Stage, path: PrimPath, part: ConvexPart, friction: Surface, *, as_mesh: bool) -> None:
     """One convex part as a collider."""
     if part.box is not None and not as_mesh:
         prim = define_box(stage, path, *part.box)
@@ -221,7 +236,7 @@ def _part(stage: Usd.Stage, path: Sdf.Path, part: ConvexPart, friction: UsdShade
     bind_physics(prim, friction)
 
 
-def _make_collider(shape: UsdGeom.Gprim, *, mesh: bool) -> None:
+def _make_collider(shape: Shape, *, mesh: bool) -> None:
     """Make `shape` collide, shown only as a guide."""
     shape.CreatePurposeAttr(UsdGeom.Tokens.guide)
     shape.CreateDisplayColorAttr([GUIDE_COLOUR])

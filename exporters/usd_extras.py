@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf, Usd
-
 from pat3d.exporters.mjcf import (
     CCD_TOLERANCE,
     CONDIM,
@@ -20,6 +18,7 @@ from pat3d.exporters.mjcf import (
     TIMESTEP,
     TORSIONAL_FRICTION,
 )
+from pat3d.exporters.openusd import Prim, Sdf
 
 CONTACT_OFFSET = 0.002
 """PhysX and Newton look for contacts between surfaces closer than this [m]."""
@@ -38,7 +37,7 @@ _DOUBLE, _DOUBLES = Sdf.ValueTypeNames.Double, Sdf.ValueTypeNames.DoubleArray
 _UNIFORM, _VARYING = Sdf.VariabilityUniform, Sdf.VariabilityVarying
 
 
-def extend_scene(prim: Usd.Prim) -> None:
+def extend_scene(prim: Prim) -> None:
     """Solver settings on the PhysicsScene `prim`: those of the MJCF export, and two milliseconds a step for all."""
     steps = round(1.0 / TIMESTEP)
     _apply(prim, "PhysxSceneAPI", [("physxScene:timeStepsPerSecond", _UINT, steps, _VARYING)])
@@ -57,18 +56,18 @@ def extend_scene(prim: Usd.Prim) -> None:
     )
 
 
-def extend_body(prim: Usd.Prim) -> None:
+def extend_body(prim: Prim) -> None:
     """Settings of a rigid body."""
     velocity = ("physxRigidBody:maxDepenetrationVelocity", _FLOAT, MAX_DEPENETRATION_VELOCITY, _VARYING)
     _apply(prim, "PhysxRigidBodyAPI", [velocity])
 
 
-def shorten_body(prim: Usd.Prim) -> None:
+def shorten_body(prim: Prim) -> None:
     """Take the schema of `extend_body` from a prim that is no rigid body after all."""
     prim.RemoveAppliedSchema("PhysxRigidBodyAPI")
 
 
-def extend_collider(prim: Usd.Prim, *, mesh: bool) -> None:
+def extend_collider(prim: Prim, *, mesh: bool) -> None:
     """Settings of a collider; `mesh` for convex hulls, else a primitive shape."""
     _apply(
         prim,
@@ -110,12 +109,12 @@ def extend_collider(prim: Usd.Prim, *, mesh: bool) -> None:
         _apply(prim, "MjcMeshCollisionAPI", [("mjc:inertia", _TOKEN, "convex", _UNIFORM)])
 
 
-def extend_margin(prim: Usd.Prim, margin: float) -> None:
+def extend_margin(prim: Prim, margin: float) -> None:
     """MuJoCo's contact margin of an extended collider [m]: surfaces that rest this far apart feel each other."""
     prim.CreateAttribute("mjc:margin", _DOUBLE, False, _UNIFORM).Set(margin)
 
 
-def extend_material(prim: Usd.Prim) -> None:
+def extend_material(prim: Prim) -> None:
     """Friction beyond Coulomb's on a physics material, and the rule by which a pair takes the larger friction."""
     _apply(prim, "PhysxMaterialAPI", [("physxMaterial:frictionCombineMode", _TOKEN, "max", _UNIFORM)])
     _apply(
@@ -136,7 +135,7 @@ def extend_material(prim: Usd.Prim) -> None:
     )
 
 
-def _apply(prim: Usd.Prim, schema: str, attributes: list[tuple[str, Any, Any, Any]]) -> None:
+def _apply(prim: Prim, schema: str, attributes: list[tuple[str, Any, Any, Any]]) -> None:
     """Apply `schema` and author (name, type, value, variability) of its attributes."""
     prim.AddAppliedSchema(schema)
     for name, kind, value, variability in attributes:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom, UsdPhysics
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from pat3d.errors import ExportError
+from pat3d.exporters.openusd import Prim, UsdGeom, UsdPhysics
 from pat3d.exporters.readback import BodyReadback
 from pat3d.exporters.usd_stage import (
     Body,
@@ -37,7 +38,7 @@ def read_usd(path: str | Path) -> tuple[BodyReadback, ...]:
     return tuple(_read(body, cache, path) for body in bodies(stage))
 
 
-def _read(body: Body, cache: UsdGeom.XformCache, path: str | Path) -> BodyReadback:
+def _read(body: Body, cache: Any, path: str | Path) -> BodyReadback:
     prim = body.prim
     place, _ = without_scale(matrix(prim, cache))
     mass, centre, inertia = mass_properties(prim, path)
@@ -54,14 +55,19 @@ def _read(body: Body, cache: UsdGeom.XformCache, path: str | Path) -> BodyReadba
     )
 
 
-def mass_properties(prim: Usd.Prim, path: str | Path) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+def mass_properties(prim: Prim, path: str | Path) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
     """Mass [kg], centre [m] and inertia tensor about it [kg m^2], in the axes of `prim`.
 
     Raises:
         ExportError: one of them is not authored.
     """
     api = UsdPhysics.MassAPI(prim)
-    attributes = (api.GetMassAttr(), api.GetCenterOfMassAttr(), api.GetDiagonalInertiaAttr(), api.GetPrincipalAxesAttr())
+    attributes = (
+        api.GetMassAttr(),
+        api.GetCenterOfMassAttr(),
+        api.GetDiagonalInertiaAttr(),
+        api.GetPrincipalAxesAttr(),
+    )
     if not prim.HasAPI(UsdPhysics.MassAPI) or not all(attribute.HasAuthoredValue() for attribute in attributes):
         raise ExportError(f"{path}: {prim.GetPath()} needs mass, centreOfMass, diagonalInertia and principalAxes.")
     mass, centre, moments, axes = (attribute.Get() for attribute in attributes)
@@ -77,7 +83,7 @@ def _friction(body: Body) -> float:
     return values.pop() if len(values) == 1 and None not in found else float("nan")
 
 
-def _volume(collider: Usd.Prim, body: Body, cache: UsdGeom.XformCache, path: str | Path) -> float:
+def _volume(collider: Prim, body: Body, cache: Any, path: str | Path) -> float:
     """Volume of the convex hull of a collider [m^3]."""
     points = collider_points(collider)
     if points is None:

@@ -1,5 +1,7 @@
 """A scene as a USD layer that references one layer an asset.
 
+The prims, and what is below them:
+
     /World                  the default prim
     /World/PhysicsScene     gravity and the settings of solvers
     /World/Ground           a box whose top is z = 0
@@ -10,9 +12,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 
 from pat3d.contacts import find_contacts
 from pat3d.exporters.mjcf import (
@@ -23,6 +25,7 @@ from pat3d.exporters.mjcf import (
     contact_margins,
     flush_boxes,
 )
+from pat3d.exporters.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 from pat3d.exporters.usd_asset import (
     bind_physics,
     define_box,
@@ -92,7 +95,7 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
     return path
 
 
-def _surroundings(stage: Usd.Stage, scene: Scene) -> None:
+def _surroundings(stage: Stage, scene: Scene) -> None:
     """The ground, two lights, and a camera where the viewer of the relations stands."""
     points = np.concatenate([obj.pose.apply(part.vertices) for obj in scene.objects for part in obj.asset.parts])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -131,7 +134,7 @@ def _surroundings(stage: Usd.Stage, scene: Scene) -> None:
     camera.CreateFocalLengthAttr(25.0)
 
 
-def _joint(stage: Usd.Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:
+def _joint(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:
     """The joint that leaves two bodies the freedom their anchors do.
 
     One point is a ball joint, points on a line are a hinge, others a weld. A ball joint for every anchor would allow
@@ -164,7 +167,7 @@ def _joint(stage: Usd.Stage, scene: Scene, names: dict[str, str], one: Attachmen
     joint.CreateCollisionEnabledAttr(True)
 
 
-def _within(pose: Pose, frame: Pose) -> tuple[Gf.Vec3f, Gf.Quatf]:
+def _within(pose: Pose, frame: Pose) -> tuple[Any, Any]:
     """Position and orientation of `frame` seen from `pose`."""
     rotation = pose.rotation.T @ frame.rotation
     local = Pose.from_matrix(rotation, pose.rotation.T @ (np.array(frame.position) - np.array(pose.position)))

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Kind, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from pat3d.errors import ExportError
 from pat3d.exporters.meshes import MAX_FILE_BYTES
+from pat3d.exporters.openusd import Kind, Prim, Stage, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 from pat3d.exporters.usd import SUFFIXES
 
 MAX_PRIMS = 200_000
@@ -32,7 +32,7 @@ class Body:
     """Not a rigid body, or a kinematic one."""
 
 
-def open_stage(path: str | Path) -> Usd.Stage:
+def open_stage(path: str | Path) -> Stage:
     """The composed stage of a USD file, as it is on disk now.
 
     Raises:
@@ -58,7 +58,7 @@ def open_stage(path: str | Path) -> Usd.Stage:
     return stage
 
 
-def bodies(stage: Usd.Stage) -> tuple[Body, ...]:
+def bodies(stage: Stage) -> tuple[Body, ...]:
     """Rigid bodies, and components that hold colliders outside any rigid body, in the order of the stage."""
     found = []
     range_ = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
@@ -72,20 +72,20 @@ def bodies(stage: Usd.Stage) -> tuple[Body, ...]:
     return tuple(found)
 
 
-def loose_colliders(stage: Usd.Stage, known: tuple[Body, ...]) -> tuple[Usd.Prim, ...]:
+def loose_colliders(stage: Stage, known: tuple[Body, ...]) -> tuple[Prim, ...]:
     """Colliders that belong to none of the bodies `known`, such as the ground's."""
     taken = {prim.GetPath() for body in known for prim in body.colliders}
     everywhere = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
     return tuple(prim for prim in everywhere if _collides(prim) and prim.GetPath() not in taken)
 
 
-def is_still(prim: Usd.Prim) -> bool:
+def is_still(prim: Prim) -> bool:
     """Whether the rigid body `prim` is kinematic or disabled."""
     body = UsdPhysics.RigidBodyAPI(prim)
     return bool(body.GetKinematicEnabledAttr().Get()) or not body.GetRigidBodyEnabledAttr().Get()
 
 
-def matrix(prim: Usd.Prim, cache: UsdGeom.XformCache, base: Usd.Prim | None = None) -> NDArray[np.float64]:
+def matrix(prim: Prim, cache: Any, base: Prim | None = None) -> NDArray[np.float64]:
     """The 4 x 4 matrix from the frame of `prim` to the world, or to the frame of `base`, acting on columns."""
     place = cache.GetLocalToWorldTransform(prim)
     if base is not None:
@@ -101,7 +101,7 @@ def without_scale(place: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDAr
     return rigid, lengths
 
 
-def collider_points(prim: Usd.Prim) -> NDArray[np.float64] | None:
+def collider_points(prim: Prim) -> NDArray[np.float64] | None:
     """Points that span a mesh or a cube in its own frame [m], shape (n, 3); None for other shapes."""
     if prim.IsA(UsdGeom.Mesh):
         points = UsdGeom.Mesh(prim).GetPointsAttr().Get()
@@ -116,7 +116,7 @@ def transformed(points: NDArray[np.float64], place: NDArray[np.float64]) -> NDAr
     return points @ place[:3, :3].T + place[:3, 3]
 
 
-def bound_friction(prim: Usd.Prim, purpose: str) -> tuple[float, float] | None:
+def bound_friction(prim: Prim, purpose: str) -> tuple[float, float] | None:
     """Static and dynamic friction [-] of the material bound to `prim` for `purpose`; None where there is none."""
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial(purpose)
     if not material or not material.GetPrim().HasAPI(UsdPhysics.MaterialAPI):
@@ -125,12 +125,12 @@ def bound_friction(prim: Usd.Prim, purpose: str) -> tuple[float, float] | None:
     return float(physics.GetStaticFrictionAttr().Get()), float(physics.GetDynamicFrictionAttr().Get())
 
 
-def quaternion(value: Gf.Quatf | Gf.Quatd) -> NDArray[np.float64]:
+def quaternion(value: Any) -> NDArray[np.float64]:
     """(w, x, y, z), shape (4,)."""
     return np.array([value.GetReal(), *value.GetImaginary()], dtype=np.float64)
 
 
-def _colliders(prim: Usd.Prim) -> Iterator[Usd.Prim]:
+def _colliders(prim: Prim) -> Iterator[Prim]:
     range_ = iter(Usd.PrimRange(prim, Usd.TraverseInstanceProxies()))
     for below in range_:
         if below != prim and below.HasAPI(UsdPhysics.RigidBodyAPI):
@@ -139,21 +139,19 @@ def _colliders(prim: Usd.Prim) -> Iterator[Usd.Prim]:
             yield below
 
 
-def _collides(prim: Usd.Prim) -> bool:
+def _collides(prim: Prim) -> bool:
     return prim.HasAPI(UsdPhysics.CollisionAPI) and UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get()
 
 
-def _holds_body(prim: Usd.Prim) -> bool:
-    return any(
-        below.HasAPI(UsdPhysics.RigidBodyAPI) for below in Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
-    )
+def _holds_body(prim: Prim) -> bool:
+    return any(below.HasAPI(UsdPhysics.RigidBodyAPI) for below in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()))
 
 
-def _is_component(prim: Usd.Prim) -> bool:
+def _is_component(prim: Prim) -> bool:
     return Usd.ModelAPI(prim).GetKind() == Kind.Tokens.component and _above(prim) is None
 
 
-def _above(prim: Usd.Prim) -> Usd.Prim | None:
+def _above(prim: Prim) -> Prim | None:
     """The nearest rigid body above `prim`."""
     parent = prim.GetParent()
     while parent and not parent.HasAPI(UsdPhysics.RigidBodyAPI):
@@ -161,6 +159,6 @@ def _above(prim: Usd.Prim) -> Usd.Prim | None:
     return parent or None
 
 
-def body_above(prim: Usd.Prim) -> Usd.Prim | None:
+def body_above(prim: Prim) -> Prim | None:
     """The nearest rigid body above `prim`; None where there is none."""
     return _above(prim)
