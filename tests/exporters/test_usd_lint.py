@@ -151,7 +151,7 @@ FAULTS = {
         lambda stage: (
             UsdGeom.Mesh(_prim(stage, PART))
             .GetPointsAttr()
-            .Set([(x, y, 0.08 * (y > 0)) for x in (-0.03, 0.03) for y in (-0.03, 0.03)])
+            .Set([(x, y, y) for x in (-0.03, 0.03) for y in (-0.03, 0.03)])
         ),
     ),
     "negative friction": ("friction", lambda stage: _friction(stage).GetStaticFrictionAttr().Set(-0.5)),
