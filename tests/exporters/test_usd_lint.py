@@ -12,19 +12,19 @@ from pat3d.exporters.usd_lint import RULES, lint_usd
 from pat3d.scene import Attachment
 from tests.scenes import GAP, asset_of, placed, scene_of
 
-TURN = Gf.Quatf(0.5, 0.5, 0.5, 0.5)
 CAN = "/World/can"
+JOINT = "/World/Joints/bar__beam_00"
 PART = f"{CAN}/collision/part_000"
 
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    anchors = tuple(((x, 0.0, 0.04), (x, 0.0, -0.002)) for x in (-0.1, 0.1))
+    anchors = (((0.0, 0.0, 0.04), (0.0, 0.0, -0.002)),)
     scene = scene_of(
         placed("table", asset_of(box(0.8, 0.5, 0.04)), (0, 0, GAP), fixed=True),
         placed("can", asset_of(cylinder(0.03, 0.08)), (0.1, 0, 0.04 + 2 * GAP)),
         placed("mug", asset_of(vessel([(0.03, 0), (0.04, 0.09)], [(0.026, 0.006), (0.036, 0.09)])), (0, 0, 0.0401)),
-        placed("beam", asset_of(box(0.5, 0.1, 0.1)), (0, 0, 1), fixed=True),
+        placed("beam", asset_of(box(0.5, 0.1, 0.1)), (0, 0, 1)),
         placed("bar", asset_of(box(0.3, 0.04, 0.04)), (0, 0, 0.958)),
         attachments=(Attachment(child="bar", parent="beam", anchors=anchors),),
     )
@@ -96,6 +96,12 @@ def _nest(stage):
     place.Set(Gf.Vec3d(-0.1, 0, 1e-4))
 
 
+def _turned_hinge(stage):
+    prim = _prim(stage, JOINT)
+    prim.SetTypeName("PhysicsRevoluteJoint")
+    UsdPhysics.Joint(prim).GetLocalRot1Attr().Set(Gf.Quatf(0.5, 0.5, 0.5, 0.5))
+
+
 def _twin_scene(stage):
     UsdPhysics.Scene.Define(stage, "/World/Another")
 
@@ -163,15 +169,12 @@ FAULTS = {
     "friction that MuJoCo misses": ("friction", _other_friction),
     "open joint": (
         "joint",
-        lambda stage: UsdPhysics.Joint(_prim(stage, "/World/Joints/bar__beam")).GetLocalPos1Attr().Set((0, 0, 0.1)),
+        lambda stage: UsdPhysics.Joint(_prim(stage, JOINT)).GetLocalPos1Attr().Set((0, 0, 0.1)),
     ),
-    "turned joint": (
-        "joint",
-        lambda stage: UsdPhysics.Joint(_prim(stage, "/World/Joints/bar__beam")).GetLocalRot1Attr().Set(TURN),
-    ),
+    "turned hinge": ("joint", _turned_hinge),
     "joint to nothing": (
         "joint",
-        lambda stage: UsdPhysics.Joint(_prim(stage, "/World/Joints/bar__beam")).GetBody0Rel().SetTargets(["/World/no"]),
+        lambda stage: UsdPhysics.Joint(_prim(stage, JOINT)).GetBody0Rel().SetTargets(["/World/no"]),
     ),
     "into the table": (
         "penetration",
@@ -218,7 +221,7 @@ def test_validators_let_most_of_these_faults_pass(stage):
 
 
 def test_a_pair_whose_joint_switches_collision_off_may_overlap(stage):
-    joint = UsdPhysics.Joint(_prim(stage, "/World/Joints/bar__beam"))
+    joint = UsdPhysics.Joint(_prim(stage, JOINT))
     raised = UsdGeom.Xformable(_prim(stage, "/World/bar")).GetOrderedXformOps()[0]
     raised.Set(Gf.Vec3d(0, 0, 0.961))
     joint.GetLocalPos1Attr().Set((0, 0, 0.037))
