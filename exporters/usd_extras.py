@@ -118,7 +118,7 @@ def extend_margin(prim: Prim, margin: float) -> None:
 
 
 def extend_joint(prim: Prim) -> None:
-    """Make a ball joint a connect constraint of MuJoCo's, as stiff as the contacts, so that its bodies stay free."""
+    """Make a joint a connect constraint of MuJoCo's between bodies that stay free, as stiff as the contacts."""
     prim.AddAppliedSchema("MjcEqualityConnectAPI")
     stiffness = [
         ("mjc:solref", _DOUBLES, _numbers(SOLREF), _UNIFORM),

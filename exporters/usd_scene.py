@@ -12,8 +12,10 @@ The prims, and what is below them:
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.contacts import find_contacts
 from pat3d.exporters.mjcf import (
@@ -41,6 +43,9 @@ from pat3d.scene import Attachment, Pose, Scene
 
 GRAVITY = 9.81
 """[m/s^2]"""
+
+_SAME_POINT = 1e-6
+"""Anchors closer than this [m], or closer to one line, are one point, or one line."""
 
 
 def prim_name(slug: str) -> str:
@@ -131,7 +136,11 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
 
 
 def _joints(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:
-    """A ball joint for every anchor, as the scene has it: two leave a hinge.
+    """One joint that leaves two bodies the freedom of their anchors, and for MuJoCo a point of every anchor.
+
+    One anchor is a ball joint, anchors on a line are a hinge, others a weld. Ball joints for each would mean the same,
+    but two of them between one pair of bodies blow up in PhysX. MuJoCo's schema makes every anchor a connect
+    constraint; those beyond the first are joints that constrain nothing for who does not read it.
 
     The frames come from the poses at rest, so every joint starts closed, whatever its anchors gave way under load. What
     is fixed is the world, to which a joint without a body is tied: a joint to a prim that is no rigid body means the
@@ -139,18 +148,40 @@ def _joints(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) 
     """
     child, parent = scene[one.child], scene[one.parent]
     points, _ = one.ends(child.pose, parent.pose)
+    kind, axes = _freedom(points)
     for number, point in enumerate(points):
         path = f"/World/Joints/{names[one.child]}__{names[one.parent]}_{number:02d}"
-        joint = UsdPhysics.SphericalJoint.Define(stage, path)
+        joint = (UsdPhysics.Joint if number else kind).Define(stage, path)
+        if not number and kind is not UsdPhysics.FixedJoint:
+            joint.CreateAxisAttr(UsdPhysics.Tokens.x)
+        frame = Pose.from_matrix(axes, point)
         for obj, body, position, turn in (
             (parent, joint.CreateBody0Rel(), joint.CreateLocalPos0Attr(), joint.CreateLocalRot0Attr()),
             (child, joint.CreateBody1Rel(), joint.CreateLocalPos1Attr(), joint.CreateLocalRot1Attr()),
         ):
-            pose = Pose() if obj.fixed else obj.pose
             if not obj.fixed:
                 body.SetTargets([f"/World/{names[obj.name]}"])
-            w, x, y, z = pose.quat_wxyz
-            position.Set(Gf.Vec3f(*(pose.rotation.T @ (point - np.array(pose.position))).tolist()))
-            turn.Set(Gf.Quatf(w, -x, -y, -z))
+            local = _within(Pose() if obj.fixed else obj.pose, frame)
+            position.Set(Gf.Vec3f(*local.position))
+            turn.Set(Gf.Quatf(*local.quat_wxyz))
         joint.CreateCollisionEnabledAttr(True)
         extend_joint(joint.GetPrim())
+
+
+def _freedom(points: NDArray[np.float64]) -> tuple[Any, NDArray[np.float64]]:
+    """The type of joint that keeps `points` [m], shape (n, 3), together, and its axes, x along a line of them."""
+    spread = points - points.mean(axis=0)
+    along = spread[np.argmax(np.linalg.norm(spread, axis=1))]
+    if np.linalg.norm(along) < _SAME_POINT:
+        return UsdPhysics.SphericalJoint, np.eye(3)
+    x = along / np.linalg.norm(along)
+    z = np.cross(x, np.eye(3)[np.argmin(np.abs(x))])
+    z /= np.linalg.norm(z)
+    straight = np.linalg.norm(np.cross(spread, x), axis=1).max() < _SAME_POINT
+    return UsdPhysics.RevoluteJoint if straight else UsdPhysics.FixedJoint, np.stack([x, np.cross(z, x), z], axis=1)
+
+
+def _within(pose: Pose, frame: Pose) -> Pose:
+    """`frame` seen from `pose`."""
+    place = pose.rotation.T @ (np.array(frame.position) - np.array(pose.position))
+    return Pose.from_matrix(pose.rotation.T @ frame.rotation, place)

@@ -301,22 +301,43 @@ def _sides(stage, joint):
         yield world[:3, :3] @ np.array(place) + world[:3, 3], world[:3, :3] @ local
 
 
-@pytest.mark.parametrize("fixed", [True, False])
-def test_every_anchor_is_a_ball_joint_that_starts_closed(fixed, tmp_path):
-    """Wherever the pair has been turned to, and though the anchors gave way by 0.02 mm under load."""
-    scene = _hung_bar(PAIR)
+def _turned(scene, fixed):
+    """`scene` in another place, its attached object 0.02 mm lower, as under load."""
     turned = Pose.from_matrix(Rotation.from_euler("xyz", [0.1, 0.2, 0.3]).as_matrix(), np.array([0.2, 0.1, 3.0]))
     objects = []
     for obj, drop in zip(scene.objects, (0.0, 2e-5), strict=True):
         position = turned.apply(np.array([obj.pose.position]))[0] - (0.0, 0.0, drop)
         objects.append(replace(obj, pose=Pose.from_matrix(turned.rotation, position), fixed=fixed and obj.fixed))
-    scene = replace(scene, objects=tuple(objects))
+    return replace(scene, objects=tuple(objects))
+
+
+def _constraints(joint, origin, axes):
+    """Motions (velocity of the origin of the world, spin) that a joint forbids, as rows, by its type alone."""
+    rows = {"PhysicsJoint": 0, "PhysicsSphericalJoint": 3, "PhysicsRevoluteJoint": 5, "PhysicsFixedJoint": 6}
+    point = np.hstack([np.eye(3), -np.cross(np.eye(3), origin)])
+    spin = np.hstack([np.zeros((3, 3)), axes.T[[2, 1, 0]]])
+    return np.vstack([point, spin])[: rows[str(joint.GetPrim().GetTypeName())]]
+
+
+@pytest.mark.parametrize("fixed", [True, False])
+@pytest.mark.parametrize(
+    ("anchors", "freedom"),
+    [
+        (PAIR[:1], 3),
+        (PAIR, 1),
+        ([*PAIR, ((0.0, 0.0, 0.04), (0.0, 0.0, -0.002))], 1),
+        ([*PAIR, ((0.0, 0.01, 0.04), (0.0, 0.01, -0.002))], 0),
+    ],
+)
+def test_joints_leave_the_motions_that_the_anchors_leave_and_start_closed(anchors, freedom, fixed, tmp_path):
+    """Points that stay together forbid the rows of their Jacobian; the joint forbids the same space of motions."""
+    scene = _turned(_hung_bar(anchors), fixed)
     stage = Usd.Stage.Open(str(write_usd(scene, tmp_path / "u")))
     joints = [UsdPhysics.Joint(prim) for prim in stage.Traverse() if prim.IsA(UsdPhysics.Joint)]
     ends, _ = scene.attachments[0].ends(scene["a bar"].pose, scene["the beam"].pose)
-    assert len(joints) == len(ends) == 2
+    assert len(joints) == len(anchors)
+    forbidden = []
     for joint, end in zip(joints, ends, strict=True):
-        assert joint.GetPrim().GetTypeName() == "PhysicsSphericalJoint"
         # What is fixed is no rigid body: the joint is tied to the world.
         parents = [str(path) for path in joint.GetBody0Rel().GetTargets()]
         assert parents == ([] if fixed else ["/World/the_beam"])
@@ -326,11 +347,16 @@ def test_every_anchor_is_a_ball_joint_that_starts_closed(fixed, tmp_path):
         (first, axes), (second, others) = _sides(stage, joint)
         np.testing.assert_allclose(first, end, atol=3e-7)
         np.testing.assert_allclose(second, end, atol=3e-7)
-        np.testing.assert_allclose(axes, others, atol=3e-7)
+        np.testing.assert_allclose(axes, others, atol=5e-7)
+        forbidden.append(_constraints(joint, first, axes))
         # MuJoCo keeps the bodies free and connects the points.
-        assert {"MjcEqualityConnectAPI", "MjcEqualityAPI"} <= set(
-            joint.GetPrim().GetPrimTypeInfo().GetAppliedAPISchemas()
-        )
+        schemas = joint.GetPrim().GetPrimTypeInfo().GetAppliedAPISchemas()
+        assert {"MjcEqualityConnectAPI", "MjcEqualityAPI"} <= set(schemas)
+    expected = np.vstack([np.hstack([np.eye(3), -np.cross(np.eye(3), end)]) for end in ends])
+    found = np.vstack(forbidden)
+    ranks = [np.linalg.matrix_rank(rows, tol=1e-4) for rows in (expected, found, np.vstack([expected, found]))]
+    assert ranks == [6 - freedom] * 3
+    assert len(found) == 6 - freedom
 
 
 def test_attachments_of_fixed_objects_are_left_out(tmp_path):
