@@ -103,7 +103,8 @@ def main() -> int:
     """Validate every scene file and every asset under the folders given."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folders", type=Path, nargs="+", help="folders written by write_usd")
-    parser.add_argument("--environments", type=Path, default=Path(".validators"), help="where the validators live")
+    where = Path("build/usd-validators")
+    parser.add_argument("--environments", type=Path, default=where, help="where the validators live")
     arguments = parser.parse_args()
     theirs = {name: environment(arguments.environments.resolve(), name) for name in PACKAGES}
     bad = 0
