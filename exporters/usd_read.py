@@ -71,7 +71,8 @@ def mass_properties(prim: Prim, path: str | Path) -> tuple[float, NDArray[np.flo
         api.GetDiagonalInertiaAttr(),
         api.GetPrincipalAxesAttr(),
     )
-    if not prim.HasAPI(UsdPhysics.MassAPI) or not all(attribute.HasAuthoredValue() for attribute in attributes):
+    still = not prim.HasAPI(UsdPhysics.RigidBodyAPI)
+    if not (still or prim.HasAPI(UsdPhysics.MassAPI)) or not all(one.HasAuthoredValue() for one in attributes):
         raise ExportError(f"{path}: {prim.GetPath()} needs mass, centreOfMass, diagonalInertia and principalAxes.")
     mass, centre, moments, axes = (attribute.Get() for attribute in attributes)
     turn = quaternion(axes)
