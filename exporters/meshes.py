@@ -107,6 +107,11 @@ def hull_obj(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def part_file(number: int) -> str:
+    """File name of a convex part."""
+    return f"part_{number:03d}.obj"
+
+
 def write_texture(texture: NDArray[np.uint8], path: Path) -> None:
     """Write an RGB image, shape (height, width, 3), as PNG."""
     from PIL import Image

@@ -28,9 +28,10 @@ import numpy as np
 
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.exporters.folder import export_folder
-from pat3d.exporters.meshes import hull_obj, write_visual
-from pat3d.exporters.mjcf import GROUND_FRICTION, GROUND_HALF_THICKNESS, body_names
+from pat3d.exporters.meshes import part_file
+from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
 from pat3d.exporters.numbers import principal_axes, rpy_of, text
+from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
 from pat3d.scene import Pose, Scene
 from pat3d.scene_folder import write_json
 
@@ -45,9 +46,6 @@ HYDROELASTIC_MODULUS = 1e8
 
 DISSIPATION = 10.0
 """Hunt-Crossley dissipation [s/m] in Drake."""
-
-SIDE = 10.0
-"""Full width of the ground [m], at least."""
 
 LOADERS = ("load_pybullet.py", "load_drake.py")
 
@@ -70,37 +68,6 @@ def write_urdf(scene: Scene, folder: str | Path) -> Path:
     with export_folder(folder, marker="manifest.json", what="URDF") as fresh:
         _write(scene, fresh)
     return folder / "manifest.json"
-
-
-def stored_assets(scene: Scene) -> dict[int, str]:
-    """Folder name of every asset of `scene` by its identity; objects that share one share the files."""
-    bodies = body_names(scene)
-    return {id(obj.asset): bodies[obj.name] for obj in reversed(scene.objects)}
-
-
-def ground_size(scene: Scene) -> tuple[float, float, float]:
-    """Full sizes [m] of the box below z = 0 that is the ground."""
-    points = np.concatenate([obj.pose.apply(part.vertices) for obj in scene.objects for part in obj.asset.parts])
-    side = max(SIDE, 4.0 * float(np.abs(points[:, :2]).max()) + 1.0)
-    return side, side, 2.0 * GROUND_HALF_THICKNESS
-
-
-def ground_friction(scene: Scene) -> float:
-    """Friction coefficient [-] of the ground, as in the MJCF."""
-    return max(GROUND_FRICTION, scene.settling_friction)
-
-
-def write_meshes(asset: Asset, folder: Path) -> None:
-    """Write the textured mesh and the parts that are not boxes of one asset into `folder`."""
-    write_visual(asset.visual, folder)
-    for number, part in enumerate(asset.parts):
-        if part.box is None:
-            (folder / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
-
-
-def part_file(number: int) -> str:
-    """File name of a convex part."""
-    return f"part_{number:03d}.obj"
 
 
 def _write(scene: Scene, folder: Path) -> None:
