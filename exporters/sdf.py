@@ -5,8 +5,8 @@
     models/<name>/meshes/      its textured mesh and convex parts
 
 The world repeats the models rather than including them, so that it loads from any folder without a model path. Drake
-reads it as well, with its own elements for hydroelastic contact. There is no light in the world, because Drake warns
-of one; Gazebo's ambient light shows it.
+reads it as well where nothing hangs, with its own elements for hydroelastic contact. There is no light in the world,
+because Drake warns of one; Gazebo's ambient light shows it.
 
 SDF joins bodies in trees. An attachment becomes the joint with the same freedom: a ball for one point, a hinge for
 two, a weld for three or more that are not in line.
