@@ -118,7 +118,7 @@ class _Reader:
     """Quantities that it does not report, "fixed" among them."""
 
 
-def compare(scene: Scene, path: str | Path) -> ParityReport:
+def parity(scene: Scene, path: str | Path) -> ParityReport:
     """Reload the export at `path` and compare it with `scene`.
 
     Args:
@@ -148,7 +148,7 @@ def compare(scene: Scene, path: str | Path) -> ParityReport:
 
 def differences(scene: Scene, path: str | Path) -> tuple[str, ...]:
     """Where the export at `path` differs from `scene`, a line each; none where they agree."""
-    return compare(scene, path).failures
+    return parity(scene, path).failures
 
 
 def locate(path: Path) -> tuple[str, Path]:
