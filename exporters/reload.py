@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib.util
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -98,6 +98,20 @@ class ParityReport:
             quantity: max((one[quantity] for one in found if one[quantity] is not None), default=None)  # type: ignore[type-var]
             for quantity in QUANTITIES
         }
+
+    @property
+    def largest(self) -> float:
+        """The largest error of all."""
+        return max((error for error in self.worst.values() if error is not None), default=0.0)
+
+    def moved(self, before: Path, after: Path) -> ParityReport:
+        """The same report after the folder `before` has become `after`."""
+        here, there = str(before), str(after)
+        readings = [
+            replace(reading, failures=tuple(line.replace(here, there) for line in reading.failures))
+            for reading in self.readings
+        ]
+        return replace(self, path=self.path.replace(here, there), readings=tuple(readings))
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
