@@ -26,8 +26,8 @@ EXAMPLES = {
     "export": """
   pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
   pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
-  pat3d export mug.glb --mass 0.3 --out assets/mug        one mesh: repaired, decomposed, dropped, written
-  pat3d export scans/ --material ceramic --units mm --out assets
+  pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
+  pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
 """,
     "catalogue": """
   pat3d catalogue                        list everything by family

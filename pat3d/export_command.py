@@ -12,6 +12,7 @@ from pat3d.console import console, watch
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.exporting import FORMATS, chosen, export, has_usd
 from pat3d.exporters.reload import ParityReport, parity
+from pat3d.progress import Event
 
 if TYPE_CHECKING:
     from pat3d.asset_export import ExportedAsset
@@ -72,7 +73,9 @@ def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, An
     made: list[ExportedAsset] = []
     refused: list[Pat3dError] = []
     with watch(console(stderr=True)) as progress:
-        for path, name in files.items():
+        for number, (path, name) in enumerate(files.items()):
+            if several:
+                progress(Event(stage="exporting", detail=name, step=number, steps=len(files)))
             try:
                 folder = out / name if several else out
                 made.append(export_asset(path, folder, formats, progress=progress, usd=usd, name=name, **mesh))
