@@ -144,7 +144,7 @@ def parity(scene: Scene, path: str | Path) -> ParityReport:
     """
     kind, main = locate(Path(path))
     readings, absent = [], []
-    for reader in _READERS[kind]():
+    for reader in _READERS[kind](main):
         if reader.package is not None and importlib.util.find_spec(_MODULES[reader.package]) is None:
             absent.append(reader.name)
             continue
@@ -287,13 +287,13 @@ def _version(package: str) -> str:
         return ""
 
 
-def _mjcf_readers() -> tuple[_Reader, ...]:
+def _mjcf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_mjcf import read_mjcf
 
     return (_Reader(name="MuJoCo", package="mujoco", read=read_mjcf),)
 
 
-def _urdf_readers() -> tuple[_Reader, ...]:
+def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_engines import read_with_drake, read_with_pybullet, read_with_yourdfpy
     from pat3d.exporters.read_urdf import read_directives, read_urdf
 
@@ -308,22 +308,21 @@ def _urdf_readers() -> tuple[_Reader, ...]:
     )  # fmt: skip
 
 
-def _sdf_readers() -> tuple[_Reader, ...]:
+def _sdf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_engines import read_with_drake
-    from pat3d.exporters.read_sdf import read_sdf
+    from pat3d.exporters.read_sdf import hangs, read_sdf
 
-    return (
-        _Reader(name="world", package=None, read=read_sdf),
-        _Reader(name="Drake", package="drake", read=read_with_drake),
-    )
+    ours = _Reader(name="world", package=None, read=read_sdf)
+    # Drake refuses worlds whose joints move.
+    return (ours,) if hangs(path) else (ours, _Reader(name="Drake", package="drake", read=read_with_drake))
 
 
-def _usd_readers() -> tuple[_Reader, ...]:
+def _usd_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.usd_read import read_usd
 
     return (_Reader(name="OpenUSD", package="usd-core", read=read_usd),)
 
 
-_READERS: dict[str, Callable[[], tuple[_Reader, ...]]] = {
+_READERS: dict[str, Callable[[Path], tuple[_Reader, ...]]] = {
     "mjcf": _mjcf_readers, "usd": _usd_readers, "urdf": _urdf_readers, "sdf": _sdf_readers,
 }  # fmt: skip
