@@ -28,9 +28,9 @@ import numpy as np
 
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.exporters.folder import export_folder
+from pat3d.exporters.frames import principal_axes, rpy_of, text
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
-from pat3d.exporters.numbers import principal_axes, rpy_of, text
 from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
 from pat3d.scene import Pose, Scene
 from pat3d.scene_folder import write_json
