@@ -5,7 +5,7 @@
 
     client = pybullet.connect(pybullet.DIRECT)
     bodies = load_pybullet("exports/desk/urdf", client)
-    for _ in range(1200):
+    for _ in range(5000):
         pybullet.stepSimulation(physicsClientId=client)
 
 Run as a script it loads the folder it lies in, steps for five seconds and says how far everything moved.
@@ -19,13 +19,19 @@ import sys
 from pathlib import Path
 from typing import Any
 
+TIME_STEP = 0.001
+"""[s]; at Bullet's own 1/240 s what leans on an edge turns by degrees."""
 
-def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bool = True) -> dict[str, int]:
+
+def load_pybullet(
+    folder: str | Path, client: int = 0, *, time_step: float = TIME_STEP, geometric_friction: bool = True
+) -> dict[str, int]:
     """Load the ground, every object at its pose and the attachments.
 
     Args:
         folder: holds manifest.json.
         client: of pybullet.connect; its gravity and contact settings are set.
+        time_step: of every stepSimulation [s].
         geometric_friction: Bullet multiplies the coefficients of two bodies; with this each gets the square root
             of its own, so that a pair has their geometric mean rather than far too little.
 
@@ -41,7 +47,7 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
     pybullet.setGravity(*manifest["gravity"], physicsClientId=client)
     # Without separating axes, hulls keep apart by their margins and everything floats by 1 to 2 mm.
     pybullet.setPhysicsEngineParameter(
-        enableSAT=1, numSolverIterations=200, fixedTimeStep=1.0 / 240.0, physicsClientId=client
+        enableSAT=1, numSolverIterations=200, fixedTimeStep=time_step, physicsClientId=client
     )
     # Without the second, inertias are guessed from the collision shapes.
     flags = pybullet.URDF_INITIALIZE_SAT_FEATURES | pybullet.URDF_USE_INERTIA_FROM_FILE
@@ -89,7 +95,7 @@ def main() -> None:
     client = pybullet.connect(pybullet.GUI if "--gui" in sys.argv[1:] else pybullet.DIRECT)
     bodies = load_pybullet(Path(__file__).parent, client)
     start = {name: pybullet.getBasePositionAndOrientation(body, client) for name, body in bodies.items()}
-    for _ in range(1200):
+    for _ in range(round(5.0 / TIME_STEP)):
         pybullet.stepSimulation(physicsClientId=client)
     for name, body in bodies.items():
         position, quat = pybullet.getBasePositionAndOrientation(body, client)

@@ -47,6 +47,9 @@ HYDROELASTIC_MODULUS = 1e8
 DISSIPATION = 10.0
 """Hunt-Crossley dissipation [s/m] in Drake."""
 
+SPINNING_FRICTION = 0.001
+"""[m] in Bullet, which adds those of a pair: the radius of a small contact patch, as in the MJCF."""
+
 LOADERS = ("load_pybullet.py", "load_drake.py")
 
 VIEWERS_ONLY = (
@@ -137,8 +140,10 @@ def _geometry(collision: ET.Element, part: ConvexPart, file: str) -> None:
 
 
 def _contact(link: ET.Element, friction: float) -> None:
-    """Bullet's extension: friction of the whole link."""
-    ET.SubElement(ET.SubElement(link, "contact"), "lateral_friction", value=text(friction))
+    """Bullet's extension: friction of the whole link, sliding and about the normal."""
+    contact = ET.SubElement(link, "contact")
+    ET.SubElement(contact, "lateral_friction", value=text(friction))
+    ET.SubElement(contact, "spinning_friction", value=text(SPINNING_FRICTION))
 
 
 def _proximity(collision: ET.Element, friction: float, *, rigid: bool = False) -> None:
