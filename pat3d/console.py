@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from pat3d.check.proof import Proof
+    from pat3d.exporters.reload import ParityReport
     from pat3d.improve_folder import Outcome
     from pat3d.report import Report
     from pat3d.scene import Scene
@@ -138,6 +139,14 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         target.print(f"      not met: {line}", markup=False)
 
 
+def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
+    """One line for every format of a scene folder."""
+    for name, report in reports.items():
+        readers = ", ".join(reading.reader for reading in report.readings)
+        target.print("pass" if report.passed else "FAIL", style="green" if report.passed else "bold red", end="  ")
+        target.print(f"{name}: read back by {readers}; off by at most {report.largest:.0e}", markup=False)
+
+
 def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
     from pat3d.improve import TORCH, available
@@ -146,6 +155,7 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     best = delivery.best
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
     show_optimisation(target, delivery.checked.rest.optimisation)
+    show_parity(target, report.exports)
     for note in (*report.order.get("notes", ()), *best.notes):
         target.print(f"note  {note}", markup=False)
     if report.failures and delivery.checked.rest.optimisation is None and not available():
@@ -155,7 +165,8 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
-    show_files(target, folder)
+    mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
+    show_files(target, folder, mains)
 
 
 def show_mended(target: Console, outcome: Outcome) -> None:
@@ -181,10 +192,10 @@ def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None
         target.print(f"optimisation: {in_words(record)}", markup=False)
 
 
-def show_files(target: Console, folder: Path) -> None:
+def show_files(target: Console, folder: Path, exports: Sequence[str] = ("mjcf/scene.xml",)) -> None:
     """The files of a scene folder that a person would open."""
     from pat3d.improve import PICTURES
 
-    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png", *PICTURES):
+    for name in ("scene.json", *exports, "report.json", "preview.png", *PICTURES):
         if (folder / name).is_file():
             target.print(f"  {folder / name}", markup=False, soft_wrap=True)
