@@ -23,6 +23,7 @@ MODULES = (
     "pat3d.sim.measures",
     "pat3d.sim.settling",
     "pat3d.sim.contact.intersection",
+    "pat3d.sim.contact.boxes",
     "pat3d.sim.contact.broad_phase",
     "pat3d.sim.contact.ccd",
     "pat3d.sim.energies.contact",

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import SimulationError
 from pat3d.scene import Pose, Scene
+from pat3d.sim.contact.clusters import ClusteredPart, cluster
 
 GRAVITY = 9.81
 """[m/s^2], along -z."""
@@ -57,7 +58,14 @@ class Model:
     part_body: wp.array
     """shape (parts,), int."""
     part_ranges: wp.array
-    """First and past-last vertex, edge and triangle of every part, shape (parts, 6), int."""
+    """First and past-last vertex, edge, triangle and cluster of every part, shape (parts, 8), int."""
+    cluster_ranges: wp.array
+    """First and past-last vertex, edge, triangle and entry of `halo` of every cluster, shape (clusters, 8), int.
+
+    Detailed parts consist of several clusters, others are one.
+    """
+    halo: wp.array
+    """Vertices of other clusters that a cluster's edges and triangles reach, shape (reached,), int."""
     part_pairs: wp.array
     """Parts that can ever touch: same world, different bodies, not both fixed; shape (pairs,), vec2i."""
     anchor_bodies: wp.array
@@ -257,9 +265,10 @@ class ModelBuilder:
         earlier = np.cumsum(free_count) - free_count
         dof[~fixed] = np.arange(free_count.sum()) - earlier[body_world[~fixed]]
         vertices, vertex_body, edges, triangles = [], [], [], []
-        part_body, ranges = [], []
-        sharp_edges: dict[int, NDArray[np.int32]] = {}
-        base = edge_base = triangle_base = 0
+        part_body, ranges, cluster_ranges, halo = [], [], [], []
+        clustered: dict[int, ClusteredPart] = {}
+        # Vertices, edges, triangles, entries of the halo and clusters so far.
+        bases = np.zeros(5, dtype=np.int64)
         radius = np.zeros(len(bodies))
         q0 = np.zeros((len(bodies), 4, 3))
         for b, body in enumerate(bodies):
@@ -267,33 +276,29 @@ class ModelBuilder:
             q0[b, 0] = pose.apply(body["centre"][None])[0]
             q0[b, 1:] = pose.rotation.T
             for part in body["parts"]:
-                rest = part.vertices - body["centre"]
+                if id(part) not in clustered:
+                    clustered[id(part)] = cluster(part.vertices, sharp_edges(part), part.faces)
+                found = clustered[id(part)]
+                rest = found.vertices - body["centre"]
                 radius[b] = max(radius[b], np.linalg.norm(rest, axis=1).max())
-                if id(part) not in sharp_edges:
-                    sharp_edges[id(part)] = _sharp_edges(part)
-                sharp = sharp_edges[id(part)]
+                counts = [len(x) for x in (rest, found.edges, found.triangles, found.halo, found.ranges)]
                 vertices.append(rest)
                 vertex_body.append(np.full(len(rest), b, dtype=np.int32))
-                edges.append(sharp + base)
-                triangles.append(part.faces + base)
+                edges.append(found.edges + bases[0])
+                triangles.append(found.triangles + bases[0])
+                halo.append(found.halo + bases[0])
                 part_body.append(b)
-                ranges.append(
-                    [
-                        base, base + len(rest), edge_base, edge_base + len(sharp),
-                        triangle_base, triangle_base + len(part.faces),
-                    ]
-                )  # fmt: skip
-                base += len(rest)
-                edge_base += len(sharp)
-                triangle_base += len(part.faces)
+                ranges.append(np.stack([bases, bases + counts], axis=1)[[0, 1, 2, 4]].ravel())
+                cluster_ranges.append(found.ranges + np.repeat(bases[:4], 2))
+                bases += counts
         anchors = self._anchors
         bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in anchors]
         owner = np.array(part_body, dtype=np.int32)
         part_pairs = _part_pairs(owner, body_world, dof)
-        if copies * max(base, edge_base, triangle_base, len(part_pairs)) > np.iinfo(np.int32).max:
+        if copies * max(*bases, len(part_pairs)) > np.iinfo(np.int32).max:
             raise SimulationError(f"{copies} copies of this world have more pairs of parts than can be counted.")
 
-        def array(values, dtype, shift: int | list[int] = 0) -> wp.array:
+        def array(values, dtype, shift: int | np.integer | NDArray[np.int64] = 0) -> wp.array:
             """One row of `values` for each of every copy, the indices in it raised by `shift` a copy."""
             values = np.asarray(values)
             rise = np.arange(copies).reshape(-1, *[1] * values.ndim) * np.asarray(shift, dtype=values.dtype)
@@ -313,10 +318,12 @@ class ModelBuilder:
             body_volume=array([body["volume"] for body in bodies], wp.float64),
             vertex_rest=array(np.concatenate(vertices), wp.vec3d),
             vertex_body=array(np.concatenate(vertex_body), int, len(bodies)),
-            edges=array(whole(np.concatenate(edges), 2), wp.vec2i, base),
-            triangles=array(whole(np.concatenate(triangles), 3), wp.vec3i, base),
+            edges=array(whole(np.concatenate(edges), 2), wp.vec2i, bases[0]),
+            triangles=array(whole(np.concatenate(triangles), 3), wp.vec3i, bases[0]),
             part_body=array(owner, int, len(bodies)),
-            part_ranges=array(whole(ranges, 6), int, [base] * 2 + [edge_base] * 2 + [triangle_base] * 2),
+            part_ranges=array(whole(ranges, 8), int, np.repeat(bases[[0, 1, 2, 4]], 2)),
+            cluster_ranges=array(whole(np.concatenate(cluster_ranges), 8), int, np.repeat(bases[:4], 2)),
+            halo=array(np.concatenate(halo), int, bases[0]),
             part_pairs=array(part_pairs, wp.vec2i, len(owner)),
             anchor_bodies=array(whole([(one[0], one[2]) for one in anchors], 2), wp.vec2i, len(bodies)),
             anchor_rest=array(np.array([(one[1], one[3]) for one in anchors]).reshape(-1, 2, 3), wp.vec3d),
@@ -342,7 +349,7 @@ def poses_from_states(model: Model, q: NDArray[np.float64]) -> list[Pose]:
     return poses
 
 
-def _sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
+def sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
     """Edges of a part whose faces are not coplanar, shape (edges, 2)."""
     corners = part.vertices[part.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

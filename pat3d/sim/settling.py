@@ -22,6 +22,7 @@ from threadpoolctl import threadpool_limits
 
 from pat3d.errors import SimulationError
 from pat3d.sim.contact.intersection import intersecting_bodies
+from pat3d.sim.failure import Status, diagnose, dump, explain
 from pat3d.sim.measures import StepMeasures
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
@@ -118,6 +119,22 @@ class Settled:
     polish_steps: int
     newton_iterations: int
     """Of all steps; of the slowest world in each."""
+    status: tuple[Status, ...]
+    """How every world ended."""
+    unconverged: NDArray[np.int64]
+    """Steps of every world that ended before they met their tolerances, shape (worlds,); each ends at a safe state from
+    which the next goes on."""
+
+
+class UnsettledError(SimulationError):
+    """Not every world came to rest."""
+
+    def __init__(self, message: str, settled: Settled, path: str):
+        super().__init__(message)
+        self.settled = settled
+        """Its `q` is free of intersections."""
+        self.path = path
+        """An .npz archive of the state."""
 
 
 Progress = Callable[[str, int, float], None]
@@ -153,6 +170,12 @@ class Run:
         if tape is not None:
             tape.states.append(wp.clone(self.q))
         self.frames = self.polish_steps = self.iterations = self.steps = 0
+        self.throw = True
+        """Whether a world that can never move on raises, or stays where it is."""
+        self.halted: dict[int, Status] = {}
+        """Worlds that can never move on."""
+        self.unconverged = np.zeros(model.worlds, dtype=np.int64)
+        """Steps that ended before they met their tolerances, shape (worlds,)."""
         self._frames = [wp.clone(self.q)]
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
@@ -167,7 +190,10 @@ class Run:
         return np.stack([frame.numpy().astype(np.float32) for frame in self._frames])
 
     def refuse_intersections(self) -> None:
-        """Raise SimulationError unless the present state is free of intersections."""
+        """Raise SimulationError unless the present state is finite and free of intersections."""
+        wrong = ~np.all(np.isfinite(self.state()), axis=(1, 2))
+        if wrong.any():
+            raise SimulationError(f'the state of "{self.model.labels[int(np.argmax(wrong))]}" is not finite.')
         pairs = intersecting_bodies(self.model, self.potential.positions(self.q, self.potential._start))
         if len(pairs):
             names = [*self.model.labels, "the ground"]
@@ -198,6 +224,8 @@ class Run:
         result = self.newton.minimise(self.q, active, covered=potential.candidates.built, **tolerances)
         self.iterations += int(result.iterations.max(initial=0))
         self.steps += 1
+        self.unconverged += active & ~result.converged
+        self._halt(diagnose(self.newton, active, result))
         if self.tape is not None:
             self.tape.states.append(wp.clone(self.q))
             self.tape.steps.append(
@@ -207,6 +235,25 @@ class Run:
                 )
             )  # fmt: skip
         return result
+
+    def _halt(self, found: dict[int, Status]) -> None:
+        """Stop worlds that can never move on, or raise SimulationError."""
+        self.halted |= found
+        if not found or not self.throw:
+            return
+        world, status = next(iter(found.items()))
+        step = self.options.time_step
+        raise SimulationError(
+            f"world {world} cannot go on at step {self.steps} ({self.steps * step:.3f} s): "
+            f"{explain(self.newton, world, status)}. "
+            f"The last safe state is in {dump(self.model, self.state(), self.steps, step)}."
+        )
+
+    def running(self) -> NDArray[np.bool_]:
+        """Worlds that can move on, shape (worlds,)."""
+        running = np.ones(self.model.worlds, dtype=bool)
+        running[list(self.halted)] = False
+        return running
 
     def anchor(self, worlds: NDArray[np.bool_]) -> None:
         """Let the friction displacements of `worlds` count from the present state."""
@@ -227,7 +274,7 @@ class Run:
         potential.friction.epsilon = options.friction_speed * options.time_step
         still, one = np.zeros(self.model.worlds, dtype=np.int64), np.ones(self.model.worlds)
         while self.frames < (options.max_frames if frames is None else frames):
-            active = (still < STILL_FRAMES) if frames is None else np.ones(self.model.worlds, dtype=bool)
+            active = (still < STILL_FRAMES) & self.running() if frames is None else self.running()
             if not active.any():
                 return
             self.anchor(active)
@@ -256,7 +303,7 @@ class Run:
         self.set_reach(d_hat)
         potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, d_hat)
         weight = np.ones(worlds)
-        active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
+        active, anchored = self.running(), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
         self._measures.forget_last()
         limit = self.polish_steps + options.max_polish_steps
@@ -267,6 +314,7 @@ class Run:
                 exact_below=EXACT_BELOW, max_iterations=60,
             )  # fmt: skip
             self.polish_steps += 1
+            active &= self.running()
             # The next step's friction acts with the normal forces of this state, so rest is judged with them.
             self.record_friction()
             move, now, slip, reverses = self._measures.all()
@@ -281,7 +329,7 @@ class Run:
             if move.max() > options.d_hat:
                 self._frames.append(wp.clone(self.q))
             self.progress("polishing", self.polish_steps, float(move.max()))
-        return ~active, residual
+        return ~active & self.running(), residual
 
     def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Find equilibrium at the wide barrier, where sliding is cheap, then at the final one."""
@@ -290,32 +338,59 @@ class Run:
         return self.relax(options.final_d_hat, options.residual, options.move, SLOW, FAST)
 
 
-def settle(model: Model, options: SettleOptions | None = None, progress: Progress = lambda *_: None) -> Settled:
+def settle(
+    model: Model,
+    options: SettleOptions | None = None,
+    progress: Progress = lambda *_: None,
+    *,
+    throw: bool = True,
+) -> Settled:
     """Let the bodies of every world of `model` come to rest from its initial state.
 
+    Args:
+        model: the worlds.
+        options: settings.
+        progress: called with the phase, step number and largest motion [m].
+        throw: whether worlds that do not come to rest raise; else their `status` tells, and their state is safe.
+
     Raises:
-        SimulationError: bodies intersect at the start, or the state is not finite.
+        SimulationError: bodies intersect at the start, or a world can never move on.
+        UnsettledError: a world is still moving in the end; it holds what was found.
     """
     options = options or SettleOptions()
     # Factorisations of a few hundred unknowns lose more to the threads of BLAS than they gain.
     with threadpool_limits(limits=1, user_api="blas"):
         run = Run(model, options, progress)
+        run.throw = throw
         run.refuse_intersections()
         run.set_reach(options.d_hat)
         run.drop()
         at_rest, residual = run.polish()
-    q = run.state()
-    if not np.all(np.isfinite(q)):
-        raise SimulationError("settling produced values that are not finite.")
-    return Settled(
-        q=q,
+    settled = Settled(
+        q=run.state(),
         trajectory=run.trajectory,
         at_rest=at_rest,
         residual=residual,
         frames=run.frames,
         polish_steps=run.polish_steps,
         newton_iterations=run.iterations,
+        status=tuple(
+            Status.AT_REST if rests else run.halted.get(world, Status.STILL_MOVING)
+            for world, rests in enumerate(at_rest)
+        ),
+        unconverged=run.unconverged,
     )
+    if throw and not at_rest.all():
+        world = int(np.argmin(at_rest))
+        path = dump(model, settled.q, run.steps, options.time_step)
+        raise UnsettledError(
+            f"{np.sum(~at_rest)} of {model.worlds} worlds did not come to rest in {run.steps} steps; world {world} is "
+            f"{settled.status[world]} with {residual[world]:.1e} of the weight out of balance, {options.residual:.1e} "
+            f"is rest. The last safe state is in {path}. Valid: more max_frames or max_polish_steps, or throw=False.",
+            settled,
+            path,
+        )
+    return settled
 
 
 def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.array) -> None:

@@ -106,6 +106,16 @@ class Newton:
             for launches in (self._begin, self._assemble, self._first_try, self._iterate, self._try, self._give_up)
         }
 
+    @property
+    def direction(self) -> wp.array:
+        """Direction searched last, shape (bodies, 4), vec3d."""
+        return self._direction
+
+    @property
+    def step(self) -> wp.array:
+        """Multiple of the direction tried last, shape (worlds,), float64."""
+        return self._step
+
     def minimise(
         self,
         q: wp.array,
