@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 import warp as wp
-from pat3d.sim.settle import Run, SettleOptions
+from pat3d.sim.settling import Run, SettleOptions
 
 from pat3d.assets.asset import ConvexPart
 from pat3d.assets.hull import convex_part
