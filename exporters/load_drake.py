@@ -23,7 +23,7 @@ PACKAGE = "pat3d_scene"
 
 def plant_config(time_step: float = 0.002) -> Any:
     """Settings that hold a scene still: hydroelastic contact, and the solver that knows ball constraints."""
-    from pydrake.multibody.plant import MultibodyPlantConfig
+    from pydrake.multibody.plant import MultibodyPlantConfig  # pyright: ignore[reportMissingImports]
 
     return MultibodyPlantConfig(
         time_step=time_step, contact_model="hydroelastic_with_fallback", discrete_contact_approximation="lagged"
@@ -36,7 +36,7 @@ def load_drake(folder: str | Path, plant: Any) -> dict[str, Any]:
     Returns:
         Drake's body of every object by its name.
     """
-    from pydrake.multibody.parsing import Parser
+    from pydrake.multibody.parsing import Parser  # pyright: ignore[reportMissingImports]
 
     folder = Path(folder)
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
@@ -59,9 +59,9 @@ def load_drake(folder: str | Path, plant: Any) -> dict[str, Any]:
 def main() -> None:
     """Load the folder of this file, simulate five seconds, print every body's drift."""
     import numpy as np
-    from pydrake.multibody.plant import AddMultibodyPlant
-    from pydrake.systems.analysis import Simulator
-    from pydrake.systems.framework import DiagramBuilder
+    from pydrake.multibody.plant import AddMultibodyPlant  # pyright: ignore[reportMissingImports]
+    from pydrake.systems.analysis import Simulator  # pyright: ignore[reportMissingImports]
+    from pydrake.systems.framework import DiagramBuilder  # pyright: ignore[reportMissingImports]
 
     builder = DiagramBuilder()
     plant, _ = AddMultibodyPlant(plant_config(), builder)

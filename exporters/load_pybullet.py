@@ -38,7 +38,7 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
     Returns:
         PyBullet's number of every body by its name, the ground's among them.
     """
-    import pybullet
+    import pybullet  # pyright: ignore[reportMissingImports]
 
     folder = Path(folder)
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
@@ -92,7 +92,7 @@ def _from_centre(pybullet: Any, client: int, body: int, point: list[float]) -> l
 
 def main() -> None:
     """Load the folder of this file, step for five seconds, print every body's drift."""
-    import pybullet
+    import pybullet  # pyright: ignore[reportMissingImports]
 
     client = pybullet.connect(pybullet.GUI if "--gui" in sys.argv[1:] else pybullet.DIRECT)
     bodies = load_pybullet(Path(__file__).parent, client)

@@ -96,6 +96,7 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
     """
     folder = Path(folder)
     with export_folder(folder, marker="scene.xml", what="MJCF") as fresh:
+        (fresh / "objects").mkdir()
         _save(_document(scene, fresh), fresh / "scene.xml")
     forget_cached_meshes()
     return folder / "scene.xml"
@@ -133,7 +134,6 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
     _ground_and_lights(assets, world, scene)
     contacts = find_contacts(scene, CONTACT_GAP)
     margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
-    (folder / "objects").mkdir()
     stored: dict[int, str] = {}
     state: list[float] = []
     for obj, margin in zip(scene.objects, margins, strict=True):

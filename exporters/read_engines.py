@@ -118,9 +118,7 @@ def read_with_drake(path: str | Path) -> tuple[BodyReadback, ...]:
     plant.Finalize()
     context = plant.CreateDefaultContext()
     inspector = graph.model_inspector()
-    return tuple(
-        _drake_body(plant, context, inspector, name, body) for name, body in names.items() if name != "ground"
-    )
+    return tuple(_drake_body(plant, context, inspector, name, body) for name, body in names.items() if name != "ground")
 
 
 def _drake_body(plant: Any, context: Any, inspector: Any, name: str, body: Any) -> BodyReadback:

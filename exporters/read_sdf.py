@@ -25,6 +25,14 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
     return tuple(_body(model, path, volumes) for model in world.findall("model") if model.get("name") != "ground")
 
 
+def hangs(path: str | Path) -> bool:
+    """Whether the world at `path` has joints that move; a damaged file has none."""
+    try:
+        return any(joint.get("type") != "fixed" for joint in read_xml(Path(path), "sdf").iterfind("world/joint"))
+    except ExportError:
+        return False
+
+
 def _body(model: ET.Element, path: Path, volumes: Volumes) -> BodyReadback:
     where = f"{path}: {model.get('name')}"
     link = only(model, "link", where)

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import ExportError, SpecError
+from pat3d.exporters.numbers import rotation_of
 from pat3d.exporters.read_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
 from pat3d.exporters.readback import BodyReadback
-from pat3d.exporters.numbers import rotation_of
 from pat3d.exporters.urdf import FORMAT, PACKAGE, VERSION
 from pat3d.scene import Pose
 from pat3d.scene_folder import read_json
@@ -75,7 +75,9 @@ def read_robot(path: Path, root: Path, volumes: Volumes) -> tuple[str, BodyReadb
     inertial = only(link, "inertial", where)
     centre, axes = _origin(inertial, where)
     inertia = only(inertial, "inertia", where).attrib
-    moments = tensor(*(float(numbers(inertia.get(key), 1, where)[0]) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
+    moments = tensor(
+        *(float(numbers(inertia.get(key), 1, where)[0]) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+    )
     collisions = link.findall("collision")
     lateral = only(only(link, "contact", where), "lateral_friction", where).get("value")
     frictions = [float(numbers(lateral, 1, where)[0])]
@@ -137,7 +139,7 @@ def read_directives(folder: str | Path) -> tuple[BodyReadback, ...]:
     placed: dict[str, tuple[bool, Mapping[str, Any]]] = {}
     try:
         for directive in _load(path)["directives"]:
-            (kind, entry), = directive.items()
+            ((kind, entry),) = directive.items()
             if kind == "add_model":
                 files[entry["name"]] = str(entry["file"]).removeprefix(f"package://{PACKAGE}/")
                 for transform in entry.get("default_free_body_pose", {}).values():
@@ -163,7 +165,7 @@ def _load(path: Path) -> Any:
     class Loader(yaml.SafeLoader):
         pass
 
-    Loader.add_constructor("!AngleAxis", lambda loader, node: loader.construct_mapping(node, deep=True))
+    Loader.add_constructor("!AngleAxis", _plain)
     try:
         if path.stat().st_size > 2**24:
             raise ExportError(f"{path}: larger than {2**24} bytes.")
@@ -172,6 +174,10 @@ def _load(path: Path) -> Any:
         raise ExportError(f"{path}: cannot be read ({error.strerror or error}).") from error
     except yaml.YAMLError as error:
         raise ExportError(f"{path}: not valid YAML ({error}).") from error
+
+
+def _plain(loader: Any, node: Any) -> Any:
+    return loader.construct_mapping(node, deep=True)
 
 
 def _transform(transform: Mapping[str, Any]) -> Pose:

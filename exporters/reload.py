@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib.util
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -99,6 +99,20 @@ class ParityReport:
             for quantity in QUANTITIES
         }
 
+    @property
+    def largest(self) -> float:
+        """The largest error of all."""
+        return max((error for error in self.worst.values() if error is not None), default=0.0)
+
+    def moved(self, before: Path, after: Path) -> ParityReport:
+        """The same report after the folder `before` has become `after`."""
+        here, there = str(before), str(after)
+        readings = [
+            replace(reading, failures=tuple(line.replace(here, there) for line in reading.failures))
+            for reading in self.readings
+        ]
+        return replace(self, path=self.path.replace(here, there), readings=tuple(readings))
+
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
         readings = [{**asdict(reading), "worst": reading.worst} for reading in self.readings]
@@ -130,7 +144,7 @@ def parity(scene: Scene, path: str | Path) -> ParityReport:
     """
     kind, main = locate(Path(path))
     readings, absent = [], []
-    for reader in _READERS[kind]():
+    for reader in _READERS[kind](main):
         if reader.package is not None and importlib.util.find_spec(_MODULES[reader.package]) is None:
             absent.append(reader.name)
             continue
@@ -273,13 +287,13 @@ def _version(package: str) -> str:
         return ""
 
 
-def _mjcf_readers() -> tuple[_Reader, ...]:
+def _mjcf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_mjcf import read_mjcf
 
     return (_Reader(name="MuJoCo", package="mujoco", read=read_mjcf),)
 
 
-def _urdf_readers() -> tuple[_Reader, ...]:
+def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_engines import read_with_drake, read_with_pybullet, read_with_yourdfpy
     from pat3d.exporters.read_urdf import read_directives, read_urdf
 
@@ -294,22 +308,21 @@ def _urdf_readers() -> tuple[_Reader, ...]:
     )  # fmt: skip
 
 
-def _sdf_readers() -> tuple[_Reader, ...]:
+def _sdf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.read_engines import read_with_drake
-    from pat3d.exporters.read_sdf import read_sdf
+    from pat3d.exporters.read_sdf import hangs, read_sdf
 
-    return (
-        _Reader(name="world", package=None, read=read_sdf),
-        _Reader(name="Drake", package="drake", read=read_with_drake),
-    )
+    ours = _Reader(name="world", package=None, read=read_sdf)
+    # Drake refuses worlds whose joints move.
+    return (ours,) if hangs(path) else (ours, _Reader(name="Drake", package="drake", read=read_with_drake))
 
 
-def _usd_readers() -> tuple[_Reader, ...]:
+def _usd_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.usd_read import read_usd
 
     return (_Reader(name="OpenUSD", package="usd-core", read=read_usd),)
 
 
-_READERS: dict[str, Callable[[], tuple[_Reader, ...]]] = {
+_READERS: dict[str, Callable[[Path], tuple[_Reader, ...]]] = {
     "mjcf": _mjcf_readers, "usd": _usd_readers, "urdf": _urdf_readers, "sdf": _sdf_readers,
 }  # fmt: skip

@@ -62,10 +62,10 @@ def _verdict(failures: tuple[str, ...]) -> int:
 
 def check(options: argparse.Namespace) -> int:
     """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder."""
-    from pat3d.check.parity import differences
     from pat3d.check.proof import prove
     from pat3d.check.settle import settle_in_mujoco
     from pat3d.exporters.mjcf import write_mjcf
+    from pat3d.exporters.reload import differences
     from pat3d.scene_io import load_scene
 
     folder = Path(options.folder)
@@ -82,6 +82,13 @@ def check(options: argparse.Namespace) -> int:
     if not delivered.is_file():
         console().print(f"note  there is no {delivered}; what would be written there was checked.", markup=False)
     return _verdict(tuple(failures))
+
+
+def export(options: argparse.Namespace) -> int:
+    """`pat3d export`."""
+    from pat3d import export_command
+
+    return export_command.run(options)
 
 
 def catalogue(options: argparse.Namespace) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from pat3d.check.proof import Proof
+    from pat3d.exporters.reload import ParityReport
     from pat3d.report import Report
     from pat3d.scene import Scene
 
@@ -135,11 +136,20 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         target.print(f"      not met: {line}", markup=False)
 
 
+def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
+    """One line for every format of a scene folder."""
+    for name, report in reports.items():
+        readers = ", ".join(reading.reader for reading in report.readings)
+        target.print("pass" if report.passed else "FAIL", style="green" if report.passed else "bold red", end="  ")
+        target.print(f"{name}: read back by {readers}; off by at most {report.largest:.0e}", markup=False)
+
+
 def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
     delivery = report.delivery
     best = delivery.best
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
+    show_parity(target, report.exports)
     for note in (*report.order.get("notes", ()), *best.notes):
         target.print(f"note  {note}", markup=False)
     if len(delivery.tried) > 1:
@@ -147,5 +157,6 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
-    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png"):
+    mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
+    for name in ("scene.json", *mains, "report.json", "preview.png"):
         target.print(f"  {folder / name}", markup=False, soft_wrap=True)

@@ -107,7 +107,6 @@ def _fall(
     mujoco: Any, model: Any, data: Any, body: int, points: NDArray[np.float64], upright: NDArray[np.float64],
     height: float, size: float,
 ) -> DropReport:  # fmt: skip
-    reach = float(np.linalg.norm(points - model.body_ipos[body], axis=1).max())
     limit = math.sqrt(2.0 * height / 9.81) + 1.0
     touched = still = math.inf
     deepest = depth = 0.0
@@ -121,7 +120,9 @@ def _fall(
         step += 1
         if step % _EVERY:
             continue
-        speed = float(np.linalg.norm(data.qvel[:3]) + reach * np.linalg.norm(data.qvel[3:6]))
+        # Of a free joint the translation is the origin's in the world, the rotation in the axes of the body.
+        moving = data.qvel[:3] @ data.xmat[body].reshape(3, 3) + np.cross(data.qvel[3:6], points)
+        speed = float(np.linalg.norm(moving, axis=1).max())
         if not speed < STILL_SPEED or math.isinf(touched):
             still = math.inf
         elif math.isinf(still):
