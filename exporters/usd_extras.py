@@ -81,7 +81,6 @@ def extend_collider(prim: Prim, *, mesh: bool) -> None:
         prim,
         "NewtonCollisionAPI",
         [
-            ("newton:contactMargin", _FLOAT, 0.0, _VARYING),
             ("newton:contactGap", _FLOAT, CONTACT_OFFSET, _VARYING),
         ],
     )
@@ -110,8 +109,22 @@ def extend_collider(prim: Prim, *, mesh: bool) -> None:
 
 
 def extend_margin(prim: Prim, margin: float) -> None:
-    """MuJoCo's contact margin of an extended collider [m]: surfaces that rest this far apart feel each other."""
+    """The contact margin of an extended collider [m], for MuJoCo and Newton.
+
+    Both add the margins of a pair, and surfaces that rest this far apart then feel each other.
+    """
     prim.CreateAttribute("mjc:margin", _DOUBLE, False, _UNIFORM).Set(margin)
+    prim.CreateAttribute("newton:contactMargin", _FLOAT, False, _VARYING).Set(margin)
+
+
+def extend_joint(prim: Prim) -> None:
+    """Make a joint a connect constraint of MuJoCo's between bodies that stay free, as stiff as the contacts."""
+    prim.AddAppliedSchema("MjcEqualityConnectAPI")
+    stiffness = [
+        ("mjc:solref", _DOUBLES, _numbers(SOLREF), _UNIFORM),
+        ("mjc:solimp", _DOUBLES, [*_numbers(SOLIMP), 0.5, 2.0], _UNIFORM),
+    ]
+    _apply(prim, "MjcEqualityAPI", stiffness)
 
 
 def extend_material(prim: Prim) -> None:

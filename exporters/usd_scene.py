@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.contacts import find_contacts
 from pat3d.exporters.mjcf import (
@@ -37,7 +38,7 @@ from pat3d.exporters.usd_asset import (
     set_metadata,
     write_asset,
 )
-from pat3d.exporters.usd_extras import extend_margin, extend_scene, shorten_body
+from pat3d.exporters.usd_extras import extend_joint, extend_margin, extend_scene, shorten_body
 from pat3d.scene import Attachment, Pose, Scene
 
 GRAVITY = 9.81
@@ -90,7 +91,7 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
     if moving:
         UsdGeom.Scope.Define(stage, "/World/Joints")
     for one in moving:
-        _joint(stage, scene, names, one)
+        _joints(stage, scene, names, one)
     stage.Save()
     return path
 
@@ -134,41 +135,53 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
     camera.CreateFocalLengthAttr(25.0)
 
 
-def _joint(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:
-    """The joint that leaves two bodies the freedom their anchors do.
+def _joints(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:
+    """One joint that leaves two bodies the freedom of their anchors, and for MuJoCo a point of every anchor.
 
-    One point is a ball joint, points on a line are a hinge, others a weld. A ball joint for every anchor would allow
-    the same motions, but closes a loop that engines with joint coordinates cannot build.
+    One anchor is a ball joint, anchors on a line are a hinge, others a weld. Ball joints for each would mean the same,
+    but two of them between one pair of bodies blow up in PhysX. MuJoCo's schema makes every anchor a connect
+    constraint; those beyond the first are joints that constrain nothing for who does not read it.
+
+    The frames come from the poses at rest, so every joint starts closed, whatever its anchors gave way under load. What
+    is fixed is the world, to which a joint without a body is tied: a joint to a prim that is no rigid body means the
+    same, but not to every reader.
     """
     child, parent = scene[one.child], scene[one.parent]
     points, _ = one.ends(child.pose, parent.pose)
-    centre = points.mean(axis=0)
-    _, spread, axes = np.linalg.svd(points - centre)
-    path = Sdf.Path(f"/World/Joints/{names[one.child]}__{names[one.parent]}")
-    if len(points) < 2 or spread[0] < _SAME_POINT:
-        joint, axes = UsdPhysics.SphericalJoint.Define(stage, path), np.eye(3)
-        joint.CreateAxisAttr(UsdPhysics.Tokens.x)
-    elif len(spread) < 2 or spread[1] < _SAME_POINT:
-        joint = UsdPhysics.RevoluteJoint.Define(stage, path)
-        joint.CreateAxisAttr(UsdPhysics.Tokens.x)
-    else:
-        joint = UsdPhysics.FixedJoint.Define(stage, path)
-    if np.linalg.det(axes) < 0:
-        axes[2] *= -1
-    frame = Pose.from_matrix(axes.T, centre)
-    joint.CreateBody0Rel().SetTargets([Sdf.Path(f"/World/{names[one.parent]}")])
-    joint.CreateBody1Rel().SetTargets([Sdf.Path(f"/World/{names[one.child]}")])
-    # Both frames from the poses at rest: the joint starts closed, whatever its anchors gave way under load.
-    (place0, turn0), (place1, turn1) = _within(parent.pose, frame), _within(child.pose, frame)
-    joint.CreateLocalPos0Attr(place0)
-    joint.CreateLocalRot0Attr(turn0)
-    joint.CreateLocalPos1Attr(place1)
-    joint.CreateLocalRot1Attr(turn1)
-    joint.CreateCollisionEnabledAttr(True)
+    kind, axes = _freedom(points)
+    for number, point in enumerate(points):
+        path = f"/World/Joints/{names[one.child]}__{names[one.parent]}_{number:02d}"
+        joint = (UsdPhysics.Joint if number else kind).Define(stage, path)
+        if not number and kind is not UsdPhysics.FixedJoint:
+            joint.CreateAxisAttr(UsdPhysics.Tokens.x)
+        frame = Pose.from_matrix(axes, point)
+        for obj, body, position, turn in (
+            (parent, joint.CreateBody0Rel(), joint.CreateLocalPos0Attr(), joint.CreateLocalRot0Attr()),
+            (child, joint.CreateBody1Rel(), joint.CreateLocalPos1Attr(), joint.CreateLocalRot1Attr()),
+        ):
+            if not obj.fixed:
+                body.SetTargets([f"/World/{names[obj.name]}"])
+            local = _within(Pose() if obj.fixed else obj.pose, frame)
+            position.Set(Gf.Vec3f(*local.position))
+            turn.Set(Gf.Quatf(*local.quat_wxyz))
+        joint.CreateCollisionEnabledAttr(True)
+        extend_joint(joint.GetPrim())
 
 
-def _within(pose: Pose, frame: Pose) -> tuple[Any, Any]:
-    """Position and orientation of `frame` seen from `pose`."""
-    rotation = pose.rotation.T @ frame.rotation
-    local = Pose.from_matrix(rotation, pose.rotation.T @ (np.array(frame.position) - np.array(pose.position)))
-    return Gf.Vec3f(*local.position), Gf.Quatf(*local.quat_wxyz)
+def _freedom(points: NDArray[np.float64]) -> tuple[Any, NDArray[np.float64]]:
+    """The type of joint that keeps `points` [m], shape (n, 3), together, and its axes, x along a line of them."""
+    spread = points - points.mean(axis=0)
+    along = spread[np.argmax(np.linalg.norm(spread, axis=1))]
+    if np.linalg.norm(along) < _SAME_POINT:
+        return UsdPhysics.SphericalJoint, np.eye(3)
+    x = along / np.linalg.norm(along)
+    z = np.cross(x, np.eye(3)[np.argmin(np.abs(x))])
+    z /= np.linalg.norm(z)
+    straight = np.linalg.norm(np.cross(spread, x), axis=1).max() < _SAME_POINT
+    return UsdPhysics.RevoluteJoint if straight else UsdPhysics.FixedJoint, np.stack([x, np.cross(z, x), z], axis=1)
+
+
+def _within(pose: Pose, frame: Pose) -> Pose:
+    """`frame` seen from `pose`."""
+    place = pose.rotation.T @ (np.array(frame.position) - np.array(pose.position))
+    return Pose.from_matrix(pose.rotation.T @ frame.rotation, place)

@@ -65,7 +65,7 @@ def bodies(stage: Stage) -> tuple[Body, ...]:
     for prim in range_:
         if prim.HasAPI(UsdPhysics.RigidBodyAPI):
             found.append(Body(prim=prim, colliders=tuple(_colliders(prim)), fixed=is_still(prim)))
-        elif _is_component(prim) and not _holds_body(prim):
+        elif is_component(prim) and body_above(prim) is None and not _holds_body(prim):
             range_.PruneChildren()
             if colliders := tuple(_colliders(prim)):
                 found.append(Body(prim=prim, colliders=colliders, fixed=True))
@@ -83,6 +83,19 @@ def is_still(prim: Prim) -> bool:
     """Whether the rigid body `prim` is kinematic or disabled."""
     body = UsdPhysics.RigidBodyAPI(prim)
     return bool(body.GetKinematicEnabledAttr().Get()) or not body.GetRigidBodyEnabledAttr().Get()
+
+
+def is_component(prim: Prim) -> bool:
+    """Whether `prim` is one object: a rigid body, or of the kind that USD calls a component."""
+    return prim.HasAPI(UsdPhysics.RigidBodyAPI) or Usd.ModelAPI(prim).GetKind() == Kind.Tokens.component
+
+
+def body_above(prim: Prim) -> Prim | None:
+    """The nearest rigid body above `prim`; None where there is none."""
+    parent = prim.GetParent()
+    while parent and not parent.HasAPI(UsdPhysics.RigidBodyAPI):
+        parent = parent.GetParent()
+    return parent or None
 
 
 def matrix(prim: Prim, cache: Any, base: Prim | None = None) -> NDArray[np.float64]:
@@ -145,20 +158,3 @@ def _collides(prim: Prim) -> bool:
 
 def _holds_body(prim: Prim) -> bool:
     return any(below.HasAPI(UsdPhysics.RigidBodyAPI) for below in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()))
-
-
-def _is_component(prim: Prim) -> bool:
-    return Usd.ModelAPI(prim).GetKind() == Kind.Tokens.component and _above(prim) is None
-
-
-def _above(prim: Prim) -> Prim | None:
-    """The nearest rigid body above `prim`."""
-    parent = prim.GetParent()
-    while parent and not parent.HasAPI(UsdPhysics.RigidBodyAPI):
-        parent = parent.GetParent()
-    return parent or None
-
-
-def body_above(prim: Prim) -> Prim | None:
-    """The nearest rigid body above `prim`; None where there is none."""
-    return _above(prim)
