@@ -34,8 +34,7 @@ def ground_friction(scene: Scene) -> float:
 
 
 def write_meshes(asset: Asset, folder: Path) -> None:
-    """Write the textured mesh and the parts that are not boxes of one asset into `folder`."""
+    """Write the textured mesh and every part of one asset into `folder`."""
     write_visual(asset.visual, folder)
     for number, part in enumerate(asset.parts):
-        if part.box is None:
-            (folder / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
+        (folder / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")

@@ -116,21 +116,15 @@ def _link(asset: Asset, name: str, meshes: str = "") -> ET.Element:
     ET.SubElement(ET.SubElement(visual, "geometry"), "mesh", filename=f"{meshes}visual.obj")
     material = ET.SubElement(visual, "material", name=f"{name}_surface")
     ET.SubElement(material, "color", rgba="1 1 1 1")
-    for number, part in enumerate(asset.parts):
+    for number in range(len(asset.parts)):
         collision = ET.SubElement(link, "collision", name=f"part_{number:03d}")
-        _geometry(collision, part, f"{meshes}{part_file(number)}")
+        _geometry(collision, f"{meshes}{part_file(number)}")
         _proximity(collision, asset.material.friction)
     return link
 
 
-def _geometry(collision: ET.Element, part: ConvexPart, file: str) -> None:
-    """A box where the part is exactly one, else its mesh."""
-    if part.box is not None:
-        centre, half, quat = part.box
-        rpy = rpy_of(Pose(quat_wxyz=quat).rotation)
-        ET.SubElement(collision, "origin", xyz=text(*centre), rpy=text(*rpy))
-        ET.SubElement(ET.SubElement(collision, "geometry"), "box", size=text(*(2.0 * side for side in half)))
-        return
+def _geometry(collision: ET.Element, file: str) -> None:
+    """A part as its mesh, boxes too: PyBullet lets bodies sink and walk where its box shape meets a hull."""
     ET.SubElement(collision, "origin", xyz="0 0 0", rpy="0 0 0")
     mesh = ET.SubElement(ET.SubElement(collision, "geometry"), "mesh", filename=file)
     ET.SubElement(mesh, "drake:declare_convex")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +46,7 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         "flags": "URDF_INITIALIZE_SAT_FEATURES, URDF_USE_INERTIA_FROM_FILE",
     }
     return {
-        "engine": "PyBullet", "version": str(pybullet.getAPIVersion(client)), "settings": settings, "warnings": [],
+        "engine": "PyBullet", "version": metadata.version("pybullet"), "settings": settings, "warnings": [],
         "recording": found,
     }  # fmt: skip
 
