@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.assets.asset import Asset, ConvexPart
+from pat3d.assets.asset import Asset
 from pat3d.exporters.folder import export_folder
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names

@@ -176,7 +176,8 @@ def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> 
             target.print(verdict.reason, markup=False)
         else:
             settings = ", ".join(f"{key} {value}" for key, value in verdict.settings.items())
-            target.print("pass" if verdict.passed else "FAIL", style="green" if verdict.passed else "bold red", end="  ")
+            style = "green" if verdict.passed else "bold red"
+            target.print("pass" if verdict.passed else "FAIL", style=style, end="  ")
             target.print(
                 f"{verdict.engine} {verdict.version}, {verdict.seconds:g} s in {verdict.wall_seconds:.1f} s: at most "
                 f"{verdict.worst_mm:.3f} mm and {verdict.worst_degrees:.3f} degrees ({settings})",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from pat3d.check.engines.protocol import Absent, Engine, EngineRun, Failed, Format
 from pat3d.check.settle import ObjectDrift, SettleReport
 from pat3d.errors import CheckError, ExportError
+from pat3d.exporters.exporting import export
 from pat3d.exporters.mjcf import body_names
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene import Scene, SceneObject
@@ -137,32 +138,9 @@ def _exported(scene: Scene, name: Format, exports: Path | None, scratch: Path) -
     for root in (exports, scratch):
         if root is not None and (root / name / MAIN[name]).is_file():
             return root / name
-    _WRITERS[name](scene, scratch / name)
+    export(scene, (name,), scratch)
     return scratch / name
 
 
 MAIN: dict[Format, str] = {"mjcf": "scene.xml", "urdf": "manifest.json", "usd": "scene.usdc"}
 """The file that an export of each format is known by."""
-
-
-def _write_mjcf(scene: Scene, folder: Path) -> Path:
-    from pat3d.exporters.mjcf import write_mjcf
-
-    return write_mjcf(scene, folder)
-
-
-def _write_urdf(scene: Scene, folder: Path) -> Path:
-    from pat3d.exporters.urdf import write_urdf
-
-    return write_urdf(scene, folder)
-
-
-def _write_usd(scene: Scene, folder: Path) -> Path:
-    from pat3d.exporters.usd import write_usd
-
-    return write_usd(scene, folder)
-
-
-_WRITERS: dict[Format, Callable[[Scene, Path], Path]] = {
-    "mjcf": _write_mjcf, "urdf": _write_urdf, "usd": _write_usd,
-}  # fmt: skip

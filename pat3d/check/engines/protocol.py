@@ -29,7 +29,7 @@ class EngineRun:
     names: tuple[str, ...]
     """Of the moving bodies: slugs, or the objects' own names."""
     poses: NDArray[np.float64]
-    """Position [m] and quaternion wxyz of every body frame, NaN where the engine blew up, shape (records, bodies, 7)."""
+    """Position [m] and quaternion wxyz of every body frame, NaN after a blow-up, shape (records, bodies, 7)."""
 
 
 class Engine(Protocol):
