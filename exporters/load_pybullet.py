@@ -63,8 +63,8 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
         bodies[entry["name"]] = body
         friction = math.sqrt(entry["friction"]) if geometric_friction else entry["friction"]
         pybullet.changeDynamics(
-            body, -1, lateralFriction=friction, spinningFriction=SPINNING_FRICTION, linearDamping=0.0, angularDamping=0.0,
-            physicsClientId=client,
+            body, -1, lateralFriction=friction, spinningFriction=SPINNING_FRICTION, linearDamping=0.0,
+            angularDamping=0.0, physicsClientId=client,
         )  # fmt: skip
     for attachment in manifest["attachments"]:
         _attach(pybullet, client, attachment, bodies)

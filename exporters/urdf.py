@@ -41,8 +41,8 @@ VERSION = 1
 PACKAGE = "pat3d_scene"
 """Package name that the paths in scene.dmd.yaml start with."""
 
-HYDROELASTIC_MODULUS = 1e8
-"""[Pa] of every object in Drake; the ground is rigid."""
+HYDROELASTIC_MODULUS = 1e11
+"""[Pa] in Drake. At 1e8 what leans on an edge sinks by 0.3 mm and slides; on a rigid ground stacks walk."""
 
 DISSIPATION = 10.0
 """Hunt-Crossley dissipation [s/m] in Drake."""
@@ -135,18 +135,14 @@ def _contact(link: ET.Element, friction: float) -> None:
     ET.SubElement(ET.SubElement(link, "contact"), "lateral_friction", value=text(friction))
 
 
-def _proximity(collision: ET.Element, friction: float, *, rigid: bool = False) -> None:
+def _proximity(collision: ET.Element, friction: float) -> None:
     """Drake's extension: friction, and a pressure field for hydroelastic contact."""
     properties = ET.SubElement(collision, "drake:proximity_properties")
     ET.SubElement(properties, "drake:mu_static", value=text(friction))
     ET.SubElement(properties, "drake:mu_dynamic", value=text(friction))
     ET.SubElement(properties, "drake:hunt_crossley_dissipation", value=text(DISSIPATION))
-    if rigid:
-        ET.SubElement(properties, "drake:rigid_hydroelastic")
-        ET.SubElement(properties, "drake:mesh_resolution_hint", value="100.0")
-    else:
-        ET.SubElement(properties, "drake:compliant_hydroelastic")
-        ET.SubElement(properties, "drake:hydroelastic_modulus", value=text(HYDROELASTIC_MODULUS))
+    ET.SubElement(properties, "drake:compliant_hydroelastic")
+    ET.SubElement(properties, "drake:hydroelastic_modulus", value=text(HYDROELASTIC_MODULUS))
 
 
 def _ground(scene: Scene) -> ET.Element:
@@ -165,7 +161,7 @@ def _ground(scene: Scene) -> ET.Element:
             material = ET.SubElement(element, "material", name="ground_surface")
             ET.SubElement(material, "color", rgba="0.78 0.76 0.74 1")
         else:
-            _proximity(element, friction, rigid=True)
+            _proximity(element, friction)
     return robot
 
 

@@ -58,6 +58,7 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
     settings = {
         "timestep": config.time_step,
         "contact model": config.contact_model,
+        "contact surface": config.contact_surface_representation,
         "approximation": config.discrete_contact_approximation,
     }
     return {
