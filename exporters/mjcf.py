@@ -36,8 +36,8 @@ from pat3d.assets.asset import Asset, MassProperties
 from pat3d.contacts import GROUND_INDEX, Contacts, find_contacts
 from pat3d.errors import ExportError
 from pat3d.exporters.folder import export_folder
+from pat3d.exporters.frames import text
 from pat3d.exporters.meshes import hull_obj, part_file, visual_obj, write_texture
-from pat3d.exporters.numbers import text
 from pat3d.naming import unique_slugs
 from pat3d.scene import Pose, Scene
 

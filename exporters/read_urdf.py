@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import ExportError, SpecError
-from pat3d.exporters.numbers import rotation_of
+from pat3d.exporters.frames import rotation_of
 from pat3d.exporters.read_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
 from pat3d.exporters.readback import BodyReadback
 from pat3d.exporters.urdf import FORMAT, PACKAGE, VERSION

@@ -22,9 +22,9 @@ import numpy as np
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import ExportError
 from pat3d.exporters.folder import export_folder
+from pat3d.exporters.frames import principal_axes, text
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
-from pat3d.exporters.numbers import principal_axes, text
 from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
 from pat3d.exporters.urdf import DISSIPATION, HYDROELASTIC_MODULUS
 from pat3d.scene import Attachment, Pose, Scene

@@ -28,9 +28,9 @@ import numpy as np
 
 from pat3d.assets.asset import Asset
 from pat3d.exporters.folder import export_folder
+from pat3d.exporters.frames import principal_axes, rpy_of, text
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
-from pat3d.exporters.numbers import principal_axes, rpy_of, text
 from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
 from pat3d.scene import Pose, Scene
 from pat3d.scene_folder import write_json
@@ -46,6 +46,9 @@ HYDROELASTIC_MODULUS = 1e11
 
 DISSIPATION = 10.0
 """Hunt-Crossley dissipation [s/m] in Drake."""
+
+SPINNING_FRICTION = 0.002
+"""[m] in Bullet: the radius of a small contact patch, as in the MJCF."""
 
 LOADERS = ("load_pybullet.py", "load_drake.py")
 
@@ -131,8 +134,10 @@ def _geometry(collision: ET.Element, file: str) -> None:
 
 
 def _contact(link: ET.Element, friction: float) -> None:
-    """Bullet's extension: friction of the whole link."""
-    ET.SubElement(ET.SubElement(link, "contact"), "lateral_friction", value=text(friction))
+    """Bullet's extension: friction of the whole link, sliding and about the normal."""
+    contact = ET.SubElement(link, "contact")
+    ET.SubElement(contact, "lateral_friction", value=text(friction))
+    ET.SubElement(contact, "spinning_friction", value=text(SPINNING_FRICTION))
 
 
 def _proximity(collision: ET.Element, friction: float) -> None:

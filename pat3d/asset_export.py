@@ -26,6 +26,9 @@ from pat3d.versions import versions
 CLEARANCE = 1e-5
 """Gap between the object and the ground [m]."""
 
+MAX_REACH = 0.02
+"""Convex parts that reach further beyond the mesh than this, in longest sides of it, are a failure."""
+
 MAX_MESHES = 1000
 """Mesh files that one folder may hold."""
 
@@ -44,7 +47,16 @@ class ExportedAsset:
     def failures(self) -> tuple[str, ...]:
         """What is wrong with it, a line each."""
         lines = [line for report in self.parities.values() for line in report.failures]
-        return (*lines, *(f'"{self.asset.noun}": {line}' for line in (self.drop.failures if self.drop else ())))
+        lines += [f'"{self.asset.noun}": {line}' for line in (self.drop.failures if self.drop else ())]
+        if self.reach > MAX_REACH * float(np.ptp(self.asset.visual.bounds, axis=0).max()):
+            lines.append(f'"{self.asset.noun}": the convex parts reach {1e3 * self.reach:.3g} mm beyond the mesh.')
+        return tuple(lines)
+
+    @property
+    def reach(self) -> float:
+        """How far the convex parts reach beyond the bounding box of the mesh [m]."""
+        inner, outer = self.asset.visual.bounds, self.asset.bounds
+        return float(max((inner[0] - outer[0]).max(), (outer[1] - inner[1]).max()))
 
     @property
     def cavity_loss(self) -> float | None:
@@ -77,6 +89,8 @@ class ExportedAsset:
             "boxes": sum(part.box is not None for part in asset.parts),
             "largest_part_vertices": max(len(part.vertices) for part in asset.parts),
             "sticks_out_m": record.get("parts", {}).get("sticks_out"),
+            "inflation_m": record.get("parts", {}).get("inflation"),
+            "reach_m": self.reach,
             "cavity_loss": self.cavity_loss,
             "drop": None if self.drop is None else self.drop.as_dict(),
             "parity": {name: report.as_dict() for name, report in self.parities.items()},

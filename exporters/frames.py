@@ -1,4 +1,4 @@
-"""Numbers of the XML formats: exact decimals, principal axes of inertia, roll-pitch-yaw angles."""
+"""Frames and numbers of the XML formats: exact decimals, principal axes of inertia, roll-pitch-yaw angles."""
 
 from __future__ import annotations
 
