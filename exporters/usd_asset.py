@@ -12,6 +12,7 @@ whose place is a double: rounding is then relative to the part and not to where 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,9 @@ from pat3d.exporters.usd_extras import extend_body, extend_collider, extend_mate
 
 GUIDE_COLOUR = (0.4, 0.6, 0.9)
 """Linear RGB of colliders where guides are shown."""
+
+_TRIES = 16
+"""Rounds of moving points apart; what is left then stays."""
 
 
 def set_metadata(stage: Stage, root: Prim) -> None:
@@ -124,7 +128,7 @@ def define_box(
 
 
 def define_mesh(
-    stage: Stage, path: PrimPath, points: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64]
+    stage: Stage, path: PrimPath, points: NDArray[Any], faces: NDArray[np.int32], normals: NDArray[Any]
 ) -> Shape:
     """A polygonal mesh.
 
@@ -178,7 +182,8 @@ def _mass(prim: Prim, properties: MassProperties) -> None:
 
 def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> Prim:
     """The textured mesh."""
-    prim = define_mesh(stage, path, mesh.vertices, mesh.faces, corner_normals(mesh.vertices, mesh.faces))
+    points = _apart(mesh.vertices, mesh.faces)
+    prim = define_mesh(stage, path, points, mesh.faces, corner_normals(mesh.vertices, mesh.faces))
     uv, index = np.unique(mesh.uv.reshape(-1, 2), axis=0, return_inverse=True)
     coordinates = UsdGeom.PrimvarsAPI(prim).CreatePrimvar(
         "st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying
@@ -186,6 +191,31 @@ def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> Prim:
     coordinates.Set(Vt.Vec2fArray.FromNumpy(_single(uv)))
     coordinates.SetIndices(Vt.IntArray.FromNumpy(np.ascontiguousarray(index.reshape(-1), dtype=np.int32)))
     return prim.GetPrim()
+
+
+def _apart(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float32]:
+    """`vertices` [m], shape (n, 3), in single precision, no two the same and none on a line with the rest of its face.
+
+    Solids that touch have points in common. Welded they would share edges, and without their narrowest faces they would
+    have holes: one broken surface of two whole ones. So such points move by the width of a rounding error instead.
+    """
+    points = _single(vertices) + np.float32(0.0)
+    step = np.spacing(np.abs(points).max())
+    for _ in range(_TRIES):
+        _, group, count = np.unique(points, axis=0, return_inverse=True, return_counts=True)
+        order = np.argsort(group.reshape(-1), kind="stable")
+        rank = np.arange(len(points)) - np.repeat(np.cumsum(count) - count, count)
+        points[order, 0] += rank.astype(np.float32) * step
+        corners = points[faces]
+        area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        flat = np.flatnonzero(np.linalg.norm(area, axis=1) == 0.0)
+        if len(flat) == 0 and (count == 1).all():
+            break
+        edges = np.roll(corners[flat], 1, axis=1) - np.roll(corners[flat], -1, axis=1)
+        opposite = np.argmax(np.linalg.norm(edges, axis=2), axis=1)
+        across = np.argmin(np.abs(edges[np.arange(len(flat)), opposite]), axis=1)
+        points[faces[flat, opposite], across] += step
+    return points
 
 
 def textured_material(stage: Stage, path: PrimPath, texture: str) -> Surface:
@@ -245,5 +275,5 @@ def _make_collider(shape: Shape, *, mesh: bool) -> None:
     extend_collider(shape.GetPrim(), mesh=mesh)
 
 
-def _single(values: NDArray[np.float64]) -> NDArray[np.float32]:
+def _single(values: NDArray[Any]) -> NDArray[np.float32]:
     return np.ascontiguousarray(values, dtype=np.float32)

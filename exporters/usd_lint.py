@@ -33,6 +33,7 @@ from pat3d.exporters.usd_stage import (
     open_stage,
     quaternion,
     transformed,
+    value,
     without_scale,
 )
 from pat3d.scene import GROUND, Pose, Scene, SceneObject
@@ -116,12 +117,12 @@ def _units(file: _File) -> Faults:
         yield root, "no default prim, so a reference to this file means nothing; author defaultPrim."
     if UsdGeom.GetStageUpAxis(stage) != UsdGeom.Tokens.z or not stage.HasAuthoredMetadata("upAxis"):
         yield root, f"the up axis is {UsdGeom.GetStageUpAxis(stage)}; author Z."
-    for name, value in (
+    for name, unit in (
         ("metersPerUnit", UsdGeom.GetStageMetersPerUnit(stage)),
         ("kilogramsPerUnit", UsdPhysics.GetStageKilogramsPerUnit(stage)),
     ):
-        if value != 1.0 or not stage.HasAuthoredMetadata(name):
-            yield root, f"{name} is {value:g}, authored or not; author 1."
+        if unit != 1.0 or not stage.HasAuthoredMetadata(name):
+            yield root, f"{name} is {unit:g}, authored or not; author 1."
 
 
 def _physics_scene(file: _File) -> Faults:
@@ -133,8 +134,8 @@ def _physics_scene(file: _File) -> Faults:
         yield file.stage.GetPseudoRoot(), f"{len(scenes)} physics scenes; bodies need one for gravity."
     for prim in scenes:
         scene = UsdPhysics.Scene(prim)
-        direction = np.array(scene.GetGravityDirectionAttr().Get())
-        magnitude = scene.GetGravityMagnitudeAttr().Get()
+        direction = np.array(value(scene.GetGravityDirectionAttr(), (0.0, 0.0, 0.0)), dtype=np.float64)
+        magnitude = float(value(scene.GetGravityMagnitudeAttr(), -np.inf))
         # The schema's own defaults, a zero vector and minus infinity, mean earth's gravity.
         down = direction @ (0.0, 0.0, -1.0) >= (1.0 - SINGLE) * np.linalg.norm(direction)
         if not down or not (np.isneginf(magnitude) or 9.0 < magnitude < 10.5):
@@ -177,7 +178,7 @@ def _mass(file: _File) -> Faults:
         if not (np.isfinite(mass) and mass > 0.0):
             yield body.prim, f"mass {mass:g} kg; it must be positive."
         turn = np.linalg.norm(quaternion(attributes["principalAxes"].Get()))
-        if abs(turn - 1.0) > 10 * SINGLE:
+        if not abs(turn - 1.0) <= 10 * SINGLE:
             yield body.prim, f"principalAxes has norm {turn:.6g}; a rotation needs 1."
         points = [transformed(points, matrix(prim, file.cache, body.prim)) for prim, points in _shapes(body)]
         if points:
@@ -230,10 +231,10 @@ def _approximation(file: _File) -> Faults:
 def _hull(file: _File) -> Faults:
     for prim in file.colliders:
         points = collider_points(prim)
-        if points is None or not prim.IsA(UsdGeom.Mesh):
+        if points is None:
             continue
         if not np.isfinite(points).all():
-            yield prim, "a point is not finite."
+            yield prim, "its size or a point of it is not finite."
             continue
         try:
             hull = convex_part(points)
@@ -242,10 +243,14 @@ def _hull(file: _File) -> Faults:
             continue
         if len(hull.vertices) > MAX_VERTICES:
             yield prim, f"a hull of {len(hull.vertices)} vertices; PhysX drops those beyond {MAX_VERTICES}."
+        if not prim.IsA(UsdGeom.Mesh):
+            continue
         mesh = UsdGeom.Mesh(prim)
         counts = np.array(mesh.GetFaceVertexCountsAttr().Get() or [], dtype=np.int64)
         index = np.array(mesh.GetFaceVertexIndicesAttr().Get() or [], dtype=np.int64)
-        if len(counts) and (counts == 3).all() and len(index) == counts.sum() and index.max() < len(points):
+        if len(index) and (index.min() < 0 or index.max() >= len(points) or len(index) != counts.sum()):
+            yield prim, "its faces name points that it does not have."
+        elif len(counts) and (counts == 3).all():
             inside, whole = _volume(points, index.reshape(-1, 3)), _volume(hull.vertices, hull.faces)
             if abs(inside) < (1.0 - HULL_EXCESS) * whole:
                 yield prim, f"its hull has {whole / max(abs(inside), 1e-300):.3g} times the volume of the mesh."
@@ -281,13 +286,14 @@ def _joint(file: _File) -> Faults:
                 yield prim, f"{ends.GetName()} names {targets[0]}, which is not in the file."
                 break
             place = matrix(end, file.cache) if targets else np.eye(4)
-            local = Pose(quat_wxyz=_unit(quaternion(rotation.Get()))).rotation
+            local = Pose(quat_wxyz=_unit(rotation)).rotation
             axes = without_scale(place)[0][:3, :3] @ local
-            sides.append((transformed(np.array(position.Get(), dtype=np.float64)[None], place)[0], axes))
+            point = np.array(value(position, (0.0, 0.0, 0.0)), dtype=np.float64)
+            sides.append((transformed(point[None], place)[0], axes))
         if len(sides) < 2:
             continue
         gap = float(np.linalg.norm(sides[0][0] - sides[1][0]))
-        if gap > JOINT_GAP and prim.GetTypeName() in (
+        if not gap <= JOINT_GAP and prim.GetTypeName() in (
             "PhysicsSphericalJoint",
             "PhysicsRevoluteJoint",
             "PhysicsFixedJoint",
@@ -295,7 +301,7 @@ def _joint(file: _File) -> Faults:
             yield prim, f"its two sides are {1e3 * gap:.3g} mm apart and snap together at the start."
         if prim.GetTypeName() in _HINGES:
             turn = float(np.linalg.norm(sides[0][1] - sides[1][1]) / np.sqrt(2.0))
-            if turn > JOINT_TURN:
+            if not turn <= JOINT_TURN:
                 yield prim, f"its two sides are turned by {turn:.3g} rad and snap together at the start."
 
 
@@ -351,8 +357,12 @@ def _shapes(body: Body) -> Iterator[tuple[Prim, NDArray[np.float64]]]:
 
 def _distortion(place: NDArray[np.float64]) -> str | None:
     """What a 4 x 4 matrix does beyond turning, moving and scaling alike, in words."""
+    if not np.isfinite(place).all():
+        return "placed nowhere, by numbers that are not finite"
     gram = place[:3, :3].T @ place[:3, :3]
     size = float(np.trace(gram)) / 3.0
+    if not 1e-12 < size < 1e12:
+        return f"scaled by {np.sqrt(size):.3g}"
     if not np.allclose(gram, size * np.eye(3), atol=1e-5 * size):
         return f"scaled by {tuple(np.round(np.sqrt(np.diag(gram)), 6).tolist())} or sheared"
     return "mirrored" if np.linalg.det(place[:3, :3]) < 0.0 else None
@@ -363,9 +373,11 @@ def _volume(points: NDArray[np.float64], faces: NDArray[Any]) -> float:
     return float(np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6.0
 
 
-def _unit(quat: NDArray[np.float64]) -> Any:
-    size = np.linalg.norm(quat)
-    return tuple((quat / size).tolist()) if size > 0.0 else (1.0, 0.0, 0.0, 0.0)
+def _unit(attribute: Any) -> Any:
+    """The rotation in a quaternion attribute as quat_wxyz; none where it holds no rotation."""
+    quat = value(attribute, None)
+    size = 0.0 if quat is None else np.linalg.norm(quaternion(quat))
+    return tuple((quaternion(quat) / size).tolist()) if 0.0 < size < np.inf else (1.0, 0.0, 0.0, 0.0)
 
 
 def _object(file: _File, path: str, prims: tuple[Prim, ...]) -> SceneObject | None:

@@ -31,7 +31,8 @@ def read_usd(path: str | Path) -> tuple[BodyReadback, ...]:
     """Every rigid body and static prop of a .usdc, .usda or .usdz file; the ground is neither.
 
     Raises:
-        ExportError: not readable, a body without authored mass properties, or a collider that is no mesh or cube.
+        ExportError: not readable, a body without authored mass properties or out of shape, or a collider that is
+            neither mesh nor cube.
     """
     stage = open_stage(path)
     cache = UsdGeom.XformCache()
@@ -40,7 +41,9 @@ def read_usd(path: str | Path) -> tuple[BodyReadback, ...]:
 
 def _read(body: Body, cache: Any, path: str | Path) -> BodyReadback:
     prim = body.prim
-    place, _ = without_scale(matrix(prim, cache))
+    place, scale = without_scale(matrix(prim, cache))
+    if not (np.isfinite(place).all() and np.linalg.det(place[:3, :3]) > 0.5 and np.ptp(scale) < 1e-5 * scale.max()):
+        raise ExportError(f"{path}: {prim.GetPath()} is not just turned and moved; make it so.")
     mass, centre, inertia = mass_properties(prim, path)
     return BodyReadback(
         # USD takes no name that starts with a digit.
@@ -68,10 +71,14 @@ def mass_properties(prim: Prim, path: str | Path) -> tuple[float, NDArray[np.flo
         api.GetDiagonalInertiaAttr(),
         api.GetPrincipalAxesAttr(),
     )
-    if not prim.HasAPI(UsdPhysics.MassAPI) or not all(attribute.HasAuthoredValue() for attribute in attributes):
+    still = not prim.HasAPI(UsdPhysics.RigidBodyAPI)
+    if not (still or prim.HasAPI(UsdPhysics.MassAPI)) or not all(one.HasAuthoredValue() for one in attributes):
         raise ExportError(f"{path}: {prim.GetPath()} needs mass, centreOfMass, diagonalInertia and principalAxes.")
     mass, centre, moments, axes = (attribute.Get() for attribute in attributes)
-    rotation = Rotation.from_quat(quaternion(axes), scalar_first=True).as_matrix()
+    turn = quaternion(axes)
+    if not (np.isfinite(turn).all() and np.linalg.norm(turn) > 0.0):
+        raise ExportError(f"{path}: the principalAxes of {prim.GetPath()} are no rotation.")
+    rotation = Rotation.from_quat(turn, scalar_first=True).as_matrix()
     inertia = rotation @ np.diag(np.array(moments, dtype=np.float64)) @ rotation.T
     return float(mass), np.array(centre, dtype=np.float64), inertia
 

@@ -84,6 +84,8 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
         place(prim, obj.pose.position, obj.pose.quat_wxyz)
         if obj.fixed:
             prim.RemoveAPI(UsdPhysics.RigidBodyAPI)
+            # The numbers stay for who wants them; the schema belongs on what moves.
+            prim.RemoveAPI(UsdPhysics.MassAPI)
             shorten_body(prim)
         for number in range(len(asset.parts) if margin > 0.0 else 0):
             extend_margin(stage.OverridePrim(f"/World/{name}/collision/{part_name(number)}"), margin)

@@ -120,7 +120,7 @@ def collider_points(prim: Prim) -> NDArray[np.float64] | None:
         points = UsdGeom.Mesh(prim).GetPointsAttr().Get()
         return np.array([] if points is None else points, dtype=np.float64).reshape(-1, 3)
     if prim.IsA(UsdGeom.Cube):
-        return _CORNERS * float(UsdGeom.Cube(prim).GetSizeAttr().Get())
+        return _CORNERS * float(value(UsdGeom.Cube(prim).GetSizeAttr(), np.nan))
     return None
 
 
@@ -135,12 +135,19 @@ def bound_friction(prim: Prim, purpose: str) -> tuple[float, float] | None:
     if not material or not material.GetPrim().HasAPI(UsdPhysics.MaterialAPI):
         return None
     physics = UsdPhysics.MaterialAPI(material.GetPrim())
-    return float(physics.GetStaticFrictionAttr().Get()), float(physics.GetDynamicFrictionAttr().Get())
+    still, sliding = physics.GetStaticFrictionAttr(), physics.GetDynamicFrictionAttr()
+    return float(value(still, np.nan)), float(value(sliding, np.nan))
 
 
-def quaternion(value: Any) -> NDArray[np.float64]:
-    """(w, x, y, z), shape (4,)."""
-    return np.array([value.GetReal(), *value.GetImaginary()], dtype=np.float64)
+def quaternion(quat: Any) -> NDArray[np.float64]:
+    """A Gf.Quatf or Gf.Quatd as (w, x, y, z), shape (4,)."""
+    return np.array([quat.GetReal(), *quat.GetImaginary()], dtype=np.float64)
+
+
+def value(attribute: Any, absent: Any) -> Any:
+    """What a Usd.Attribute holds, or `absent` where it is blocked."""
+    held = attribute.Get()
+    return absent if held is None else held
 
 
 def _colliders(prim: Prim) -> Iterator[Prim]:

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 pytest.importorskip("pxr")
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
-from pat3d.assets.asset import Asset
+from pat3d.assets.asset import Asset, VisualMesh
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, join, vessel
 from pat3d.errors import ExportError
@@ -209,6 +209,7 @@ def test_fixed_objects_are_no_rigid_bodies(written):
     table = stage.GetPrimAtPath("/World/wooden_table")
     assert not [prim for prim in Usd.PrimRange(table) if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
     assert not [name for name in table.GetPrimTypeInfo().GetAppliedAPISchemas() if "RigidBody" in name]
+    assert not table.HasAPI(UsdPhysics.MassAPI)
     assert stage.GetPrimAtPath("/World/ball").HasAPI(UsdPhysics.RigidBodyAPI)
 
 
@@ -234,6 +235,27 @@ def test_the_texture_reaches_the_surface_from_any_place(scene, tmp_path, monkeyp
     coordinates = UsdGeom.PrimvarsAPI(visual).GetPrimvar("st")
     expected = scene["red mug 2"].asset.visual.uv.reshape(-1, 2)
     np.testing.assert_allclose(np.array(coordinates.ComputeFlattened()), expected, atol=1e-6)
+
+
+def test_solids_that_touch_stay_whole_with_points_and_areas_of_their_own(tmp_path):
+    """Two cubes with an edge in common, 3 m out, and a face that single precision makes a line."""
+    shape = box(0.1, 0.1, 0.1)
+    one = asset_of(shape.moved(3.0, 0.0, 0.0))
+    other = one.visual.vertices + (0.1, 0.1, 0.0)
+    sliver = np.array([[3.0, 0.0, 0.5], [3.1, 0.0, 0.5], [3.05, 1e-12, 0.5]])
+    vertices = np.concatenate([one.visual.vertices, other, sliver])
+    count = len(other)
+    faces = np.concatenate([one.visual.faces, one.visual.faces + count, [[2 * count, 2 * count + 1, 2 * count + 2]]])
+    mesh = VisualMesh.from_face_colours(vertices, faces.astype(np.int32), np.zeros((len(faces), 3), np.uint8))
+    path = write_usd_asset(replace(one, visual=mesh), tmp_path / "u", "cubes")
+    visual = UsdGeom.Mesh(Usd.Stage.Open(str(path)).GetPrimAtPath("/cubes/visual"))
+    points = np.array(visual.GetPointsAttr().Get())
+    index = np.array(visual.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)
+    np.testing.assert_array_equal(index, faces)
+    assert len(np.unique(points, axis=0)) == len(points)
+    corners = points[index]
+    assert np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).all()
+    np.testing.assert_allclose(points, vertices, atol=1e-6)
 
 
 def test_the_package_holds_everything_and_opens_alone(scene, tmp_path):
