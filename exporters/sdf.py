@@ -26,7 +26,7 @@ from pat3d.exporters.frames import principal_axes, text
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
 from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
-from pat3d.exporters.urdf import DISSIPATION, HYDROELASTIC_MODULUS
+from pat3d.exporters.urdf import HYDROELASTIC_MODULUS
 from pat3d.scene import Attachment, Pose, Scene
 
 VERSION = "1.11"
@@ -145,7 +145,6 @@ def _surface(collision: ET.Element, friction: float) -> None:
     for key in ("mu", "mu2"):
         ET.SubElement(ode, key).text = text(friction)
     properties = ET.SubElement(collision, "drake:proximity_properties")
-    ET.SubElement(properties, "drake:hunt_crossley_dissipation").text = text(DISSIPATION)
     ET.SubElement(properties, "drake:compliant_hydroelastic")
     ET.SubElement(properties, "drake:hydroelastic_modulus").text = text(HYDROELASTIC_MODULUS)
 

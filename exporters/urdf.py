@@ -42,10 +42,8 @@ PACKAGE = "pat3d_scene"
 """Package name that the paths in scene.dmd.yaml start with."""
 
 HYDROELASTIC_MODULUS = 1e11
-"""[Pa] in Drake. At 1e8 what leans on an edge sinks by 0.3 mm and slides; on a rigid ground stacks walk."""
-
-DISSIPATION = 10.0
-"""Hunt-Crossley dissipation [s/m] in Drake."""
+"""[Pa] in Drake. At 1e8 what leans on an edge sinks by 0.3 mm and slides; on a rigid ground stacks walk.
+Dissipation is left to Drake: with 10 s/m a fruit in a basket rolls away."""
 
 SPINNING_FRICTION = 0.002
 """[m] in Bullet: the radius of a small contact patch, as in the MJCF."""
@@ -145,7 +143,6 @@ def _proximity(collision: ET.Element, friction: float) -> None:
     properties = ET.SubElement(collision, "drake:proximity_properties")
     ET.SubElement(properties, "drake:mu_static", value=text(friction))
     ET.SubElement(properties, "drake:mu_dynamic", value=text(friction))
-    ET.SubElement(properties, "drake:hunt_crossley_dissipation", value=text(DISSIPATION))
     ET.SubElement(properties, "drake:compliant_hydroelastic")
     ET.SubElement(properties, "drake:hydroelastic_modulus", value=text(HYDROELASTIC_MODULUS))
 
