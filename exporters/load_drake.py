@@ -21,10 +21,11 @@ from typing import Any
 PACKAGE = "pat3d_scene"
 
 
-def plant_config(time_step: float = 0.001) -> Any:
-    """Settings that hold a scene still: hydroelastic contact, and the solver that knows ball constraints.
+def plant_config(time_step: float = 0.0005) -> Any:
+    """Settings that hold a scene still: hydroelastic contact and SAP, which knows ball constraints.
 
-    Triangles give a patch several contact points where polygons give it one, on which a fruit in a basket rolls.
+    Triangles give a patch several contact points where polygons give it one, on which a fruit in a basket rolls. At
+    two milliseconds a step what leans in a cup slides by centimetres.
     """
     from pydrake.multibody.plant import MultibodyPlantConfig  # pyright: ignore[reportMissingImports]
 
@@ -32,7 +33,7 @@ def plant_config(time_step: float = 0.001) -> Any:
         time_step=time_step,
         contact_model="hydroelastic_with_fallback",
         contact_surface_representation="triangle",
-        discrete_contact_approximation="lagged",
+        discrete_contact_approximation="sap",
     )
 
 
