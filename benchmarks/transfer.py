@@ -57,11 +57,11 @@ def random_spec(seed: int) -> dict[str, Any]:
     while len(nouns) < draw.randint(2, 6):
         entry = draw.choice(catalogue.entries())
         try:
-            asset = catalogue.make(entry.name, seed=seed)
+            asset = catalogue.make(entry.noun, seed=seed)
         except Pat3dError:
             continue
         if max(asset.size) < SMALL:
-            nouns.append(entry.name)
+            nouns.append(entry.noun)
     objects: list[dict[str, Any]] = [{"name": "table", "noun": "table", "fixed": bool(seed % 2)}]
     relations = []
     for number, noun in enumerate(nouns, start=1):
