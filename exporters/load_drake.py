@@ -21,15 +21,19 @@ from typing import Any
 PACKAGE = "pat3d_scene"
 
 
-def plant_config(time_step: float = 0.002) -> Any:
+def plant_config(time_step: float = 0.0005) -> Any:
     """Settings that hold a scene still: hydroelastic contact and SAP, which knows ball constraints.
 
-    With the "lagged" and "similar" approximations what leans in a cup slides by centimetres.
+    Triangles give a patch several contact points where polygons give it one, on which a fruit in a basket rolls. At
+    two milliseconds a step what leans in a cup slides by centimetres.
     """
     from pydrake.multibody.plant import MultibodyPlantConfig  # pyright: ignore[reportMissingImports]
 
     return MultibodyPlantConfig(
-        time_step=time_step, contact_model="hydroelastic_with_fallback", discrete_contact_approximation="sap"
+        time_step=time_step,
+        contact_model="hydroelastic_with_fallback",
+        contact_surface_representation="triangle",
+        discrete_contact_approximation="sap",
     )
 
 

@@ -26,7 +26,7 @@ from pat3d.exporters.frames import principal_axes, text
 from pat3d.exporters.meshes import part_file
 from pat3d.exporters.mjcf import GROUND_HALF_THICKNESS, body_names
 from pat3d.exporters.objects import ground_friction, ground_size, stored_assets, write_meshes
-from pat3d.exporters.urdf import DISSIPATION, HYDROELASTIC_MODULUS
+from pat3d.exporters.urdf import HYDROELASTIC_MODULUS
 from pat3d.scene import Attachment, Pose, Scene
 
 VERSION = "1.11"
@@ -139,19 +139,14 @@ def _mesh(element: ET.Element, file: str) -> ET.Element:
     return mesh
 
 
-def _surface(collision: ET.Element, friction: float, *, rigid: bool = False) -> None:
+def _surface(collision: ET.Element, friction: float) -> None:
     """Friction, which Gazebo and Drake read from the same place, and Drake's pressure field."""
     ode = ET.SubElement(ET.SubElement(ET.SubElement(collision, "surface"), "friction"), "ode")
     for key in ("mu", "mu2"):
         ET.SubElement(ode, key).text = text(friction)
     properties = ET.SubElement(collision, "drake:proximity_properties")
-    ET.SubElement(properties, "drake:hunt_crossley_dissipation").text = text(DISSIPATION)
-    if rigid:
-        ET.SubElement(properties, "drake:rigid_hydroelastic")
-        ET.SubElement(properties, "drake:mesh_resolution_hint").text = "100.0"
-    else:
-        ET.SubElement(properties, "drake:compliant_hydroelastic")
-        ET.SubElement(properties, "drake:hydroelastic_modulus").text = text(HYDROELASTIC_MODULUS)
+    ET.SubElement(properties, "drake:compliant_hydroelastic")
+    ET.SubElement(properties, "drake:hydroelastic_modulus").text = text(HYDROELASTIC_MODULUS)
 
 
 def _ground(scene: Scene) -> ET.Element:
@@ -168,7 +163,7 @@ def _ground(scene: Scene) -> ET.Element:
             for key in ("ambient", "diffuse"):
                 ET.SubElement(material, key).text = "0.78 0.76 0.74 1"
         else:
-            _surface(element, ground_friction(scene), rigid=True)
+            _surface(element, ground_friction(scene))
     return model
 
 

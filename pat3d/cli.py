@@ -27,6 +27,7 @@ EXAMPLES = {
 """,
     "check": """
   pat3d check scenes/mug
+  pat3d check scenes/mug --engines mujoco,newton,pybullet,drake,physx
 """,
     "export": """
   pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
@@ -86,6 +87,10 @@ def parser() -> argparse.ArgumentParser:
 
     checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
     checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")
+    checking.add_argument("--engines", nargs="+", metavar="ENGINE",
+                          help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
+                          "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all")  # fmt: skip
+    checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
 
     exporting = command(
         "export", "write a scene, a mesh or a folder of meshes for other programs, and prove it the same"

@@ -14,6 +14,7 @@ from pat3d.progress import Event, Progress
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from pat3d.check.engines.check import Verdict
     from pat3d.check.proof import Proof
     from pat3d.exporters.reload import ParityReport
     from pat3d.improve_folder import Outcome
@@ -145,6 +146,46 @@ def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
         readers = ", ".join(reading.reader for reading in report.readings)
         target.print("pass" if report.passed else "FAIL", style="green" if report.passed else "bold red", end="  ")
         target.print(f"{name}: read back by {readers}; off by at most {report.largest:.0e}", markup=False)
+
+
+def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> None:
+    """The drift of every object in every engine, and the settings they ran with."""
+    from rich.table import Table
+
+    from pat3d.check.engines.protocol import Absent, Failed
+
+    runs = [verdict for verdict in verdicts if not isinstance(verdict, Absent | Failed)]
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("mm, degrees", overflow="fold")
+    for run in runs:
+        table.add_column(f"{run.engine} {run.version}", justify="right", overflow="fold")
+    drifts = [{obj.name: obj for obj in run.objects} for run in runs]
+    for obj in scene.objects:
+        cells = [drift.get(obj.name) for drift in drifts]
+        table.add_row(
+            obj.name,
+            *("fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
+              for cell in cells),
+        )  # fmt: skip
+    if runs:
+        target.print(table)
+        target.print()
+    for verdict in verdicts:
+        if isinstance(verdict, Absent):
+            target.print("none", style="yellow", end="  ")
+            target.print(f"{verdict.engine}: {verdict.reason}", markup=False)
+        elif isinstance(verdict, Failed):
+            target.print("FAIL", style="bold red", end="  ")
+            target.print(verdict.reason, markup=False)
+        else:
+            settings = ", ".join(f"{key} {value}" for key, value in verdict.settings.items())
+            style = "green" if verdict.passed else "bold red"
+            target.print("pass" if verdict.passed else "FAIL", style=style, end="  ")
+            target.print(
+                f"{verdict.engine} {verdict.version}, {verdict.seconds:g} s in {verdict.wall_seconds:.1f} s: at most "
+                f"{verdict.worst_mm:.3f} mm and {verdict.worst_degrees:.3f} degrees ({settings})",
+                markup=False,
+            )
 
 
 def show_report(target: Console, report: Report, folder: Path) -> None:
