@@ -60,6 +60,18 @@ def export(
     return paths
 
 
+def exported(folder: str | Path) -> tuple[tuple[str, ...], dict[str, Any]]:
+    """The formats that `folder` holds, MJCF always, and the settings of `write_usd` that write its USD anew.
+
+    Raises:
+        ExportError: the packages that one needs are not installed.
+    """
+    here = Path(folder)
+    formats = chosen([name for name in FORMATS if name == "mjcf" or (here / name).is_dir()])
+    text, package = (here / "usd" / "scene.usda").is_file(), (here / "usd" / "scene.usdz").is_file()
+    return formats, {"text": text, "package": package}
+
+
 def chosen(formats: Iterable[str]) -> tuple[str, ...]:
     """The formats named in `formats`, commas allowed, each once; they can be written here.
 

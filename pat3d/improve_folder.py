@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import os
 import shutil
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from pat3d.check.proof import Proof, broken, prove
 from pat3d.errors import SpecError
-from pat3d.exporters.mjcf import write_mjcf
+from pat3d.exporters.exporting import export, exported
+from pat3d.exporters.reload import ParityReport, parity
 from pat3d.improve import Improved, improve
 from pat3d.kernels import prepare
 from pat3d.optimize.optimize import OptimizeOptions
@@ -49,6 +51,8 @@ class Outcome:
     folder: Path
     """Where the scene is."""
     seconds: float
+    exports: Mapping[str, ParityReport] = field(default_factory=dict)
+    """What was read back of every format that was written."""
 
     @property
     def skipped(self) -> bool:
@@ -62,7 +66,7 @@ class Outcome:
             return ()
         if self.proof is None:
             return broken(self.improved.found.first.results) or ("the scene stands, but no steadier layout was found.",)
-        return _failures(self.improved.rest, self.proof)
+        return _failures(self.improved.rest, self.proof, self.exports)
 
 
 def optimize_folder(
@@ -103,30 +107,40 @@ def optimize_folder(
         # A scene that holds but failed its proof drifts in another engine: it should stand more firmly.
         steady=report.get("passed") is False,
     )  # fmt: skip
+    formats, usd = exported(source)
     with clock("kernels"):
         options = replace(options, device=prepare(device, progress))
     with clock("optimising"):
         done = improve(scene, options=options, progress=progress)
-    rest, proof = done.rest, None
+    rest, proof, exports = done.rest, None, {}
     if rest is None:
         if target != source.resolve():
             _copy(source, target)
     else:
         with replacing(target) as fresh:
-            proof = _write(done.scene, rest, report, fresh, clock, progress)
+            with clock("export"):
+                paths = export(done.scene, formats, fresh, progress=progress, **usd)
+                exports = {name: parity(done.scene, path).moved(fresh, target) for name, path in paths.items()}
+            proof = _write(done.scene, rest, report, exports, fresh, clock, progress)
     return Outcome(
-        scene=done.scene, improved=done, proof=proof, folder=target, seconds=clock.seconds["total"]
+        scene=done.scene, improved=done, proof=proof, folder=target, seconds=clock.seconds["total"], exports=exports
     )  # fmt: skip
 
 
-def _write(scene: Scene, rest: Rest, earlier: dict[str, Any], fresh: Path, clock: Clock, progress: Progress) -> Proof:
-    """Everything of a scene folder into the empty folder `fresh`."""
+def _write(
+    scene: Scene,
+    rest: Rest,
+    earlier: dict[str, Any],
+    exports: Mapping[str, ParityReport],
+    fresh: Path,
+    clock: Clock,
+    progress: Progress,
+) -> Proof:
+    """Everything else of a scene folder into the folder `fresh`, which holds the exports."""
     from pat3d.view.preview import save_preview
 
-    with clock("export"):
-        mjcf = write_mjcf(scene, fresh / "mjcf")
     with clock("proof"):
-        proof = prove(scene, mjcf, progress)
+        proof = prove(scene, fresh / "mjcf" / "scene.xml", progress)
     with clock("files"):
         progress(Event(stage="writing the folder"))
         save_scene(scene, fresh)
@@ -136,21 +150,23 @@ def _write(scene: Scene, rest: Rest, earlier: dict[str, Any], fresh: Path, clock
     with clock("preview"):
         progress(Event(stage="drawing the preview"))
         save_preview(scene, fresh / "preview.png")
+    failures = _failures(rest, proof, exports)
     report = {
         "format": FORMAT, "version": VERSION, "prompt": scene.prompt, "seed": scene.seed,
         **{key: value for key, value in earlier.items() if key not in _STALE},
         **of_scene(scene, rest, proof),
-        "passed": not _failures(rest, proof),
-        "failures": list(_failures(rest, proof)),
+        "exports": {name: one.as_dict() for name, one in exports.items()},
+        "passed": not failures,
+        "failures": list(failures),
         "seconds": dict(clock.seconds),
     }  # fmt: skip
     write_json(fresh / "report.json", report)
     return proof
 
 
-def _failures(rest: Rest | None, proof: Proof) -> tuple[str, ...]:
+def _failures(rest: Rest | None, proof: Proof, exports: Mapping[str, ParityReport]) -> tuple[str, ...]:
     restless = () if rest is None or rest.at_rest else ("settling did not come to rest.",)
-    return (*restless, *proof.failures)
+    return (*restless, *proof.failures, *(line for one in exports.values() for line in one.failures))
 
 
 def _copy(source: Path, target: Path) -> None:

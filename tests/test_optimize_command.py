@@ -14,6 +14,8 @@ from pat3d.check.proof import prove as prove_scene
 from pat3d.check.proof import relations_at_rest
 from pat3d.check.settle import ObjectDrift
 from pat3d.cli import main
+from pat3d.exporters.exporting import export
+from pat3d.exporters.reload import parity
 from pat3d.gather import Ingredient, Order
 from pat3d.improve import GIVEN
 from pat3d.layout import layout as layouts
@@ -115,6 +117,22 @@ def test_a_scene_is_mended_in_place_and_foreign_files_stay(broken, tmp_path):
     assert not (folder / "loss.png").exists()
     assert all(result.holds for result in relations_at_rest(pat3d.load_scene(folder)))
     assert [entry.name for entry in tmp_path.iterdir()] == ["scene"]
+
+
+def test_the_formats_of_a_mended_folder_are_written_anew_and_read_back(broken, tmp_path):
+    folder = tmp_path / "scene"
+    shutil.copytree(broken, folder)
+    before = pat3d.load_scene(folder)
+    export(before, ("urdf", "usd"), folder, text=True)
+    assert main(["optimize", str(folder), "--starts", "2", "--epochs", "0"]) == 0
+    scene = pat3d.load_scene(folder)
+    exports = json.loads((folder / "report.json").read_text())["exports"]
+    assert set(exports) == {"mjcf", "urdf", "usd"}
+    assert (folder / "usd" / "scene.usda").is_file()
+    for name in exports:
+        assert exports[name]["passed"]
+        assert parity(scene, folder / name).passed
+        assert name == "mjcf" or not parity(before, folder / name).passed
 
 
 def test_what_cannot_be_mended_is_left_as_it_is_and_fails(tmp_path, capfd):
