@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import trimesh
 import warp as wp
-from pat3d.sim.settling import Run, SettleOptions
 
 from pat3d.assets.asset import ConvexPart
 from pat3d.assets.hull import convex_part
@@ -15,6 +14,7 @@ from pat3d.sim.contact import clusters
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.intersection import GROUND_BODY, intersecting_bodies
 from pat3d.sim.model import ModelBuilder, sharp_edges
+from pat3d.sim.settling import Run, SettleOptions
 from tests.sim.builders import box_points
 
 
