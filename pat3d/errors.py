@@ -42,3 +42,13 @@ class CheckError(Pat3dError):
     """A scene failed its proof: certificate, penetration or settling."""
 
     exit_code = 1
+
+
+class EnvironmentSetupError(Pat3dError):
+    """A scene, task, robot or option from which no environment can be made."""
+
+
+class UnsettledSceneError(Pat3dError):
+    """A scene that moves when MuJoCo loads it; nothing may be measured on it."""
+
+    exit_code = 1

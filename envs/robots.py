@@ -1,0 +1,251 @@
+"""Robots: robosuite's arms with their grippers, as one MJCF text each, and what is measured on them.
+
+Importing this module is cheap; robosuite (a second or two) is imported when the first robot is made.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import logging
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import EnvironmentSetupError
+
+Array = NDArray[np.float64]
+
+ROBOTS = ("Panda", "UR5e", "Sawyer", "IIWA", "Kinova3")
+"""Arms with a two-finger gripper; robosuite's own names."""
+
+INSTALL_HINT = (
+    'robots need robosuite: "pip install pat3d[robots]", or without its unused dependencies '
+    '"pip install numba opencv-python-headless termcolor" and then "pip install --no-deps robosuite==1.5.2".'
+)
+
+_OPEN_SECONDS = 0.6
+"""Time after which every gripper stands open [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gripper:
+    """What a parallel gripper can take, measured in the frame of its grip site with the fingers open."""
+
+    opening: float
+    """Free width between the pads [m]."""
+    finger_thickness: float
+    """Of a finger, from the pad outwards [m]."""
+    finger_width: float
+    """Of a finger, across the closing direction [m]."""
+    tip: float
+    """How far the fingers reach beyond the grip site along the approach direction [m]."""
+    palm: float
+    """How far the palm is behind the fingertips [m]: the deepest bite."""
+    pad: float
+    """Height of the pads, from the tips backwards [m]."""
+    closing_axis: tuple[float, float, float]
+    """Direction in which the fingers close, in the frame of the grip site; the approach is +z."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Robot:
+    """One arm with its gripper."""
+
+    name: str
+    gripper_name: str
+    xml: str
+    """MJCF of the arm standing at the origin, facing +x; mesh paths are absolute."""
+    arm_joints: tuple[str, ...]
+    arm_actuators: tuple[str, ...]
+    gripper_joints: tuple[str, ...]
+    gripper_actuators: tuple[str, ...]
+    home: Array
+    """Joint positions at the start [rad], shape (arm joints,)."""
+    gripper_home: Array
+    """Finger joint positions at the start, shape (gripper joints,)."""
+    grip_site: str
+    base_site: str
+    wrist_camera: str
+    pads: tuple[tuple[str, ...], tuple[str, ...]]
+    """Geoms of the left and of the right finger that touch what is held."""
+    fingers: tuple[tuple[str, ...], tuple[str, ...]]
+    """All geoms of the left and of the right finger that collide."""
+    naming_prefix: str
+    controller: dict[str, Any]
+    """robosuite's own settings of the operational-space controller for this arm."""
+
+    def new_gripper(self) -> Any:
+        """A fresh robosuite gripper, which turns actions into finger targets and remembers the last."""
+        return robosuite_module("models.grippers").gripper_factory(self.gripper_name, idn="0_right")
+
+
+@functools.lru_cache(maxsize=len(ROBOTS))
+def make_robot(name: str) -> Robot:
+    """The robot called `name`.
+
+    Raises:
+        EnvironmentSetupError: no such robot, or robosuite is not installed; the message says what is valid.
+    """
+    if name not in ROBOTS:
+        raise EnvironmentSetupError(f'no robot "{name}". Robots: {", ".join(ROBOTS)}.')
+    with quiet_robosuite():
+        arm = robosuite_module("models.robots").create_robot(name, idn=0)
+        arm.add_base(robosuite_module("models.bases").robot_base_factory("NullMount", idn=0))
+        gripper_name = arm.default_gripper["right"]
+        gripper = robosuite_module("models.grippers").gripper_factory(gripper_name, idn="0_right")
+        arm.add_gripper(gripper, arm.eef_name["right"])
+        geoms = gripper.important_geoms
+        settings = robosuite_module("controllers").load_composite_controller_config(robot=name)
+    return Robot(
+        name=name,
+        gripper_name=gripper_name,
+        xml=arm.get_xml(),
+        arm_joints=tuple(arm.joints),
+        arm_actuators=tuple(arm.actuators),
+        gripper_joints=tuple(gripper.joints),
+        gripper_actuators=tuple(gripper.actuators),
+        home=np.array(arm.init_qpos, dtype=np.float64),
+        gripper_home=np.array(gripper.init_qpos, dtype=np.float64),
+        grip_site=gripper.important_sites["grip_site"],
+        base_site=f"{arm.naming_prefix}right_center",
+        wrist_camera=f"{arm.naming_prefix}eye_in_hand",
+        pads=(tuple(geoms["left_fingerpad"]), tuple(geoms["right_fingerpad"])),
+        fingers=(tuple(geoms["left_finger"]), tuple(geoms["right_finger"])),
+        naming_prefix=arm.naming_prefix,
+        controller=dict(settings["body_parts"]["right"]),
+    )
+
+
+@functools.lru_cache(maxsize=len(ROBOTS))
+def robot_model(name: str) -> Any:
+    """The compiled MuJoCo model of robot `name` alone, at the origin, in a world without gravity."""
+    mujoco: Any = import_module("mujoco")
+    model = mujoco.MjModel.from_xml_string(make_robot(name).xml)
+    model.opt.gravity[:] = 0.0
+    return model
+
+
+@functools.lru_cache(maxsize=len(ROBOTS))
+def measure_gripper(name: str) -> Gripper:
+    """Measure the open gripper of robot `name` on its geoms."""
+    mujoco: Any = import_module("mujoco")
+    robot, model = make_robot(name), robot_model(name)
+    data = mujoco.MjData(model)
+    for joint, value in zip(robot.arm_joints, robot.home, strict=True):
+        data.joint(joint).qpos[:] = value
+    for joint, value in zip(robot.gripper_joints, robot.gripper_home, strict=True):
+        data.joint(joint).qpos[:] = value
+    # Opening is a matter of the fingers alone: the arm is held by its own damping, without gravity.
+    target = finger_targets(model, robot, opened(robot))
+    ids = [model.actuator(actuator).id for actuator in robot.gripper_actuators]
+    held = [model.joint(joint).dofadr[0] for joint in robot.arm_joints]
+    for _ in range(round(_OPEN_SECONDS / model.opt.timestep)):
+        data.ctrl[ids] = target
+        data.qvel[held] = 0.0
+        mujoco.mj_step(model, data)
+    mujoco.mj_kinematics(model, data)
+    site = data.site(robot.grip_site)
+    rotation, origin = site.xmat.reshape(3, 3), site.xpos
+
+    def points(names: tuple[str, ...]) -> Array:
+        found = [_geom_points(mujoco, model, data, model.geom(geom).id) for geom in names]
+        return (np.concatenate(found) - origin) @ rotation
+
+    pads = [points(names) for names in robot.pads]
+    between = pads[1].mean(axis=0) - pads[0].mean(axis=0)
+    # Across the approach, and along an axis of the site.
+    between[2] = 0.0
+    axis = np.zeros(3)
+    axis[np.argmax(np.abs(between))] = np.sign(between[np.argmax(np.abs(between))])
+    across = np.cross((0.0, 0.0, 1.0), axis)
+    fingers = [points(names) for names in robot.fingers]
+    inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
+    tip = max(float(finger[:, 2].max()) for finger in fingers)
+    ends = [finger[finger[:, 2] > tip - 0.03] for finger in fingers]
+    pad_low = min(float(pad[:, 2].min()) for pad in pads)
+    return Gripper(
+        opening=inner[1] - inner[0],
+        finger_thickness=max(inner[0] - float((ends[0] @ axis).min()), float((ends[1] @ axis).max()) - inner[1]),
+        finger_width=max(float(np.ptp(end @ across)) for end in ends),
+        tip=tip,
+        palm=tip - _palm(mujoco, model, data, robot, origin, rotation),
+        pad=tip - pad_low,
+        closing_axis=tuple(map(float, axis)),
+    )
+
+
+def opened(robot: Robot) -> Array:
+    """The gripper's own action for fingers fully open, shape (gripper actuators,)."""
+    gripper = robot.new_gripper()
+    return _settled_action(gripper, -1.0)
+
+
+def _settled_action(gripper: Any, action: float) -> Array:
+    current = np.zeros(1)
+    for _ in range(64):
+        current = np.array(gripper.format_action(np.array([action])), dtype=np.float64)
+    return current
+
+
+def finger_targets(model: Any, robot: Robot, action: Array, prefix: str = "") -> Array:
+    """Controls of the gripper's actuators for a formatted action in [-1, 1], shape (gripper actuators,)."""
+    limits = np.array([model.actuator(prefix + name).ctrlrange for name in robot.gripper_actuators])
+    return limits.mean(axis=1) + 0.5 * np.ptp(limits, axis=1) * action
+
+
+def _palm(mujoco: Any, model: Any, data: Any, robot: Robot, origin: Array, rotation: Array) -> float:
+    """The furthest any colliding geom of the hand, fingers aside, reaches along the approach [m]."""
+    fingers = {model.geom(name).id for names in (*robot.fingers, *robot.pads) for name in names}
+    finger_bodies = {int(model.geom_bodyid[geom]) for geom in fingers}
+    hand = model.site(robot.grip_site).bodyid[0]
+    while model.body_parentid[hand] and not (model.geom_bodyid == hand).any():
+        hand = model.body_parentid[hand]
+    reach = -np.inf
+    for geom in range(model.ngeom):
+        body = int(model.geom_bodyid[geom])
+        if body == hand and body not in finger_bodies and model.geom_contype[geom] + model.geom_conaffinity[geom]:
+            points = (_geom_points(mujoco, model, data, geom) - origin) @ rotation
+            reach = max(reach, float(points[:, 2].max()))
+    return reach
+
+
+def _geom_points(mujoco: Any, model: Any, data: Any, geom: int) -> Array:
+    """Corners of a geom's surface in the world [m], shape (n, 3)."""
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+        mesh = model.geom_dataid[geom]
+        start = model.mesh_vertadr[mesh]
+        local = model.mesh_vert[start : start + model.mesh_vertnum[mesh]].astype(np.float64)
+    else:
+        centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
+        local = centre + half * np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
+    return local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+
+
+def robosuite_module(module: str) -> Any:
+    """A module of robosuite."""
+    with quiet_robosuite():
+        try:
+            return import_module(f"robosuite.{module}")
+        except ImportError as error:
+            raise EnvironmentSetupError(f"{error}; {INSTALL_HINT}") from error
+
+
+@contextlib.contextmanager
+def quiet_robosuite() -> Iterator[None]:
+    """Without the messages that robosuite logs while loading, and without its change of MUJOCO_GL."""
+    level, backend = logging.root.manager.disable, os.environ.get("MUJOCO_GL")
+    logging.disable(max(level, logging.WARNING))
+    try:
+        yield
+    finally:
+        logging.disable(level)
+        if backend is None:
+            os.environ.pop("MUJOCO_GL", None)
+        else:
+            os.environ["MUJOCO_GL"] = backend
