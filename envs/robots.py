@@ -47,6 +47,8 @@ class Gripper:
     """How far the fingers reach beyond the grip site along the approach direction [m]."""
     palm: float
     """How far the palm is behind the fingertips [m]: the deepest bite."""
+    hand: tuple[float, float]
+    """Width of the hand along and across the closing direction [m]."""
     pad: float
     """Height of the pads, from the tips backwards [m]."""
     closing_axis: tuple[float, float, float]
@@ -168,13 +170,15 @@ def measure_gripper(name: str) -> Gripper:
     inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
     tip = max(float(finger[:, 2].max()) for finger in fingers)
     ends = [finger[finger[:, 2] > tip - 0.03] for finger in fingers]
+    hand = (_hand_points(mujoco, model, data, robot) - origin) @ rotation
     pad_low = min(float(pad[:, 2].min()) for pad in pads)
     return Gripper(
         opening=inner[1] - inner[0],
         finger_thickness=max(inner[0] - float((ends[0] @ axis).min()), float((ends[1] @ axis).max()) - inner[1]),
         finger_width=max(float(np.ptp(end @ across)) for end in ends),
         tip=tip,
-        palm=tip - _palm(mujoco, model, data, robot, origin, rotation),
+        palm=tip - float(hand[:, 2].max()),
+        hand=(2 * float(np.abs(hand @ axis).max()), 2 * float(np.abs(hand @ across).max())),
         pad=tip - pad_low,
         closing_axis=tuple(map(float, axis)),
     )
@@ -199,20 +203,18 @@ def finger_targets(model: Any, robot: Robot, action: Array, prefix: str = "") ->
     return limits.mean(axis=1) + 0.5 * np.ptp(limits, axis=1) * action
 
 
-def _palm(mujoco: Any, model: Any, data: Any, robot: Robot, origin: Array, rotation: Array) -> float:
-    """The furthest any colliding geom of the hand, fingers aside, reaches along the approach [m]."""
-    fingers = {model.geom(name).id for names in (*robot.fingers, *robot.pads) for name in names}
-    finger_bodies = {int(model.geom_bodyid[geom]) for geom in fingers}
-    hand = model.site(robot.grip_site).bodyid[0]
+def _hand_points(mujoco: Any, model: Any, data: Any, robot: Robot) -> Array:
+    """Corners in the world of what collides of the hand, fingers aside [m], shape (n, 3)."""
+    fingers = {int(model.geom_bodyid[model.geom(name).id]) for names in (*robot.fingers, *robot.pads) for name in names}
+    hand = int(model.site(robot.grip_site).bodyid[0])
     while model.body_parentid[hand] and not (model.geom_bodyid == hand).any():
-        hand = model.body_parentid[hand]
-    reach = -np.inf
-    for geom in range(model.ngeom):
-        body = int(model.geom_bodyid[geom])
-        if body == hand and body not in finger_bodies and model.geom_contype[geom] + model.geom_conaffinity[geom]:
-            points = (_geom_points(mujoco, model, data, geom) - origin) @ rotation
-            reach = max(reach, float(points[:, 2].max()))
-    return reach
+        hand = int(model.body_parentid[hand])
+    found = [
+        _geom_points(mujoco, model, data, geom)
+        for geom in range(model.ngeom)
+        if model.geom_bodyid[geom] == hand and hand not in fingers and model.geom_contype[geom]
+    ]
+    return np.concatenate(found)
 
 
 def _geom_points(mujoco: Any, model: Any, data: Any, geom: int) -> Array:

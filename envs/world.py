@@ -32,6 +32,9 @@ CAMERAS = ("agentview", "frontview", "wrist")
 _HIDDEN_GROUP = 4
 """Sites and collision geoms of the robot are drawn only when asked for."""
 
+_SHADOW_REACH = 1.6
+"""[m]"""
+
 _TOP_THICKNESS = 0.04
 _LEG = 0.03
 """Of the drawn workbench [m]."""
@@ -75,6 +78,8 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
             _bench(mujoco, spec, placement)
         _pedestal(mujoco, spec, placement)
         _cameras(spec, robot, placement)
+        # Shadows reach as far as the robot does, not only around the objects.
+        spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
         model = spec.compile()
     except ValueError as error:
         raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
