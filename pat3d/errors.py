@@ -52,3 +52,7 @@ class UnsettledSceneError(Pat3dError):
     """A scene that moves when MuJoCo loads it; nothing may be measured on it."""
 
     exit_code = 1
+
+
+class TaskError(Pat3dError):
+    """A task that its scene does not allow: done already, out of reach, or too wide for the gripper."""
