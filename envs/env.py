@@ -43,7 +43,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
         task: "pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task;
             None for picking the first object that can be picked.
-        robot: Panda, UR5e, Sawyer, IIWA or Kinova3.
+        robot: Panda, UR5e, Sawyer or IIWA.
         obs: "state", "rgb" or "rgbd".
         control: "osc", "joint_velocity" or "joint_position".
         reward: "sparse" or "dense".

@@ -35,6 +35,9 @@ TIP_CLEARANCE = 0.004
 MIN_BITE = 0.012
 """Least height of the object between the pads [m]."""
 
+SQUEEZE = 0.004
+"""What is held must be thicker than the closed gripper by this [m]."""
+
 ANGLES = 16
 """Directions of closing that are tried over half a turn."""
 
@@ -166,7 +169,8 @@ def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Gr
     count = len(grasps)
     left, right = first.reshape(count, -1).argmin(axis=1), last.reshape(count, -1).argmax(axis=1)
     number = np.arange(count)
-    met = np.isfinite(first.reshape(count, -1)[number, left])
+    thick = last.reshape(count, -1)[number, right] - first.reshape(count, -1)[number, left]
+    met = thick > gripper.closed + SQUEEZE
     worse = np.minimum(facing[0].reshape(count, -1)[number, left], facing[1].reshape(count, -1)[number, right])
     touched = np.isfinite(first).mean(axis=(1, 2))
     return [

@@ -26,6 +26,12 @@ JOINT_MARGIN = 0.1
 LARGEST_DEPTH = 100.0
 """[m]"""
 
+FARTHEST = 100.0
+"""Positions are within this of the origin along every axis [m]; what flew further is reported there."""
+
+FASTEST = 100.0
+"""Joint velocities are reported up to this [rad/s]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ObservationSpec:
@@ -57,16 +63,16 @@ class ObservationSpec:
         unit = np.ones(4, dtype=np.float32)
         entries: dict[str, spaces.Space[Any]] = {
             "joint_pos": _box(arm[:, 0] - JOINT_MARGIN, arm[:, 1] + JOINT_MARGIN),
-            "joint_vel": _unbounded(len(arm)),
+            "joint_vel": _box(np.full(len(arm), -FASTEST), np.full(len(arm), FASTEST)),
             "gripper_pos": _box(fingers[:, 0] - JOINT_MARGIN, fingers[:, 1] + JOINT_MARGIN),
-            "eef_pos": _unbounded(3),
+            "eef_pos": _box(np.full(3, -FARTHEST), np.full(3, FARTHEST)),
             "eef_quat": _box(-unit, unit),
         }
         if self.kind == "state":
-            pose = np.concatenate([np.full(3, np.inf), unit])
+            pose = np.concatenate([np.full(3, FARTHEST), unit])
             rows = np.tile(pose, (self.max_objects, 1))
             entries["objects"] = _box(-rows, rows)
-            whole = np.concatenate([pose, np.full(3, np.inf)])
+            whole = np.concatenate([pose, np.full(3, FARTHEST)])
             entries["target"] = _box(-whole, whole)
             return spaces.Dict(entries)
         shape = (self.height, self.width)
@@ -113,13 +119,14 @@ class Observer:
             "eef_quat": _quat_of(state.hand_rotation),
         }
         observation: Observation = {name: np.asarray(value, dtype=np.float32) for name, value in found.items()}
+        np.clip(observation["joint_vel"], -FASTEST, FASTEST, out=observation["joint_vel"])
         if spec.kind == "state":
             objects = np.zeros((spec.max_objects, 7), dtype=np.float32)
             count = len(self._bodies)
             objects[:count, :3], objects[:count, 3:] = data.xpos[self._bodies], data.xquat[self._bodies]
             pose = (state.position(verdict.target), state.quat_wxyz(verdict.target), verdict.goal)
-            observation["objects"] = objects
-            observation["target"] = np.concatenate(pose).astype(np.float32)
+            observation["objects"] = np.clip(objects, -FARTHEST, FARTHEST)
+            observation["target"] = np.clip(np.concatenate(pose), -FARTHEST, FARTHEST).astype(np.float32)
             return observation
         for camera in spec.cameras:
             picture = pictures.take(
@@ -150,6 +157,3 @@ def _quat_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 def _box(low: Any, high: Any) -> spaces.Box:
     return spaces.Box(np.asarray(low, dtype=np.float32), np.asarray(high, dtype=np.float32), dtype=np.float32)
 
-
-def _unbounded(size: int) -> spaces.Box:
-    return spaces.Box(-np.inf, np.inf, (size,), np.float32)

@@ -21,16 +21,27 @@ from pat3d.errors import EnvironmentSetupError
 
 Array = NDArray[np.float64]
 
-ROBOTS = ("Panda", "UR5e", "Sawyer", "IIWA", "Kinova3")
-"""Arms with a two-finger gripper; robosuite's own names."""
+GRIPPERS = {
+    "Panda": "PandaGripper",
+    "UR5e": "Robotiq140Gripper",
+    "Sawyer": "RethinkGripper",
+    "IIWA": "Robotiq140Gripper",
+}
+"""The gripper of every arm, robosuite's own names.
+
+robosuite's Robotiq 85, its default for the UR5e, jams on itself in MuJoCo 3.9: in robosuite's own Lift the pads
+stay 60 mm apart. The Robotiq 140 closes.
+"""
+
+ROBOTS = tuple(GRIPPERS)
 
 INSTALL_HINT = (
     'robots need robosuite: "pip install pat3d[robots]", or without its unused dependencies '
     '"pip install numba opencv-python-headless termcolor" and then "pip install --no-deps robosuite==1.5.2".'
 )
 
-_OPEN_SECONDS = 0.6
-"""Time after which every gripper stands open [s]."""
+_DRIVE_SECONDS = 0.8
+"""Time after which every gripper is open or closed [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +50,8 @@ class Gripper:
 
     opening: float
     """Free width between the pads [m]."""
+    closed: float
+    """Width that is left between the pads of the closed gripper [m]."""
     finger_thickness: float
     """Of a finger, from the pad outwards [m]."""
     finger_width: float
@@ -99,7 +112,7 @@ def make_robot(name: str) -> Robot:
     with quiet_robosuite():
         arm = robosuite_module("models.robots").create_robot(name, idn=0)
         arm.add_base(robosuite_module("models.bases").robot_base_factory("NullMount", idn=0))
-        gripper_name = arm.default_gripper["right"]
+        gripper_name = GRIPPERS[name]
         gripper = robosuite_module("models.grippers").gripper_factory(gripper_name, idn="0_right")
         arm.add_gripper(gripper, arm.eef_name["right"])
         geoms = gripper.important_geoms
@@ -130,6 +143,9 @@ def robot_model(name: str) -> Any:
     mujoco: Any = import_module("mujoco")
     model = mujoco.MjModel.from_xml_string(make_robot(name).xml)
     model.opt.gravity[:] = 0.0
+    # The scene's own solver options, under which the fingers will move.
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    model.opt.cone, model.opt.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
     return model
 
 
@@ -143,22 +159,25 @@ def measure_gripper(name: str) -> Gripper:
         data.joint(joint).qpos[:] = value
     for joint, value in zip(robot.gripper_joints, robot.gripper_home, strict=True):
         data.joint(joint).qpos[:] = value
-    # Opening is a matter of the fingers alone: the arm is held by its own damping, without gravity.
-    target = finger_targets(model, robot, opened(robot))
     ids = [model.actuator(actuator).id for actuator in robot.gripper_actuators]
     held = [model.joint(joint).dofadr[0] for joint in robot.arm_joints]
-    for _ in range(round(_OPEN_SECONDS / model.opt.timestep)):
-        data.ctrl[ids] = target
-        data.qvel[held] = 0.0
-        mujoco.mj_step(model, data)
-    mujoco.mj_kinematics(model, data)
-    site = data.site(robot.grip_site)
-    rotation, origin = site.xmat.reshape(3, 3), site.xpos
 
-    def points(names: tuple[str, ...]) -> Array:
+    def drive(action: float) -> None:
+        """Bring the fingers to rest; the arm stands still in a world without gravity."""
+        target = finger_targets(model, robot, _settled_action(robot.new_gripper(), action))
+        for _ in range(round(_DRIVE_SECONDS / model.opt.timestep)):
+            data.ctrl[ids] = target
+            data.qvel[held] = 0.0
+            mujoco.mj_step(model, data)
+        mujoco.mj_kinematics(model, data)
+
+    def points(names: tuple[str, ...] | tuple[int, ...]) -> Array:
+        """Corners of geoms in the frame of the grip site [m]."""
+        site = data.site(robot.grip_site)
         found = [_geom_points(mujoco, model, data, model.geom(geom).id) for geom in names]
-        return (np.concatenate(found) - origin) @ rotation
+        return (np.concatenate(found) - site.xpos) @ site.xmat.reshape(3, 3)
 
+    drive(-1.0)
     pads = [points(names) for names in robot.pads]
     between = pads[1].mean(axis=0) - pads[0].mean(axis=0)
     # Across the approach, and along an axis of the site.
@@ -167,30 +186,27 @@ def measure_gripper(name: str) -> Gripper:
     axis[np.argmax(np.abs(between))] = np.sign(between[np.argmax(np.abs(between))])
     across = np.cross((0.0, 0.0, 1.0), axis)
     fingers = [points(names) for names in robot.fingers]
-    inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
+    hand = points(_hand_geoms(model, robot))
     tip = max(float(finger[:, 2].max()) for finger in fingers)
     ends = [finger[finger[:, 2] > tip - 0.03] for finger in fingers]
-    hand = (_hand_points(mujoco, model, data, robot) - origin) @ rotation
-    pad_low = min(float(pad[:, 2].min()) for pad in pads)
+    drive(1.0)
+    shut = [points(names) for names in robot.pads]
+    inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
     return Gripper(
         opening=inner[1] - inner[0],
+        closed=max(0.0, float((shut[1] @ axis).min() - (shut[0] @ axis).max())),
         finger_thickness=max(inner[0] - float((ends[0] @ axis).min()), float((ends[1] @ axis).max()) - inner[1]),
         finger_width=max(float(np.ptp(end @ across)) for end in ends),
         tip=tip,
         palm=tip - float(hand[:, 2].max()),
         hand=(2 * float(np.abs(hand @ axis).max()), 2 * float(np.abs(hand @ across).max())),
-        pad=tip - pad_low,
+        pad=tip - min(float(pad[:, 2].min()) for pad in pads),
         closing_axis=tuple(map(float, axis)),
     )
 
 
-def opened(robot: Robot) -> Array:
-    """The gripper's own action for fingers fully open, shape (gripper actuators,)."""
-    gripper = robot.new_gripper()
-    return _settled_action(gripper, -1.0)
-
-
 def _settled_action(gripper: Any, action: float) -> Array:
+    """The gripper's own target in [-1, 1] after it was told to move one way for long, shape (gripper actuators,)."""
     current = np.zeros(1)
     for _ in range(64):
         current = np.array(gripper.format_action(np.array([action])), dtype=np.float64)
@@ -203,18 +219,14 @@ def finger_targets(model: Any, robot: Robot, action: Array, prefix: str = "") ->
     return limits.mean(axis=1) + 0.5 * np.ptp(limits, axis=1) * action
 
 
-def _hand_points(mujoco: Any, model: Any, data: Any, robot: Robot) -> Array:
-    """Corners in the world of what collides of the hand, fingers aside [m], shape (n, 3)."""
-    fingers = {int(model.geom_bodyid[model.geom(name).id]) for names in (*robot.fingers, *robot.pads) for name in names}
+def _hand_geoms(model: Any, robot: Robot) -> tuple[int, ...]:
+    """What collides of the hand, fingers aside."""
     hand = int(model.site(robot.grip_site).bodyid[0])
     while model.body_parentid[hand] and not (model.geom_bodyid == hand).any():
         hand = int(model.body_parentid[hand])
-    found = [
-        _geom_points(mujoco, model, data, geom)
-        for geom in range(model.ngeom)
-        if model.geom_bodyid[geom] == hand and hand not in fingers and model.geom_contype[geom]
-    ]
-    return np.concatenate(found)
+    return tuple(
+        geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == hand and model.geom_contype[geom]
+    )
 
 
 def _geom_points(mujoco: Any, model: Any, data: Any, geom: int) -> Array:

@@ -110,7 +110,7 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
     ground.rgba = [0, 0, 0, 0]
     drawn = spec.geom("ground/visual")
     drawn.pos = [0, 0, placement.floor]
-    wood = spec.add_material(name="bench", rgba=[0.72, 0.58, 0.43, 1.0], specular=0.15, shininess=0.2)
+    wood = spec.add_material(name="bench", rgba=[0.80, 0.77, 0.72, 1.0], specular=0.15, shininess=0.2)
     steel = spec.add_material(name="bench/legs", rgba=[0.33, 0.34, 0.36, 1.0], specular=0.3, shininess=0.4)
 
     def box(name: str, position: list[float], size: list[float], material: Any) -> None:
@@ -151,7 +151,7 @@ def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
     towards = np.array([math.cos(placement.yaw), math.sin(placement.yaw), 0.0])
     reach = placement.focus_radius
     views = {
-        "agentview": (centre + towards * (0.35 + 1.5 * reach) + [0, 0, 0.45 + 0.9 * reach], centre, 45.0),
+        "agentview": (centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.42 + 0.8 * reach], centre, 45.0),
         "frontview": (centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach], centre - 0.15 * towards, 45.0),
     }
     for name, (eye, target, fovy) in views.items():
