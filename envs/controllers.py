@@ -6,6 +6,7 @@ and the state they need each step is gathered here in one pass instead of one lo
 
 from __future__ import annotations
 
+import functools
 from importlib import import_module
 from typing import Any, Literal, get_args
 
@@ -45,6 +46,11 @@ class RobotController:
         self._limits = model.actuator_ctrlrange[self._arm_actuators].T.copy()
         self._base = model.site(prefix + robot.base_site).id
         self._gripper = robot.new_gripper()
+        self._untouched = np.array(self._gripper.current_action)
+        self._finger_middle = finger_targets(model, robot, np.zeros(len(robot.gripper_actuators)), prefix)
+        self._finger_reach = (
+            finger_targets(model, robot, np.ones(len(robot.gripper_actuators)), prefix) - self._finger_middle
+        )
         self._arm = self._new_arm()
 
     @property
@@ -54,7 +60,7 @@ class RobotController:
 
     def reset(self) -> None:
         """Forget every earlier action; the present joint positions become the posture to keep."""
-        self._gripper = self._robot.new_gripper()
+        self._gripper.current_action = self._untouched.copy()
         # A controller keeps integrals and filters; a new one keeps none.
         self._arm = self._new_arm()
 
@@ -62,7 +68,7 @@ class RobotController:
         """Take an action, shape (size,), at the start of a control step; positions must be up to date."""
         self._arm.set_goal(action[:-1])
         fingers = np.asarray(self._gripper.format_action(action[-1:]), dtype=np.float64)
-        self._data.ctrl[self._finger_actuators] = finger_targets(self._model, self._robot, fingers, self._prefix)
+        self._data.ctrl[self._finger_actuators] = self._finger_middle + self._finger_reach * fingers
 
     def control(self) -> None:
         """Write the torques of this physics step; positions and velocities must be up to date."""
@@ -84,7 +90,7 @@ class RobotController:
             settings.pop(key, None)
         with quiet_robosuite():
             arm = _controller_class(self.kind)(
-                _Simulation(model, self._data),
+                _Simulation(model, self._data, slice(indexes["qvel"][0], indexes["qvel"][-1] + 1)),
                 ref_name=prefix + robot.grip_site,
                 joint_indexes=indexes,
                 actuator_range=(self._limits[0], self._limits[1]),
@@ -102,6 +108,7 @@ class RobotController:
         return arm
 
 
+@functools.lru_cache(maxsize=len(_CLASSES))
 def _part_settings(kind: str) -> dict[str, Any]:
     """robosuite's own settings of a controller."""
     name = _CLASSES[kind][2]
@@ -125,18 +132,18 @@ def _controller_class(kind: str) -> type:
         model, data = self.sim.native
         if force:
             mujoco.mj_forward(model, data)
-        site, dofs = self.sim.site(self.ref_name), self.qvel_index
-        self.joint_pos, self.joint_vel = data.qpos[self.qpos_index], data.qvel[dofs]
+        site, dofs = self.sim.site(self.ref_name), self.sim.dofs
+        self.joint_pos, self.joint_vel = data.qpos[self.qpos_index], data.qvel[dofs].copy()
         self.ref_pos = data.site_xpos[site].copy()
         self.ref_ori_mat = data.site_xmat[site].reshape(3, 3).copy()
         jacobian, mass = self.sim.jacobian, self.sim.mass
         mujoco.mj_jacSite(model, data, jacobian[:3], jacobian[3:], site)
-        self.J_full = np.ascontiguousarray(jacobian[:, dofs])
+        self.J_full = jacobian[:, dofs].copy()
         self.J_pos, self.J_ori = self.J_full[:3], self.J_full[3:]
         velocity = self.J_full @ self.joint_vel
         self.ref_pos_vel, self.ref_ori_vel = velocity[:3], velocity[3:]
         self.sim.full_mass(mass)
-        self.mass_matrix = np.ascontiguousarray(mass[np.ix_(dofs, dofs)])
+        self.mass_matrix = mass[dofs, dofs].copy()
         self.new_update = False
 
     members: dict[str, Any] = {"update": update}
@@ -153,8 +160,10 @@ def _controller_class(kind: str) -> type:
 class _Simulation:
     """The part of robosuite's simulation wrapper that its controllers use."""
 
-    def __init__(self, model: Any, data: Any) -> None:
+    def __init__(self, model: Any, data: Any, dofs: slice) -> None:
         self.native = (model, data)
+        self.dofs = dofs
+        """Of the arm, one after the other, as they are in a serial chain."""
         self.model = _Model(model)
         self.data = _Data(data)
         self.jacobian = np.zeros((6, model.nv))

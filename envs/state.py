@@ -34,9 +34,9 @@ class SimState:
         model = world.model
         self._number = {obj.name: number for number, obj in enumerate(world.scene.objects)}
         self._moving = {name: number for number, name in enumerate(world.objects)}
-        self._fingers = [
-            np.array([model.geom(PREFIX + name).id for name in names]) for names in world.robot.fingers
-        ]
+        self._fingers = np.zeros((2, model.ngeom), dtype=bool)
+        for side, names in enumerate(world.robot.fingers):
+            self._fingers[side, [model.geom(PREFIX + name).id for name in names]] = True
         self._site = model.site(PREFIX + world.robot.grip_site).id
         self._names = [obj.name for obj in world.scene.objects]
         self._pairs: set[tuple[int, int]] = set()
@@ -60,18 +60,16 @@ class SimState:
         """Read the contacts of the present state."""
         contact, owner = self._data.contact, self.world.owner
         geoms = contact.geom
-        self._pairs = set()
-        self._pinched = [set(), set()]
-        if not len(geoms):
-            return
+        touching = (contact.dist < 1e-3) & (contact.efc_address >= 0)
+        geoms = geoms[touching]
         owners = owner[geoms]
-        touching = (contact.dist < 1e-3) & (contact.efc_address >= 0) & (owners[:, 0] != owners[:, 1])
-        for first, second in np.unique(np.sort(owners[touching], axis=1), axis=0).tolist():
-            self._pairs.add((first, second))
-        for side, fingers in enumerate(self._fingers):
-            for end in (0, 1):
-                held = touching & np.isin(geoms[:, end], fingers)
-                self._pinched[side].update(owners[held, 1 - end].tolist())
+        self._pairs = {(min(pair), max(pair)) for pair in owners.tolist() if pair[0] != pair[1]}
+        self._pinched = [set(), set()]
+        if (owners == ROBOT).any():
+            for side in (0, 1):
+                for end in (0, 1):
+                    held = self._fingers[side][geoms[:, end]]
+                    self._pinched[side].update(owners[held, 1 - end].tolist())
 
     def position(self, name: str) -> Array:
         """Of the object's own frame [m], shape (3,)."""
