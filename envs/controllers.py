@@ -110,7 +110,7 @@ class RobotController:
 
 @functools.lru_cache(maxsize=len(_CLASSES))
 def _part_settings(kind: str) -> dict[str, Any]:
-    """robosuite's own settings of a controller."""
+    """The settings that robosuite has for a kind of controller."""
     name = _CLASSES[kind][2]
     return robosuite_module("controllers").load_part_controller_config(default_controller=name.upper())
 
@@ -119,7 +119,7 @@ _made: dict[str, type] = {}
 
 
 def _controller_class(kind: str) -> type:
-    """robosuite's controller of `kind`, which reads its state in one pass."""
+    """The controller of `kind` from robosuite, which reads its state in one pass."""
     if kind in _made:
         return _made[kind]
     module, name, _ = _CLASSES[kind]

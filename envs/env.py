@@ -16,8 +16,8 @@ from pat3d.envs.pictures import Pictures
 from pat3d.envs.placement import Placement, place
 from pat3d.envs.robots import make_robot
 from pat3d.envs.simulation import Simulation
-from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.manipulate import Pick
+from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.task import Judge, Task, Verdict
 from pat3d.envs.world import CAMERAS, compose
 from pat3d.errors import EnvironmentSetupError, TaskError

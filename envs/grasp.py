@@ -1,8 +1,8 @@
 """Where a parallel gripper can take an object from above, found on height maps.
 
-The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip; between
-them the object must reach up along the pads. That covers bars, balls and boxes that fit between the fingers as well as
-the rims of cups and bowls, of which one finger enters the inside.
+The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip;
+between them the object must reach up along the pads. That covers bars, balls and boxes that fit between the fingers as
+well as the rims of cups and bowls, of which one finger enters the inside.
 """
 
 from __future__ import annotations
@@ -244,9 +244,7 @@ class _Grid:
             i = np.rint((seen.x - self.middle[0]) / CELL).astype(int) + self.half
             j = np.rint((seen.y - self.middle[1]) / CELL).astype(int) + self.half
             inside_i, inside_j = (i >= 0) & (i < size), (j >= 0) & (j < size)
-            np.maximum.at(
-                height, np.ix_(i[inside_i], j[inside_j]), seen.height[np.ix_(inside_i, inside_j)]
-            )
+            np.maximum.at(height, np.ix_(i[inside_i], j[inside_j]), seen.height[np.ix_(inside_i, inside_j)])
         return height
 
     def turned(self, height: Array, angle: float) -> Array:

@@ -1,7 +1,7 @@
 """Scenes as environments take them: a folder, its MJCF and the proof that MuJoCo holds it still.
 
-The proof is repeated here because a benchmark that moves under the policy is worse than none. It is kept by the checksum
-of the files and MuJoCo's version, so that it is run once for each.
+The proof is repeated here because a benchmark that moves under the policy is worse than none. It is kept by the
+checksum of the files and MuJoCo's version, so that it is run once for each.
 """
 
 from __future__ import annotations
@@ -121,7 +121,8 @@ def _require_settled(mjcf: Path, checksum: str) -> None:
 
         report = settle_in_mujoco(mjcf, SETTLE_SECONDS)
         moved = [
-            {"name": one.name, "mm": max(one.centre_mm, one.origin_mm), "degrees": one.degrees} for one in report.moved()
+            {"name": one.name, "mm": max(one.centre_mm, one.origin_mm), "degrees": one.degrees}
+            for one in report.moved()
         ]
         drift = {"passed": report.passed, "moved": moved, "warnings": list(report.warnings)}
         _store(record, drift)

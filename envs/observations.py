@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -147,8 +148,7 @@ def object_row(observation: Observation, objects: Sequence[str], name: str) -> N
 
 def _quat_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """Quaternion (wxyz) of a rotation matrix, its largest value positive, so that it never jumps by a sign alone."""
-    import mujoco
-
+    mujoco: Any = import_module("mujoco")
     quat = np.zeros(4)
     mujoco.mju_mat2Quat(quat, rotation.reshape(-1))
     return quat if quat[np.argmax(np.abs(quat))] > 0 else -quat
@@ -156,4 +156,3 @@ def _quat_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _box(low: Any, high: Any) -> spaces.Box:
     return spaces.Box(np.asarray(low, dtype=np.float32), np.asarray(high, dtype=np.float32), dtype=np.float32)
-

@@ -1,8 +1,8 @@
 """Pictures of a running simulation: MuJoCo's GL renderer on a graphics card, else rays traced on the CPU.
 
 GL is tried once in a process of its own because broken drivers crash or hang. Where it would run on the CPU itself, the
-rays are ten times faster. PAT3D_RENDERER=gl or cpu decides without trying, and so does MUJOCO_GL=egl or osmesa. Both see
-the same cameras and agree on depth and segmentation; their light differs.
+rays are ten times faster. PAT3D_RENDERER=gl or cpu decides without trying, and so does MUJOCO_GL=egl or osmesa. Both
+see the same cameras and agree on depth and segmentation; their light differs.
 """
 
 from __future__ import annotations
@@ -64,9 +64,7 @@ class Pictures:
         self._labels = np.append(labels, 0).astype(np.uint16)
         self._renderer: Renderer = _Gl(model) if backend() == "gl" else _cpu(model)
 
-    def take(
-        self, camera: str, height: int, width: int, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
+    def take(self, camera: str, height: int, width: int, *, depth: bool = False, segmentation: bool = False) -> Picture:
         """What `camera` sees now, `height` x `width` pixels."""
         data = self._simulation.data
         picture = self._renderer.draw(
@@ -82,7 +80,7 @@ class Pictures:
 
 @functools.lru_cache(maxsize=1)
 def backend() -> str:
-    """ "gl" or "cpu": what draws the pictures of this process.
+    """What draws the pictures of this process: "gl" or "cpu".
 
     Raises:
         EnvironmentSetupError: $PAT3D_RENDERER is neither.
@@ -100,7 +98,7 @@ def backend() -> str:
     return "gl" if card is not None and not is_software(card) else "cpu"
 
 
-def _cpu(model: Any) -> Renderer:
+def _cpu(model: Any) -> Any:
     from pat3d.envs.raytrace import RayTracer
 
     return RayTracer(model)
@@ -131,6 +129,7 @@ class _Gl:
         self._camera.type = self._mujoco.mjtCamera.mjCAMERA_FIXED
 
     def draw(self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool) -> Picture:
+        """See Renderer."""
         mujoco, scene = self._mujoco, self._scene
         limits = self._model.vis.global_
         if height > limits.offheight or width > limits.offwidth:
@@ -156,6 +155,7 @@ class _Gl:
         )
 
     def close(self) -> None:
+        """Free the context."""
         self._context.make_current()
         self._mjr.free()
         self._context.free()

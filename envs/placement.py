@@ -1,7 +1,7 @@
 """Where the robot stands, so that its hand gets to everything a task needs.
 
-A scene on the ground is set on a workbench to which the robot is bolted. A scene with a table of its own, or a room, keeps
-its floor: the robot stands on a pedestal beside what carries the work.
+A scene on the ground is set on a workbench to which the robot is bolted. A scene with a table of its own, or a room,
+keeps its floor: the robot stands on a pedestal beside what carries the work.
 """
 
 from __future__ import annotations
@@ -122,7 +122,9 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         frame = _Frame(position, yaw)
         reached: dict[str, tuple[Grasp, ...]] = {}
         for name, found in grasps.items():
-            reached[name] = tuple(one for one in found if _reaches_grasp(arm, frame, one, gripper.tip, gripper.closing_axis))
+            reached[name] = tuple(
+                one for one in found if _reaches_grasp(arm, frame, one, gripper.tip, gripper.closing_axis)
+            )
             if not reached[name]:
                 farthest[name] = min(farthest.get(name, math.inf), math.dist(position[:2], found[0].position[:2]))
                 break
@@ -270,7 +272,9 @@ class _Site:
                 return False
         return True
 
-    def placement(self, arm: ArmKinematics, frame: _Frame, grasps: dict[str, tuple[Grasp, ...]], tip: float) -> Placement:
+    def placement(
+        self, arm: ArmKinematics, frame: _Frame, grasps: dict[str, tuple[Grasp, ...]], tip: float
+    ) -> Placement:
         """The placement with its workbench and a start posture above everything near the hand."""
         bench = None
         if self.bench:
@@ -287,7 +291,7 @@ class _Site:
             host=self.host,
             surface=self.surface,
             floor=-BENCH_HEIGHT if self.bench else 0.0,
-            focus=tuple(map(float, self.focus)),
+            focus=(float(self.focus[0]), float(self.focus[1]), float(self.focus[2])),
             focus_radius=self.radius,
             start=tuple(map(float, self._start(arm, frame, tip))),
             grasps=grasps,
@@ -295,7 +299,7 @@ class _Site:
         )
 
     def _start(self, arm: ArmKinematics, frame: _Frame, tip: float) -> Array:
-        """robosuite's own posture, or the hand raised above what it would touch there."""
+        """The posture that robosuite starts in, or the hand raised above what it would touch there."""
         home = arm.robot.home
         hand, rotation = arm.hand(home)
         c, s = math.cos(frame.yaw), math.sin(frame.yaw)

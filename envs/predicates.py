@@ -18,7 +18,7 @@ CONTACT_DEPTH = 0.01
 
 
 def inside(state: SimState, child: str, parent: str) -> bool:
-    """Whether `child` lies in the cavity of `parent`: over its floor, its lowest point below the rim, parent upright."""
+    """Whether `child` lies in the cavity of `parent`: over its floor, lowest below the rim, parent upright."""
     region = state.scene[parent].asset.region("in")
     if region is None or state.tilt(parent) > UPRIGHT_DEGREES:
         return False

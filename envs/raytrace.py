@@ -60,10 +60,13 @@ class RayTracer:
         self._bodies = [body for number in range(model.nbody) if (body := self._body(number)) is not None]
         plane = int(self._mujoco.mjtGeom.mjGEOM_PLANE)
         self._planes = [
-            geom for geom in range(model.ngeom) if model.geom_type[geom] == plane and model.geom_group[geom] < SHOWN_GROUPS
+            geom
+            for geom in range(model.ngeom)
+            if model.geom_type[geom] == plane and model.geom_group[geom] < SHOWN_GROUPS
         ]
 
     def draw(self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool) -> Picture:
+        """What `camera` sees: with depth and geoms where they are asked for."""
         eye = data.cam_xpos[camera].astype(np.float32)
         axes = data.cam_xmat[camera].reshape(3, 3).astype(np.float32)
         half = np.tan(np.radians(self._model.cam_fovy[camera]) / 2.0)
@@ -88,6 +91,7 @@ class RayTracer:
         )
 
     def close(self) -> None:
+        """Free the triangles."""
         self._bodies = []
 
     def _see_body(
@@ -242,4 +246,4 @@ def _light(normal: Array, facing: Array) -> Array:
     """Brightness of surfaces with unit `normal`, seen at a slope of `facing`; shape (n,)."""
     sun = np.maximum(normal @ (SUN / np.linalg.norm(SUN)), 0.0)
     sky = 0.5 + 0.5 * normal[:, 2]
-    return 0.36 + 0.28 * sky + 0.48 * sun + 0.12 * facing
+    return (0.36 + 0.28 * sky + 0.48 * sun + 0.12 * facing).astype(np.float32)

@@ -26,9 +26,7 @@ def register_with_gymnasium() -> None:
 def _register(gymnasium: Any) -> None:
     # A half-imported Gymnasium has no registry yet.
     if hasattr(gymnasium, "register") and ENV_ID not in gymnasium.registry:
-        gymnasium.register(
-            id=ENV_ID, entry_point="pat3d.envs.env:TabletopEnv", max_episode_steps=MAX_EPISODE_STEPS
-        )
+        gymnasium.register(id=ENV_ID, entry_point="pat3d.envs.env:TabletopEnv", max_episode_steps=MAX_EPISODE_STEPS)
 
 
 class _AfterImport:
@@ -43,7 +41,7 @@ class _AfterImport:
             spec = finder.find_spec(name, path, target)
             if spec is not None:
                 if hasattr(spec.loader, "exec_module"):
-                    spec.loader = _Registering(spec.loader)
+                    spec.loader = _Registering(spec.loader)  # type: ignore[assignment]
                 return spec
         return None
 

@@ -201,7 +201,7 @@ def measure_gripper(name: str) -> Gripper:
         palm=tip - float(hand[:, 2].max()),
         hand=(2 * float(np.abs(hand @ axis).max()), 2 * float(np.abs(hand @ across).max())),
         pad=tip - min(float(pad[:, 2].min()) for pad in pads),
-        closing_axis=tuple(map(float, axis)),
+        closing_axis=(float(axis[0]), float(axis[1]), float(axis[2])),
     )
 
 
@@ -224,9 +224,7 @@ def _hand_geoms(model: Any, robot: Robot) -> tuple[int, ...]:
     hand = int(model.site(robot.grip_site).bodyid[0])
     while model.body_parentid[hand] and not (model.geom_bodyid == hand).any():
         hand = int(model.body_parentid[hand])
-    return tuple(
-        geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == hand and model.geom_contype[geom]
-    )
+    return tuple(geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == hand and model.geom_contype[geom])
 
 
 def _geom_points(mujoco: Any, model: Any, data: Any, geom: int) -> Array:

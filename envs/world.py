@@ -144,7 +144,7 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
 
 
 def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
-    """agentview looks across the work area at the robot, frontview from further back; wrist is the robot's own."""
+    """Views of the work: agentview looks across the work area at the robot, frontview from further back; wrist is the robot's own."""
     wrist = spec.camera(PREFIX + robot.wrist_camera)
     wrist.name = "wrist"
     centre = np.array(placement.focus)
@@ -152,13 +152,19 @@ def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
     reach = placement.focus_radius
     views = {
         "agentview": (centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.42 + 0.8 * reach], centre, 45.0),
-        "frontview": (centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach], centre - 0.15 * towards, 45.0),
+        "frontview": (
+            centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach],
+            centre - 0.15 * towards,
+            45.0,
+        ),
     }
     for name, (eye, target, fovy) in views.items():
         back = (eye - target) / np.linalg.norm(eye - target)
         right = np.cross([0.0, 0.0, 1.0], back)
         right /= np.linalg.norm(right)
-        spec.worldbody.add_camera(name=name, pos=eye, fovy=fovy, quat=_quat(right, np.cross(back, right)))
+        spec.worldbody.add_camera(
+            name=name, pos=eye, fovy=fovy, quat=_quat(right, np.cross(back, right).astype(np.float64))
+        )
 
 
 def _quat(x: Array, y: Array) -> list[float]:

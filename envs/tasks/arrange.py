@@ -123,7 +123,7 @@ class Unload(Task):
         return f"unload:{self.container}"
 
     def instruction(self, scene: Scene) -> str:
-        inner = scene[self.container].asset.region("in") is not None
+        inner = any(rel.parent == self.container and rel.kind == "in" for rel in scene.relations)
         return f"take everything {'out of' if inner else 'off'} the {self.container}"
 
     def check(self, scene: Scene) -> None:

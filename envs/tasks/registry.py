@@ -37,7 +37,9 @@ def possible_tasks(scene: Scene) -> Iterator[Task]:
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
         count = len(fields(kind))  # type: ignore[arg-type]
-        combinations = [()] if count == 0 else [(a,) for a in names] if count == 1 else [(a, b) for a in names for b in names]
+        combinations = (
+            [()] if count == 0 else [(a,) for a in names] if count == 1 else [(a, b) for a in names for b in names]
+        )
         for arguments in combinations:
             task = parse_task(":".join((kind.kind, *arguments)))
             try:

@@ -110,7 +110,7 @@ def children(scene: Scene, parent: str) -> tuple[str, ...]:
 
 
 def origin(scene: Scene, name: str) -> str:
-    """ " from the tray", or nothing for an object on the ground."""
+    """Where an object stands, as " from the tray"; nothing for one on the ground."""
     parent = scene.parent(name)
     return "" if parent == GROUND else f" from the {parent}"
 

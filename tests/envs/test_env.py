@@ -28,7 +28,9 @@ def test_gymnasium_s_checker_finds_nothing_to_complain_about(env):
 
 
 def test_picture_observations_and_rendering_pass_the_checker():
-    made = TabletopEnv(obs="rgbd", segmentation=True, render_mode="rgb_array", image_size=(64, 96), render_size=(60, 80))
+    made = TabletopEnv(
+        obs="rgbd", segmentation=True, render_mode="rgb_array", image_size=(64, 96), render_size=(60, 80)
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         # Rendering is checked by hand: the checker makes environments anew for every mode.
@@ -42,10 +44,19 @@ def test_picture_observations_and_rendering_pass_the_checker():
 
 
 def test_the_physics_is_the_exported_scene_s_own(env):
-    """Options, inertias, contact parameters and poses of the scene are equal, bit for bit, to those of its MJCF alone."""
+    """Options, inertias, contact parameters and poses of the scene equal those of its MJCF alone, bit for bit."""
     alone = mujoco.MjModel.from_xml_path(str(load(None).mjcf))
     model = env.simulation.model
-    for option in ("timestep", "integrator", "cone", "impratio", "ccd_tolerance", "solver", "iterations", "disableflags"):
+    for option in (
+        "timestep",
+        "integrator",
+        "cone",
+        "impratio",
+        "ccd_tolerance",
+        "solver",
+        "iterations",
+        "disableflags",
+    ):
         assert getattr(model.opt, option) == getattr(alone.opt, option), option
     for body in range(1, alone.nbody):
         other = model.body(alone.body(body).name).id
@@ -104,7 +115,7 @@ def test_a_scripted_hand_picks_the_mug_for_real(env, seed, attempt):
     """The fingers close on the rim, friction alone lifts the mug by 10 cm, and a second later the episode succeeds."""
     env.reset(seed=seed, options={"task": "pick:red mug"})
     hand = ScriptedPick(env, attempt=attempt)
-    for step in range(120):
+    for step in range(120):  # noqa: B007
         _, reward, success, truncated, info = env.step(hand.action())
         if success or truncated:
             break
@@ -190,7 +201,7 @@ def test_vector_environments_run_in_processes_of_their_own():
     observation, info = vector.reset(seed=[1, 2])
     assert observation["objects"].shape == (2, 5, 7)
     assert not np.array_equal(observation["joint_pos"][0], observation["joint_pos"][1])
-    observation, reward, success, truncated, info = vector.step(np.zeros((2, 7), dtype=np.float32))
+    observation, *_, info = vector.step(np.zeros((2, 7), dtype=np.float32))
     assert list(info["instruction"]) == ["pick up the red mug from the wooden tray"] * 2
     vector.close()
 
