@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.world import FLOOR, PREFIX, ROBOT, World
+from pat3d.envs.world import FLOOR, PREFIX, ROBOT, SUPPORT, World
 from pat3d.scene import Scene
 
 Array = NDArray[np.float64]
@@ -20,6 +20,9 @@ TOPPLED_DEGREES = 30.0
 
 STILL_SPEED = 0.05
 """Slower than this is at rest [m/s]."""
+
+TOUCH = 1e-3
+"""Surfaces nearer than this touch [m]."""
 
 STILL_TURN = 0.5
 """Slower than this is at rest [rad/s]."""
@@ -33,6 +36,8 @@ class SimState:
         self._mujoco: Any = import_module("mujoco")
         model = world.model
         self._number = {obj.name: number for number, obj in enumerate(world.scene.objects)}
+        self._bodies = [world.bodies[obj.name] for obj in world.scene.objects]
+        self._fixed = {number for number, obj in enumerate(world.scene.objects) if obj.fixed} | {SUPPORT, FLOOR}
         self._moving = {name: number for number, name in enumerate(world.objects)}
         self._fingers = np.zeros((2, model.ngeom), dtype=bool)
         for side, names in enumerate(world.robot.fingers):
@@ -51,6 +56,7 @@ class SimState:
 
     def begin(self) -> None:
         """Take the present poses as the start of the episode."""
+        self._pairs = set()
         self.refresh()
         for name in self._number:
             self._start_centre[name] = self.centre(name).copy()
@@ -60,16 +66,46 @@ class SimState:
         """Read the contacts of the present state."""
         contact, owner = self._data.contact, self.world.owner
         geoms = contact.geom
-        touching = (contact.dist < 1e-3) & (contact.efc_address >= 0)
+        touching = (contact.dist < TOUCH) & (contact.efc_address >= 0)
         geoms = geoms[touching]
         owners = owner[geoms]
-        self._pairs = {(min(pair), max(pair)) for pair in owners.tolist() if pair[0] != pair[1]}
+        pairs = {(min(pair), max(pair)) for pair in owners.tolist() if pair[0] != pair[1]}
+        self._pairs = pairs | self._kept_while_asleep(pairs)
         self._pinched = [set(), set()]
         if (owners == ROBOT).any():
             for side in (0, 1):
                 for end in (0, 1):
                     held = self._fingers[side][geoms[:, end]]
                     self._pinched[side].update(owners[held, 1 - end].tolist())
+
+    def _kept_while_asleep(self, pairs: set[tuple[int, int]]) -> set[tuple[int, int]]:
+        """What touched each object when it fell asleep: MuJoCo lists no contacts among what sleeps or never moves."""
+        asleep = {number for number, body in enumerate(self._bodies) if not self._data.body_awake[body]}
+        if not asleep:
+            return set()
+        unmoving = asleep | self._fixed
+        kept = {pair for pair in self._pairs if pair[0] in unmoving and pair[1] in unmoving and asleep & set(pair)}
+        for number in asleep:
+            if not any(number in pair for pair in kept) and not any(number in pair for pair in pairs):
+                # It landed and fell asleep within one control step.
+                kept |= self._near(number, unmoving - {number})
+        return kept
+
+    def _near(self, number: int, others: set[int]) -> set[tuple[int, int]]:
+        """Pairs of object `number` and those of `others` that are as close as things that touch."""
+        model, data, owner = self.world.model, self._data, self.world.owner
+        collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+        own = np.flatnonzero((owner == number) & collides)
+        found = set()
+        for geom in np.flatnonzero(np.isin(owner, list(others)) & collides).tolist():
+            reach = model.geom_rbound[geom] + model.geom_rbound[own] + TOUCH
+            apart = np.linalg.norm(data.geom_xpos[own] - data.geom_xpos[geom], axis=1)
+            # A plane or a box as large as the ground has no useful bound.
+            for mine in own[(apart < reach) | (model.geom_rbound[geom] == 0)].tolist():
+                if self._mujoco.mj_geomDistance(model, data, mine, geom, TOUCH, None) < TOUCH:
+                    found.add((min(number, int(owner[geom])), max(number, int(owner[geom]))))
+                    break
+        return found
 
     def position(self, name: str) -> Array:
         """Of the object's own frame [m], shape (3,)."""

@@ -144,7 +144,7 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
 
 
 def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
-    """Views of the work: agentview looks across the work area at the robot, frontview from further back; wrist is the robot's own."""
+    """Views: agentview looks across the work at the robot, frontview from further back, wrist is the robot's own."""
     wrist = spec.camera(PREFIX + robot.wrist_camera)
     wrist.name = "wrist"
     centre = np.array(placement.focus)
@@ -162,9 +162,8 @@ def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
         back = (eye - target) / np.linalg.norm(eye - target)
         right = np.cross([0.0, 0.0, 1.0], back)
         right /= np.linalg.norm(right)
-        spec.worldbody.add_camera(
-            name=name, pos=eye, fovy=fovy, quat=_quat(right, np.cross(back, right).astype(np.float64))
-        )
+        up = np.cross(back, right).astype(np.float64)
+        spec.worldbody.add_camera(name=name, pos=eye, fovy=fovy, quat=_quat(right, up))
 
 
 def _quat(x: Array, y: Array) -> list[float]:
