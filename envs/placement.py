@@ -213,6 +213,8 @@ class _Site:
     focus: Array
     middle: Array
     """Middle of what the task is about [m]."""
+    view: Array
+    """Middle of what the cameras show [m]."""
     radius: float
     work: tuple[str, ...]
 
@@ -233,8 +235,10 @@ class _Site:
         points = [*needs.visit, *((boxes[name][0] + boxes[name][1]) / 2 for name in work)]
         middle = np.mean(points, axis=0)
         surface = 0.0 if bench else min(float(boxes[name][0][2]) for name in work)
-        shown = [box for name, box in boxes.items() if bench or name in work]
-        span = np.max([box[1] for box in shown], axis=0) - np.min([box[0] for box in shown], axis=0)
+        # On a table the cameras show everything on it; in a room, what the task is about.
+        beside = {name for name in boxes if bench or (name != host and _root(scene, name) == host)} | set(work)
+        shown_low = np.min([boxes[name][0] for name in beside], axis=0)
+        shown_high = np.max([boxes[name][1] for name in beside], axis=0)
         return _Site(
             boxes=boxes,
             bench=bench,
@@ -243,7 +247,8 @@ class _Site:
             # On a workbench the same place serves every task of a scene, where it can.
             focus=np.array([*((low + high) / 2)[:2], middle[2]]) if bench else middle,
             middle=middle,
-            radius=float(span[:2].max()) / 2,
+            view=np.array([*((shown_low + shown_high) / 2)[:2], middle[2]]),
+            radius=float((shown_high - shown_low)[:2].max()) / 2,
             work=work,
         )
 
@@ -291,7 +296,7 @@ class _Site:
             host=self.host,
             surface=self.surface,
             floor=-BENCH_HEIGHT if self.bench else 0.0,
-            focus=(float(self.focus[0]), float(self.focus[1]), float(self.focus[2])),
+            focus=(float(self.view[0]), float(self.view[1]), float(self.view[2])),
             focus_radius=self.radius,
             start=tuple(map(float, self._start(arm, frame, tip))),
             grasps=grasps,

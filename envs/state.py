@@ -168,16 +168,15 @@ class SimState:
 
     def fell(self) -> list[str]:
         """Objects that dropped from the surface of the work."""
-        surface = self.world.placement.surface
-        low = [name for name in self._moving if self.centre(name)[2] < surface - 0.01]
-        on_floor = [
-            name
-            for name in self._moving
-            if name not in low
-            and (FLOOR, self._number[name]) in self._pairs
-            and self.start_centre(name)[2] > self.centre(name)[2] + 0.05
-        ]
-        return [*low, *on_floor]
+        surface = self.world.placement.surface - 0.01
+        fallen = []
+        for name in self._moving:
+            now, before = float(self.centre(name)[2]), float(self._start_centre[name][2])
+            on_floor = (FLOOR, self._number[name]) in self._pairs and before > now + 0.05
+            # What stood on the floor from the start, as a table does, never falls.
+            if (now < surface <= before) or on_floor:
+                fallen.append(name)
+        return fallen
 
     def all_touched(self) -> list[str]:
         """Objects that the robot touches."""

@@ -72,7 +72,7 @@ def test_the_physics_is_the_exported_scene_s_own(env):
 
 
 def test_objects_asleep_wake_when_they_are_touched_and_rest_exactly_until_then(env):
-    """The banana is 15 cm from the mug: it does not move by a bit while the mug's island sleeps, nor does contact end."""
+    """Until the robot arrives the banana does not move by a bit, and still touches the tray; the mug is then lifted."""
     env.reset(seed=0, options={"task": "pick:red mug"})
     state, zero = env.simulation.state, np.zeros(7, dtype=np.float32)
     assert state.touch("banana", "wooden tray")
