@@ -204,7 +204,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         name = task.spec if isinstance(task, Task) else task or ""
         key = (loaded.checksum, name)
         if key not in self._kept:
-            chosen, placement = _choose(loaded.scene, task, self.robot)
+            chosen, placement = choose(loaded.scene, task, self.robot)
             world = compose(loaded.scene, loaded.mjcf, make_robot(self.robot), placement)
             self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self._sleep))
             if len(self._kept) > _KEPT_WORLDS:
@@ -232,7 +232,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         }
 
 
-def _choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
+def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
     """The task and where the robot stands for it; without a task, the first object that can be picked."""
     if task is not None:
         chosen = task if isinstance(task, Task) else parse_task(task)

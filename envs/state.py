@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.world import FLOOR, PREFIX, ROBOT, SUPPORT, World
+from pat3d.envs.world import FLOOR, ROBOT, SUPPORT, World
 from pat3d.scene import Scene
 
 Array = NDArray[np.float64]
@@ -41,8 +41,8 @@ class SimState:
         self._moving = {name: number for number, name in enumerate(world.objects)}
         self._fingers = np.zeros((2, model.ngeom), dtype=bool)
         for side, names in enumerate(world.robot.fingers):
-            self._fingers[side, [model.geom(PREFIX + name).id for name in names]] = True
-        self._site = model.site(PREFIX + world.robot.grip_site).id
+            self._fingers[side, [model.geom(world.prefix + name).id for name in names]] = True
+        self._site = model.site(world.prefix + world.robot.grip_site).id
         self._names = [obj.name for obj in world.scene.objects]
         self._pairs: set[tuple[int, int]] = set()
         self._pinched: list[set[int]] = [set(), set()]

@@ -48,6 +48,8 @@ class World:
     scene: Scene
     robot: Robot
     placement: Placement
+    prefix: str
+    """Before every name that belongs to the robot."""
     objects: tuple[str, ...]
     """Objects that can move, in the order of the scene."""
     bodies: dict[str, int]
@@ -74,16 +76,23 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
         _attach(mujoco, spec, robot, placement)
-        if placement.bench is not None:
-            _bench(mujoco, spec, placement)
-        _pedestal(mujoco, spec, placement)
-        _cameras(spec, robot, placement)
-        # Shadows reach as far as the robot does, not only around the objects.
-        spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
+        furnish(spec, placement)
+        spec.camera(PREFIX + robot.wrist_camera).name = "wrist"
         model = spec.compile()
     except ValueError as error:
         raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
-    return _index(mujoco, model, scene, robot, placement)
+    return index(model, scene, robot, placement)
+
+
+def furnish(spec: Any, placement: Placement) -> None:
+    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
+    mujoco: Any = import_module("mujoco")
+    if placement.bench is not None:
+        _bench(mujoco, spec, placement)
+    _pedestal(mujoco, spec, placement)
+    _cameras(spec, placement)
+    # Shadows reach as far as the robot does, not only around the objects.
+    spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
 
 
 def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
@@ -143,10 +152,8 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
     )  # fmt: skip
 
 
-def _cameras(spec: Any, robot: Robot, placement: Placement) -> None:
-    """Views: agentview looks across the work at the robot, frontview from further back, wrist is the robot's own."""
-    wrist = spec.camera(PREFIX + robot.wrist_camera)
-    wrist.name = "wrist"
+def _cameras(spec: Any, placement: Placement) -> None:
+    """Views: agentview looks across the work at the robot, frontview from further back."""
     centre = np.array(placement.focus)
     towards = np.array([math.cos(placement.yaw), math.sin(placement.yaw), 0.0])
     reach = placement.focus_radius
@@ -171,7 +178,17 @@ def _quat(x: Array, y: Array) -> list[float]:
     return list(Pose.from_matrix(np.stack([x, y, np.cross(x, y)], axis=1), np.zeros(3)).quat_wxyz)
 
 
-def _index(mujoco: Any, model: Any, scene: Scene, robot: Robot, placement: Placement) -> World:
+def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: str = PREFIX) -> World:
+    """Where the parts of a compiled world are.
+
+    Args:
+        model: MuJoCo's.
+        scene: whose MJCF is in it.
+        robot: that is in it.
+        placement: of the robot.
+        prefix: before every name of the robot; robosuite's own worlds have none.
+    """
+    starts = prefix or (robot.naming_prefix, "gripper0_")
     names = body_names(scene)
     bodies = {obj.name: int(model.body(names[obj.name]).id) for obj in scene.objects}
     moving = tuple(obj.name for obj in scene.objects if not obj.fixed)
@@ -182,7 +199,7 @@ def _index(mujoco: Any, model: Any, scene: Scene, robot: Robot, placement: Place
         body, name = int(model.geom_bodyid[geom]), model.geom(geom).name
         if body in order:
             owner[geom] = order[body]
-        elif model.body(body).name.startswith(PREFIX) or name == "pedestal":
+        elif model.body(body).name.startswith(starts) or name == "pedestal":
             owner[geom] = ROBOT
         elif name == "floor" or (name == "ground" and placement.host is not None):
             owner[geom] = FLOOR
@@ -191,6 +208,7 @@ def _index(mujoco: Any, model: Any, scene: Scene, robot: Robot, placement: Place
         scene=scene,
         robot=robot,
         placement=placement,
+        prefix=prefix,
         objects=moving,
         bodies=bodies,
         positions=np.array([int(joint.qposadr[0]) for joint in joints], dtype=np.int64),
