@@ -22,6 +22,7 @@ from pat3d.envs.tasks.task import (
     movable,
     origin,
     present,
+    standing_on,
 )
 from pat3d.errors import TaskError
 from pat3d.scene import Scene
@@ -187,13 +188,13 @@ class Retrieve(Task):
         return f"retrieve:{self.target}"
 
     def instruction(self, scene: Scene) -> str:
-        on = children(scene, self.target)
+        on = standing_on(scene, self.target)
         where = f" from under the {on[0]}" if on else origin(scene, self.target)
         return f"take out the {self.target}{where} without knocking anything over"
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)
-        if not children(scene, self.target) and not _in_front(scene, self.target):
+        if not standing_on(scene, self.target) and not _in_front(scene, self.target):
             raise TaskError(f'nothing stands on or in front of "{self.target}"; use "pick:{self.target}".')
 
     def needs(self, scene: Scene) -> Needs:

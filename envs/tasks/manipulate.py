@@ -12,12 +12,29 @@ from pat3d.envs.grasp import narrowest
 from pat3d.envs.placement import Needs
 from pat3d.envs.predicates import at_rest, inside, on_top
 from pat3d.envs.state import SimState
-from pat3d.envs.tasks.task import Judge, Task, Timer, Verdict, centre_of_mass, closeness, movable, origin, present
+from pat3d.envs.tasks.task import (
+    Judge,
+    Task,
+    Timer,
+    Verdict,
+    centre_of_mass,
+    closeness,
+    movable,
+    origin,
+    present,
+    standing_on,
+)
 from pat3d.errors import TaskError
 from pat3d.scene import Scene
 
 LIFT = 0.10
 """[m]"""
+
+NARROWEST_BASE = 0.4
+"""Least width of a base as a share of that of what is put on it."""
+
+ROOMY = 0.15
+"""Tops with a half width of at least this [m] carry several things."""
 
 HOLD_SECONDS = 1.0
 REST_SECONDS = 0.5
@@ -132,9 +149,8 @@ class Stack(Task):
         check_move(scene, self.target, self.base)
         if scene.parent(self.target) == self.base:
             raise TaskError(f'"{self.target}" is on "{self.base}" already.')
-        region = scene[self.base].asset.region("on")
-        if region is None or min(region.half_size) < 0.01:
-            raise TaskError(f'"{self.base}" has no flat top to stack on.')
+        if scene[self.base].asset.region("in") is not None:
+            raise TaskError(f'"{self.base}" is a container; use "place:{self.target}:{self.base}".')
 
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.base),))
@@ -210,6 +226,14 @@ def check_move(scene: Scene, target: str, where: str) -> None:
         width, room = narrowest(scene[target]), 2 * min(region.half_size)
         if width > room:
             raise TaskError(f'"{target}" ({width:.2f} m) does not fit into "{where}" ({room:.2f} m wide inside).')
+        return
+    covering = [name for name in standing_on(scene, where) if name != target]
+    top = scene[where].asset.region("on")
+    if top is None or min(top.half_size) < max(0.01, NARROWEST_BASE * narrowest(scene[target]) / 2):
+        raise TaskError(f'"{where}" has no top wide enough for "{target}".')
+    # A tray or a table has room for more; the top of a stack has not.
+    if covering and min(top.half_size) < ROOMY:
+        raise TaskError(f'"{covering[0]}" stands on "{where}" already.')
 
 
 def _preposition(scene: Scene, where: str) -> str:

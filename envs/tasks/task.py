@@ -109,6 +109,12 @@ def children(scene: Scene, parent: str) -> tuple[str, ...]:
     return tuple(obj.name for obj in scene.objects if scene.parent(obj.name) == parent)
 
 
+def standing_on(scene: Scene, parent: str) -> tuple[str, ...]:
+    """Objects directly on `parent`, not in it, in the order of the scene."""
+    on = {rel.child for rel in scene.relations if rel.kind == "on" and rel.parent == parent}
+    return tuple(obj.name for obj in scene.objects if obj.name in on)
+
+
 def origin(scene: Scene, name: str) -> str:
     """Where an object stands, as " from the tray"; nothing for one on the ground."""
     parent = scene.parent(name)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pat3d.assets.asset import Asset, MassProperties, Material, VisualMesh
+from pat3d.assets.asset import Asset, MassProperties, Material, Region, VisualMesh
 from pat3d.assets.hull import convex_part
 from pat3d.envs.grasp import find_grasps, narrowest
 from pat3d.envs.robots import Gripper
@@ -19,7 +19,7 @@ GRIPPER = Gripper(
 )  # fmt: skip
 
 
-def _bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
+def bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
     """A box of `size` [m] standing on the ground."""
     half = np.array(size) / 2
     part = convex_part(np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (0, 2)]) * half)
@@ -28,8 +28,9 @@ def _bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
         mass=0.1, volume=float(np.prod(size)), centre_of_mass=(0.0, 0.0, size[2] / 2),
         inertia=((1e-4, 0.0, 0.0), (0.0, 1e-4, 0.0), (0.0, 0.0, 1e-4)),
     )  # fmt: skip
+    top = Region(kind="on", shape="rectangle", floor=(0.0, 0.0, size[2]), half_size=(size[0] / 2, size[1] / 2))
     asset = Asset(
-        noun="bar", visual=visual, parts=(part,), mass_properties=properties,
+        noun="bar", regions=(top,), visual=visual, parts=(part,), mass_properties=properties,
         material=Material(name="wood", density=500.0, friction=0.5),
     )  # fmt: skip
     pose = Pose.from_yaw(yaw, (*position, 0.0))
@@ -38,7 +39,7 @@ def _bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
 
 @pytest.mark.parametrize("yaw", [0.0, 0.4, 1.2, 2.0])
 def test_a_bar_is_taken_across_its_narrow_side_wherever_it_points(yaw):
-    scene = Scene(objects=(_bar("bar", (0.2, 0.04, 0.05), yaw=yaw),))
+    scene = Scene(objects=(bar("bar", (0.2, 0.04, 0.05), yaw=yaw),))
     grasps = find_grasps(scene, "bar", GRIPPER)
     best = grasps[0]
     off = (best.closing - (yaw + math.pi / 2) + math.pi / 2) % math.pi - math.pi / 2
@@ -52,39 +53,39 @@ def test_a_bar_is_taken_across_its_narrow_side_wherever_it_points(yaw):
 
 @pytest.mark.parametrize(("width", "found"), [(0.07, True), (0.077, True), (0.082, False), (0.12, False)])
 def test_what_is_wider_than_the_opening_cannot_be_taken(width, found):
-    scene = Scene(objects=(_bar("block", (width, width, 0.06)),))
+    scene = Scene(objects=(bar("block", (width, width, 0.06)),))
     assert bool(find_grasps(scene, "block", GRIPPER)) == found
 
 
 def test_a_wall_beside_the_bar_forbids_that_side_alone():
     """Between two walls a cube can be closed on along the walls only."""
-    walls = [_bar(f"wall {side}", (0.3, 0.02, 0.1), (0.0, side * 0.045)) for side in (-1, 1)]
-    scene = Scene(objects=(_bar("cube", (0.05, 0.05, 0.09)), *walls))
+    walls = [bar(f"wall {side}", (0.3, 0.02, 0.1), (0.0, side * 0.045)) for side in (-1, 1)]
+    scene = Scene(objects=(bar("cube", (0.05, 0.05, 0.09)), *walls))
     grasps = find_grasps(scene, "cube", GRIPPER)
     assert grasps
     for grasp in grasps:
         assert abs(math.cos(grasp.closing)) > 0.9
     # Nothing is left once the cube is also closed in along the walls.
-    ends = [_bar(f"end {side}", (0.02, 0.07, 0.1), (side * 0.045, 0.0)) for side in (-1, 1)]
+    ends = [bar(f"end {side}", (0.02, 0.07, 0.1), (side * 0.045, 0.0)) for side in (-1, 1)]
     boxed = Scene(objects=(*scene.objects, *ends))
     assert not find_grasps(boxed, "cube", GRIPPER)
     assert find_grasps(boxed, "cube", GRIPPER, alone=True)
 
 
 def test_a_sheet_too_low_for_the_pads_is_no_grasp():
-    assert not find_grasps(Scene(objects=(_bar("card", (0.05, 0.05, 0.008)),)), "card", GRIPPER)
+    assert not find_grasps(Scene(objects=(bar("card", (0.05, 0.05, 0.008)),)), "card", GRIPPER)
 
 
 def test_something_thinner_than_the_closed_gripper_slips_through():
     from dataclasses import replace
 
-    scene = Scene(objects=(_bar("plate", (0.1, 0.006, 0.05)),))
+    scene = Scene(objects=(bar("plate", (0.1, 0.006, 0.05)),))
     assert find_grasps(scene, "plate", GRIPPER)
     assert not find_grasps(scene, "plate", replace(GRIPPER, closed=0.02))
 
 
 def test_the_narrowest_width_of_a_turned_bar_is_its_thickness():
-    assert narrowest(_bar("bar", (0.2, 0.03, 0.05), yaw=0.7)) == pytest.approx(0.03, rel=2e-2)
+    assert narrowest(bar("bar", (0.2, 0.03, 0.05), yaw=0.7)) == pytest.approx(0.03, rel=2e-2)
 
 
 def test_inverse_kinematics_reaches_what_forward_kinematics_left():

@@ -19,6 +19,7 @@ from pat3d.envs.tasks.registry import TASKS, parse_task, possible_tasks
 from pat3d.errors import TaskError
 from pat3d.layout.predicates import check_relations
 from pat3d.scene import Pose, Relation, Scene
+from tests.envs.test_grasp import bar
 
 ALOFT = 0.5
 
@@ -155,6 +156,7 @@ def test_a_mug_on_its_side_has_toppled(env):
         ("place:wooden tray:blue bowl", "stands on"),
         ("place:blue bowl:red mug", "does not fit"),
         ("stack:red mug:red mug", "itself"),
+        ("stack:green apple:blue bowl", 'use "place'),
         ("unload:red mug", "empty already"),
         ("retrieve:banana", "nothing stands on or in front"),
         ("sort", "two containers of different colours"),
@@ -164,6 +166,21 @@ def test_a_mug_on_its_side_has_toppled(env):
 def test_tasks_that_make_no_sense_are_refused_with_the_reason(breakfast, spec, message):
     with pytest.raises(TaskError, match=message):
         parse_task(spec).check(breakfast)
+
+
+def test_a_base_that_is_narrow_or_covered_takes_nothing_more():
+    scene = Scene(
+        objects=(
+            bar("pole", (0.01, 0.01, 0.1), (0.3, 0.0)), bar("block", (0.1, 0.1, 0.05)),
+            bar("lid", (0.1, 0.1, 0.01), (0.0, 0.0)), bar("brick", (0.06, 0.1, 0.05), (-0.3, 0.0)),
+        ),
+        relations=(Relation(child="lid", kind="on", parent="block"),),
+    )  # fmt: skip
+    with pytest.raises(TaskError, match="no top wide enough"):
+        parse_task("stack:brick:pole").check(scene)
+    with pytest.raises(TaskError, match='"lid" stands on "block" already'):
+        parse_task("place:brick:block").check(scene)
+    parse_task("stack:brick:lid").check(scene)
 
 
 def test_every_possible_task_can_be_written_down_and_read_again(breakfast):
