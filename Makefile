@@ -19,8 +19,11 @@ $(VENV)/.setup: $(VENV)/.made pyproject.toml constraints.txt
 	$(PIP) --editable .
 	@touch $@
 
+# robosuite asks for packages that need a GL library, an older numpy or a compiler, and uses none of them here.
 $(VENV)/.setup-dev: $(VENV)/.setup
 	$(PIP) --editable '.[dev,torch,usd,envs]'
+	$(PIP) numba opencv-python-headless termcolor
+	$(PIP) --no-deps robosuite
 	@touch $@
 
 setup: $(VENV)/.setup  ## create .venv with the pinned packages and the pat3d command

@@ -102,12 +102,15 @@ def _engines(row: Any) -> None:
 
 
 def _egl(row: Any) -> None:
-    from pat3d.view.gl import probe_egl
+    from pat3d.view.gl import egl_renderer, is_software
 
-    if probe_egl():
-        row("ok", "EGL", "MuJoCo's own renderer works too (MUJOCO_GL=egl)")
-    else:
+    card = egl_renderer()
+    if card is None:
         row("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
+    elif is_software(card):
+        row("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
+    else:
+        row("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
 
 
 def _cores() -> int:
