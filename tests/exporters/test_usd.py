@@ -399,8 +399,9 @@ def test_settings_of_single_engines_are_on_the_prims_they_read(tmp_path):
     part = stage.GetPrimAtPath("/World/can/collision/part_000")
     for prim, schema, name, value in (
         (stage.GetPrimAtPath("/World/PhysicsScene"), "MjcSceneAPI", "mjc:option:cone", "elliptic"),
-        (stage.GetPrimAtPath("/World/PhysicsScene"), "NewtonSceneAPI", "newton:timeStepsPerSecond", 500),
+        (stage.GetPrimAtPath("/World/PhysicsScene"), "NewtonSceneAPI", "newton:timeStepsPerSecond", 1000),
         (stage.GetPrimAtPath("/World/can"), "PhysxRigidBodyAPI", "physxRigidBody:maxDepenetrationVelocity", 0.1),
+        (stage.GetPrimAtPath("/World/can"), "PhysxRigidBodyAPI", "physxRigidBody:enableSpeculativeCCD", True),
         (part, "PhysxCollisionAPI", "physxCollision:restOffset", 0.0),
         (part, "PhysxConvexHullCollisionAPI", "physxConvexHullCollision:minThickness", 1e-5),
         (part, "NewtonCollisionAPI", "newton:contactMargin", 1.2 * GAP),

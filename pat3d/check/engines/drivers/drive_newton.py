@@ -12,7 +12,7 @@ import recording
 import warp as wp
 
 MUJOCO_STEP = 0.001
-"""[s]; Newton gives MuJoCo's colliders no margin, so what floats lands, and lands harder the longer a step is."""
+"""[s], as the file asks; Newton gives MuJoCo's colliders no margin, so what floats lands, the harder the longer a step is."""
 
 XPBD_STEP = 0.001
 """[s]"""

@@ -12,7 +12,7 @@ import recording
 from ovphysx.samples.python_samples.schema_support import physx_schema_paths
 from ovphysx.types import ObjectScope, SimObjectType
 
-STEP = 0.002
+STEP = 0.001
 """[s], the step that the file asks for."""
 
 
