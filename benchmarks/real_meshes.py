@@ -5,6 +5,8 @@ duck and tray (in their own units, some not watertight), read from those package
 unpacked copies:
 
 python benchmarks/real_meshes.py [--robosuite FOLDER] [--pybullet-data FOLDER] [--cold]
+
+With --write FOLDER the specifications and their meshes are put there instead, for transfer.py --specs FOLDER/*.yaml.
 """
 
 from __future__ import annotations
@@ -66,6 +68,13 @@ def package_folder(package: str, given: Path | None) -> Path | None:
     return Path(spec.origin).parent if spec and spec.origin else None
 
 
+def unpack(folder: Path, robosuite: Path, pybullet: Path | None) -> None:
+    """Copy the meshes to where the specifications look for them."""
+    shutil.copytree(robosuite / ROBOSUITE, folder / "robosuite")
+    if pybullet is not None:
+        shutil.copytree(pybullet, folder / "pybullet")
+
+
 def build(name: str, spec: dict, workspace: Path, cache: Path) -> bool:
     """Build one scene, print its row, and tell whether it was proven."""
     (workspace / f"{name}.yaml").write_text(yaml.safe_dump(spec), encoding="utf-8")
@@ -96,6 +105,7 @@ def main() -> int:
     parser.add_argument("--robosuite", type=Path, help="folder of an unpacked robosuite package")
     parser.add_argument("--pybullet-data", type=Path, help="folder of an unpacked pybullet_data package")
     parser.add_argument("--cold", action="store_true", help="decompose anew instead of reading the cache")
+    parser.add_argument("--write", type=Path, metavar="FOLDER", help="write the specifications there, build nothing")
     options = parser.parse_args()
     robosuite = package_folder("robosuite", options.robosuite)
     pybullet = package_folder("pybullet_data", options.pybullet_data)
@@ -107,11 +117,15 @@ def main() -> int:
         print("pybullet_data is not installed; the tray is left out (or give --pybullet-data).", file=sys.stderr)
     else:
         scenes["crowded tray"] = tray()
+    if options.write is not None:
+        unpack(options.write, robosuite, pybullet)
+        for name, spec in scenes.items():
+            path = options.write / f"{name.replace(' ', '_')}.yaml"
+            path.write_text(yaml.safe_dump(spec), encoding="utf-8")
+        return 0
     with tempfile.TemporaryDirectory() as folder:
         workspace = Path(folder)
-        shutil.copytree(robosuite / ROBOSUITE, workspace / "robosuite")
-        if pybullet is not None:
-            shutil.copytree(pybullet, workspace / "pybullet")
+        unpack(workspace, robosuite, pybullet)
         cache = (
             workspace / "cache" if options.cold else Path(os.environ.get("PAT3D_CACHE", "~/.cache/pat3d")).expanduser()
         )
