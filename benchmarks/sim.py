@@ -22,7 +22,7 @@ import warp as wp
 from sim_scenes import DENSITY, Pile, blobs, pile, tower
 
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.settle import Run, SettleOptions, settle
+from pat3d.sim.settling import Run, SettleOptions, settle
 
 TIME_STEP, FRICTION = 0.03, 0.2
 FRAMES = 60
@@ -30,6 +30,8 @@ FRAMES = 60
 
 WARM_UP = 2
 """Frames before the clock starts: modules load and graphs are recorded in them."""
+
+PARTS = ("one", "many", "scaling", "gradients", "mujoco")
 
 STILL = 1e-4
 """Motion of a frame under which the peer's bodies count as resting, three times in a row [m]."""
@@ -56,11 +58,8 @@ HEADER = "| what | ours | peer | peer / ours | where the time goes |\n|---|---|-
 def model_of(scene: Pile, device: str, worlds: int = 1) -> Model:
     """`scene` in each of `worlds` worlds."""
     builder = ModelBuilder()
-    for world in range(worlds):
-        if world:
-            builder.new_world()
-        scene.add_to(builder)
-    return builder.finalize(device)
+    scene.add_to(builder)
+    return builder.finalize(device, worlds=worlds)
 
 
 def options_of(scene: Pile) -> SettleOptions:
@@ -126,9 +125,9 @@ def one_world(device: str, python: str) -> list[Row]:
 def many_worlds(device: str, python: str, worlds: int = 1024) -> list[Row]:
     """Scenes a second, forward to rest, against the peer one after the other."""
     scene = tower(10)
-    settle(model_of(scene, device))
+    settle(model_of(scene, device), throw=False)
     model = model_of(scene, device, worlds)
-    seconds = timed(lambda: settle(model, options_of(scene)))
+    seconds = timed(lambda: settle(model, options_of(scene), throw=False))
     peer = libuipc(scene, python, 200)
     still = np.array(peer["motion"]) < STILL
     rest = next((k for k in range(3, len(still)) if still[k - 3 : k].all()), len(still))
@@ -155,6 +154,65 @@ def scaling(device: str) -> list[tuple[int, float, float]]:
     return found
 
 
+def gradients(device: str, frames: int = 300) -> list[Row]:
+    """Seconds of an optimisation iteration, forward and backward, and memory of many worlds."""
+    import torch
+
+    from pat3d.sim.rollouts import rollout
+
+    rows = []
+    many = [(tower(10), 256)] if wp.get_device(device).is_cuda else []
+    for scene, worlds in ((tower(10), 1), (pile(10), 1), *many):
+        model = model_of(scene, device, worlds)
+        q0 = torch.tensor(model.q0.reshape(worlds, -1, 12), requires_grad=True)
+        count = frames if worlds == 1 else 30
+        rollout(model, q0, until=3, options=options_of(scene)).q_end.sum().backward()
+        forward: list = []
+        ahead = timed(lambda m=model, q=q0, n=count, s=scene, out=forward: out.append(
+            rollout(m, q, until=n, options=options_of(s))
+        ))  # fmt: skip
+        loss = (forward[0].frames[::10, :, :, :3] ** 2).sum()
+        back = timed(loss.backward)
+        note = f"forward {ahead:.2f} s, backward {back:.2f} s"
+        if wp.get_device(device).is_cuda:
+            place = wp.get_device(device)
+            note += f", {(place.total_memory - place.free_memory) / 1e9:.1f} GB in use"
+        row = Row(
+            what=f"{scene.name}, {worlds} worlds, {count} frames there and back, s", ours=f"{ahead + back:.2f}",
+            peer="2.5 x forward", ratio=2.5 * ahead / (ahead + back), note=note,
+        )  # fmt: skip
+        print(row, flush=True)
+        rows.append(row)
+    return rows
+
+
+def against_mujoco(prompts: list[str]) -> list[Row]:
+    """Seconds to rest on the CPU of generated scenes, and what MuJoCo takes for its 5 s on the same file."""
+    from pat3d.check.settle import settle_in_mujoco
+    from pat3d.pipeline import generate
+    from pat3d.rest import come_to_rest
+
+    seconds, ratios = [], []
+    for prompt in prompts:
+        with tempfile.TemporaryDirectory() as folder:
+            scene = generate(prompt, out=f"{folder}/scene")
+            ours = min(timed(lambda s=scene: come_to_rest(s)) for _ in range(2))
+            theirs = timed(lambda f=folder: settle_in_mujoco(Path(f) / "scene" / "mjcf" / "scene.xml"))
+        seconds.append(ours)
+        ratios.append(theirs / ours)
+        hulls = sum(len(obj.asset.parts) for obj in scene.objects)
+        print(
+            f"{ours:.2f} s, MuJoCo {theirs:.2f} s, {len(scene.objects)} bodies of {hulls} hulls: {prompt[:60]}",
+            flush=True,
+        )
+    row = Row(
+        what=f"{len(prompts)} prompts to rest, s", ours=f"{statistics.median(seconds):.2f} (worst {max(seconds):.2f})",
+        peer="MuJoCo, 5 s simulated", ratio=statistics.median(ratios), note=f"worst ratio {min(ratios):.2g}",
+    )  # fmt: skip
+    print(row)
+    return [row]
+
+
 def timed(call: Callable[[], object]) -> float:
     """Seconds of one call."""
     wp.synchronize()
@@ -169,15 +227,23 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu")
     parser.add_argument("--libuipc", metavar="PYTHON", default=sys.executable, help="interpreter that has pyuipc")
-    parser.add_argument("--only", nargs="+", choices=("one", "many", "scaling"), default=("one", "many", "scaling"))
+    parser.add_argument("--only", nargs="+", choices=PARTS, help="parts to run (all that fit)")
+    parser.add_argument("--prompts", type=Path, default=Path(__file__).parent / "prompts.txt", help="for the CPU")
     options = parser.parse_args()
+    gpu = options.device == "cuda"
+    parts = options.only or (("one", "many", "scaling", "gradients") if gpu else ("gradients", "mujoco"))
     print(HEADER)
-    if "one" in options.only:
+    if "one" in parts:
         one_world(options.device, options.libuipc)
-    if "many" in options.only:
+    if "many" in parts:
         many_worlds(options.device, options.libuipc)
-    if "scaling" in options.only:
+    if "scaling" in parts:
         scaling(options.device)
+    if "gradients" in parts:
+        gradients(options.device)
+    if "mujoco" in parts:
+        lines = [line.strip() for line in options.prompts.read_text(encoding="utf-8").splitlines()]
+        against_mujoco([line for line in lines if line and not line.startswith("#")])
 
 
 if __name__ == "__main__":

@@ -142,7 +142,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
     world = ET.SubElement(root, "worldbody")
     _ground_and_lights(assets, world, scene)
     contacts = find_contacts(scene, CONTACT_GAP)
-    margins, flush = _margins(scene, contacts), _flush_boxes(scene, contacts)
+    margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
     stored: dict[int, str] = {}
     state: list[float] = []
     for obj, margin in zip(scene.objects, margins, strict=True):
@@ -262,7 +262,7 @@ def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: fl
                 geom.set("quat", _text(*quat))
 
 
-def _margins(scene: Scene, contacts: Contacts) -> list[float]:
+def contact_margins(scene: Scene, contacts: Contacts) -> list[float]:
     """Contact margin of every object [m]: the least that makes each pair's sum exceed its gap.
 
     The ground has none of its own. A fifth more than the gap, and at least a micrometre a pair, keeps the
@@ -294,7 +294,7 @@ def _margins(scene: Scene, contacts: Contacts) -> list[float]:
     return (np.clip(result.x, 0.0, 1.0) * unit).tolist()
 
 
-def _flush_boxes(scene: Scene, contacts: Contacts) -> set[int]:
+def flush_boxes(scene: Scene, contacts: Contacts) -> set[int]:
     """Identities of the assets with a box that touches another box whose sides lie in the same plane as its own."""
     found: set[int] = set()
     pairs = np.unique(np.concatenate([contacts.bodies, contacts.parts], axis=1), axis=0).tolist()

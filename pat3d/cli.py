@@ -20,6 +20,11 @@ EXAMPLES = {
   pat3d build scene.yaml --out scenes/mine
   pat3d build --schema > scene.schema.json
 """,
+    "optimize": """
+  pat3d optimize scenes/tower                    mend the scene in its folder
+  pat3d optimize scenes/tower --out scenes/mend  write another folder, leave this one as it is
+  pat3d optimize scenes/tower --starts 1         gradient steps from the scene's own layout only
+""",
     "check": """
   pat3d check scenes/mug
 """,
@@ -61,6 +66,17 @@ def parser() -> argparse.ArgumentParser:
     building.add_argument("spec", metavar="SCENE.YAML", nargs="?", help="the specification")
     building.add_argument("--schema", action="store_true", help="print the JSON schema of specifications and stop")
     _add_making(building, seed=None, friction=None)
+
+    mending = command(
+        "optimize", "find an initial layout that keeps the scene's relations while it settles, where its own does not"
+    )  # fmt: skip
+    mending.add_argument("folder", metavar="SCENE", help="scene folder that generate or build wrote")
+    mending.add_argument("--out", metavar="FOLDER", help="scene folder to write (default: SCENE is replaced)")
+    mending.add_argument("--epochs", type=int, default=50, help="gradient steps at most; 0 for none (50)")
+    mending.add_argument("--starts", type=int, default=6,
+                         help="layouts tried before gradients, the scene's own among them (6)")  # fmt: skip
+    mending.add_argument("--seed", type=int, help="of the layouts tried (the scene's)")
+    mending.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
 
     checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
     checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")

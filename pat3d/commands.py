@@ -8,7 +8,7 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from pat3d.console import console, show_proof, show_report, watch
+from pat3d.console import console, show_mended, show_proof, show_report, watch
 from pat3d.errors import SpecError
 
 
@@ -46,6 +46,23 @@ def build(options: argparse.Namespace) -> int:
             formats=tuple(options.formats), resume=options.resume, progress=progress,
         )  # fmt: skip
     return _finished(outcome, options.out)
+
+
+def optimize(options: argparse.Namespace) -> int:
+    """`pat3d optimize`."""
+    from pat3d.improve import available, missing
+
+    if not available():
+        raise missing()
+    from pat3d.improve_folder import optimize_folder
+
+    with watch(console(stderr=True)) as progress:
+        outcome = optimize_folder(
+            options.folder, out=options.out, epochs=options.epochs, starts=options.starts, seed=options.seed,
+            device=options.device, progress=progress,
+        )  # fmt: skip
+    show_mended(console(), outcome)
+    return _verdict(outcome.failures)
 
 
 def _finished(outcome, out: str) -> int:

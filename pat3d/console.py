@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pat3d.progress import Event, Progress
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from pat3d.check.proof import Proof
+    from pat3d.improve_folder import Outcome
     from pat3d.report import Report
     from pat3d.scene import Scene
 
@@ -70,6 +71,8 @@ def _words(event: Event) -> str:
         text += f", step {event.step}"
     if event.motion is not None:
         text += f", moving {_length(event.motion)}"
+    if event.loss is not None:
+        text += f", loss {event.loss:.2g} m^2"
     return f"{text}: {event.detail}" if event.detail else text
 
 
@@ -137,15 +140,51 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
 
 def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
+    from pat3d.improve import TORCH, available
+
     delivery = report.delivery
     best = delivery.best
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
+    show_optimisation(target, delivery.checked.rest.optimisation)
     for note in (*report.order.get("notes", ()), *best.notes):
         target.print(f"note  {note}", markup=False)
+    if report.failures and delivery.checked.rest.optimisation is None and not available():
+        target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
     if len(delivery.tried) > 1:
         target.print(f"note  attempt {best.number + 1} of {len(delivery.tried)} was kept", markup=False)
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
-    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png"):
-        target.print(f"  {folder / name}", markup=False, soft_wrap=True)
+    show_files(target, folder)
+
+
+def show_mended(target: Console, outcome: Outcome) -> None:
+    """The summary that ends `pat3d optimize`."""
+    if outcome.skipped:
+        target.print("every relation holds already; the scene is left as it is", markup=False)
+        return
+    if outcome.proof is None:
+        show_optimisation(target, outcome.improved.record(kept=False))
+        target.print("the scene is left as it is", markup=False)
+        return
+    show_proof(target, outcome.scene, outcome.proof)
+    show_optimisation(target, outcome.improved.record(kept=True))
+    target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
+    show_files(target, outcome.folder)
+
+
+def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None:
+    """What an optimisation did, from its record; nothing where there was none."""
+    from pat3d.improve import in_words
+
+    if record is not None:
+        target.print(f"optimisation: {in_words(record)}", markup=False)
+
+
+def show_files(target: Console, folder: Path) -> None:
+    """The files of a scene folder that a person would open."""
+    from pat3d.improve import PICTURES
+
+    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png", *PICTURES):
+        if (folder / name).is_file():
+            target.print(f"  {folder / name}", markup=False, soft_wrap=True)

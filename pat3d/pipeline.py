@@ -21,7 +21,7 @@ from pat3d.plan.scene_plan import Planner
 from pat3d.progress import Event, Progress, silent
 from pat3d.report import Clock, Report
 from pat3d.scene import Scene
-from pat3d.scene_folder import check_target, replacing, write_json, write_trajectory
+from pat3d.scene_folder import check_target, replacing, write_json, write_pictures, write_trajectory
 from pat3d.scene_io import save_scene
 from pat3d.workspace import Workspace
 
@@ -214,6 +214,7 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
             delivery.checked.mjcf.rename(fresh / "mjcf")
             names = tuple(obj.name for obj in scene.objects)
             write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
+            write_pictures(rest.pictures, fresh)
         with clock("preview"):
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")

@@ -14,7 +14,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.sim.model import Model
-from pat3d.sim.settle import Progress, Run, SettleOptions, StepRecord, Tape
+from pat3d.sim.settling import Progress, Run, SettleOptions, StepRecord, Tape, copy_worlds
 from pat3d.sim.solvers.newton import NewtonResult
 
 GRADIENT_RESIDUAL = 1.0e-9
@@ -38,8 +38,8 @@ class Recording:
     every: int
     steps: list[StepRecord]
     calls: list[Call]
-    references: dict[int, NDArray[np.float64]]
-    """Friction's reference at the start of kept steps that count from a state that was not kept."""
+    references: dict[int, wp.array]
+    """Friction's reference at the start of kept steps that count from a state that was not kept, on the device."""
 
 
 class RecordedRun(Run):
@@ -66,7 +66,7 @@ class RecordedRun(Run):
         self.kept = [0]
         self.every = every
         self.calls: list[Call] = []
-        self.references: dict[int, NDArray[np.float64]] = {}
+        self.references: dict[int, wp.array] = {}
         super().__init__(model, options, progress, q0, Tape())
         self.coefficient = friction
         self.potential.friction.coefficient.assign(friction)
@@ -78,7 +78,7 @@ class RecordedRun(Run):
         assert tape is not None
         reference = self.reference[active]
         if number % self.every == 0 and np.any((reference != number) & (reference % self.every != 0)):
-            self.references[number] = self.potential.friction.reference.numpy().reshape(-1, 4, 3).copy()
+            self.references[number] = wp.clone(self.potential.friction.reference)
         self.calls.append((weight.copy(), tolerances))
         result = super().step(active, weight, **tolerances)
         if number % self.every:
@@ -86,14 +86,14 @@ class RecordedRun(Run):
         self.kept.append(number + 1)
         return result
 
-    def recorded(self) -> tuple[Recording, NDArray[np.float64]]:
-        """The record so far, and the kept states, shape (kept, bodies, 4, 3)."""
+    def recorded(self) -> tuple[Recording, list[wp.array]]:
+        """The record so far, and the kept states, shape (bodies, 4), vec3d each."""
         assert self.tape is not None
         record = Recording(
             model=self.model, options=self.options, friction=self.coefficient, kept=np.array(self.kept),
             every=self.every, steps=self.tape.steps, calls=self.calls, references=self.references,
         )  # fmt: skip
-        return record, np.stack(self.tape.states)
+        return record, self.tape.states
 
 
 class Replay:
@@ -101,70 +101,81 @@ class Replay:
 
     def __init__(self, record: Recording):
         self.record = record
-        self.world = record.model.world_of
-        start = np.zeros((record.model.bodies, 4, 3))
-        self.run = Run(record.model, record.options, lambda *_: None, start)
+        model = record.model
+        self.run = Run(model, record.options, lambda *_: None, np.zeros((model.bodies, 4, 3)))
         self.run.potential.friction.coefficient.assign(record.friction)
+        self.start = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
+        """State from which the step prepared last starts."""
+        self.lag_reach = wp.zeros(1, dtype=wp.float64, device=model.device)
+        """Barrier activation distance at which its friction was recorded [m], shape (1,)."""
+        self._sigma = np.zeros(0)
+        self._reference = wp.zeros_like(self.start)
+        self._members = wp.zeros(model.worlds, dtype=int, device=model.device)
 
-    def prepare(self, k: int, start: NDArray[np.float64], reference: NDArray[np.float64]) -> wp.array:
-        """Set everything that step k depends on, friction's record included; returns its start on the device.
+    def prepare(self, k: int, start: wp.array, reference: wp.array) -> None:
+        """Set everything that step k depends on, friction's record included; the candidates then cover its start.
 
         Args:
             k: number of the step.
-            start: state it starts from, shape (bodies, 4, 3).
-            reference: state friction displacements count from, shape (bodies, 4, 3).
+            start: state it starts from, shape (bodies, 4), vec3d.
+            reference: state friction displacements count from, shape (bodies, 4), vec3d.
         """
-        step, run = self.record.steps[k], self.run
-        state = wp.array(np.ascontiguousarray(start), dtype=wp.vec3d, device=run.model.device)
-        run.potential.friction.epsilon = step.epsilon
-        run.potential.friction.reference.assign(reference)
-        run.potential.inertia.start.assign(state)
-        run.potential.inertia.sigma.assign(step.sigma)
+        step, run, potential = self.record.steps[k], self.run, self.run.potential
+        potential.friction.epsilon = step.epsilon
+        wp.copy(potential.friction.reference, reference)
+        wp.copy(potential.inertia.start, start)
+        wp.copy(self.start, start)
+        if not np.array_equal(step.sigma, self._sigma):
+            self._sigma = step.sigma
+            potential.inertia.sigma.assign(step.sigma)
         run.set_reach(step.lag_d_hat)
-        run.potential.record_friction(state)
+        potential.record_friction(self.start)
+        wp.copy(self.lag_reach, potential.contact.reach)
         run.set_reach(step.d_hat)
-        return state
 
-    def stretch(self, first: int, last: int, states: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    def stretch(self, first: int, last: int, states: wp.array) -> list[wp.array]:
         """States `first` to `last`, of which the first and the last are kept.
 
         Args:
             first: number of a kept state.
             last: number of the next one.
-            states: all kept states, shape (kept, bodies, 4, 3).
+            states: all kept states, shape (kept, bodies, 4), vec3d.
         """
         index = first // self.record.every
-        inner = [states[index]]
+        inner: list[Any] = [states[index]]
         for k in range(first, last - 1):
-            self.run.q.assign(self.prepare(k, inner[-1], self.reference(k, first, inner, states)))
+            self.prepare(k, inner[-1], self.reference(k, first, inner, states))
+            wp.copy(self.run.q, self.start)
             weight, tolerances = self.record.calls[k]
             self.run.step(self.record.steps[k].active, weight, **tolerances)
-            inner.append(self.run.state())
-        return [*inner, states[index + 1]]
+            inner.append(wp.clone(self.run.q))
+        inner.append(states[index + 1])
+        return inner
 
-    def reference(
-        self, k: int, first: int, inner: list[NDArray[np.float64]], states: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """State that the friction of step k counts displacements from, shape (bodies, 4, 3).
+    def reference(self, k: int, first: int, inner: list[wp.array], states: wp.array) -> wp.array:
+        """State that the friction of step k counts displacements from, shape (bodies, 4), vec3d.
 
         Args:
             k: number of the step.
             first: number of the kept state at or before it.
             inner: states from that one on.
-            states: all kept states.
+            states: all kept states, shape (kept, bodies, 4), vec3d.
         """
         numbers = self.record.steps[k].reference
-        result = np.empty_like(inner[0])
-        for number in np.unique(numbers):
+        distinct = np.unique(numbers)
+        for number in distinct:
+            source: Any
             if number >= first:
                 source = inner[number - first]
             elif number % self.record.every == 0:
-                source = states[number // self.record.every]
+                source = states[int(number) // self.record.every]
             elif first in self.record.references:
                 source = self.record.references[first]
             else:
                 # Only worlds that this step leaves alone.
                 source = inner[0]
-            members = numbers[self.world] == number
-            result[members] = source[members]
-        return result
+            if len(distinct) == 1:
+                return source
+            self._members.assign((numbers == number).astype(np.int32))
+            copy_worlds(self.record.model, self._members, source, self._reference)
+        return self._reference

@@ -7,10 +7,14 @@ interval. Steps of 1e-7 balance truncation against what rollouts converged to th
 import numpy as np
 import pytest
 import torch
+import warp as wp
 
 from pat3d.scene import Pose
+from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.rollout import rollout
+from pat3d.sim.recording import RecordedRun, Recording
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions
 from tests.sim.builders import add_hull, box_points
 
 
@@ -91,6 +95,37 @@ def test_the_lagged_normal_and_closest_points_matter(monkeypatch):
 def test_settling_to_rest_has_the_gradient_of_central_differences(scene, friction):
     """Through the coarse polish, the shrinking barrier and steps whose friction counts from an anchor."""
     assert relative_error(scene(), "rest", frames=(-3, -1), friction=friction) < 1e-6
+
+
+@pytest.mark.parametrize("scene", [stack, round_on_block])
+def test_an_anchor_that_stays_behind_carries_its_share_of_the_gradient(scene):
+    """Friction of all steps counts from the first state, on which later states depend anything but one to one."""
+    model = scene()
+    rng = np.random.default_rng(3)
+    weight, direction = rng.normal(size=(2, *model.q0.shape)) * model.is_free[:, None, None]
+
+    def run(q0: np.ndarray) -> tuple[Recording, np.ndarray]:
+        recorded = RecordedRun(model, SettleOptions(), np.array([0.5]), 1, q0)
+        recorded.set_reach(1e-3)
+        recorded.potential.friction.epsilon = 1e-3
+        everything = np.ones(1, dtype=bool)
+        recorded.anchor(everything)
+        for _ in range(4):
+            recorded.record_friction()
+            recorded.step(
+                everything, np.ones(1), move_tolerance=1e-5, residual_tolerance=1e-9, exact_below=1e-2,
+                max_iterations=100,
+            )  # fmt: skip
+        record, states = recorded.recorded()
+        return record, np.stack([state.numpy() for state in states])
+
+    record, states = run(model.q0)
+    losses = np.zeros_like(states)
+    losses[-1] = weight
+    kept, by_kept = (wp.array(x, dtype=wp.vec3d, device="cpu") for x in (states, losses))
+    analytic = float(np.sum(backward(record, kept, by_kept).q0 * direction))
+    ends = [np.sum(run(model.q0 + h * direction)[1][-1] * weight) for h in (1e-7, -1e-7)]
+    assert analytic == pytest.approx((ends[0] - ends[1]) / 2e-7, rel=1e-6)
 
 
 def test_gradient_of_a_settled_scene():

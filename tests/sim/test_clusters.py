@@ -14,7 +14,7 @@ from pat3d.sim.contact import clusters
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.intersection import GROUND_BODY, intersecting_bodies
 from pat3d.sim.model import ModelBuilder, sharp_edges
-from pat3d.sim.settle import Run, SettleOptions
+from pat3d.sim.settling import Run, SettleOptions
 from tests.sim.builders import box_points
 
 
@@ -173,7 +173,7 @@ def test_a_small_body_anywhere_in_a_lump_intersects_where_trimesh_says(seed):
     hit = np.isin(np.arange(60), pairs[:, 0] // 2)
     # Cubes across the surface intersect; those that only a face's bulge could touch are not judged by their corners.
     assert hit[~clear].all()
-    far = np.abs(trimesh.proximity.signed_distance(shape, centres)) > 0.003
+    far = np.abs(np.asarray(trimesh.proximity.signed_distance(shape, centres))) > 0.003
     np.testing.assert_array_equal(hit[clear & far], inside.any(axis=1)[clear & far])
 
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from pat3d.sim.settle import SettleOptions, settle
+from pat3d.sim.settling import SettleOptions, settle
 from tests.sim.drops import KINDS, random_scene
 from tests.sim.oracles import intersections
 
@@ -17,7 +17,7 @@ BATCH = 100
 def check(kind: str, seed: int) -> list[str]:
     """What went wrong with a scene."""
     model = random_scene(kind, seed)
-    settled = settle(model, SettleOptions(max_frames=150))
+    settled = settle(model, SettleOptions(max_frames=150), throw=False)
     wrong = [f"{kind} {seed}: frame {i} intersects {pairs}" for i, pairs in intersections(model, settled).items()]
     if not settled.at_rest.all():
         wrong.append(f"{kind} {seed}: not at rest, residual {settled.residual.max():.2g}")

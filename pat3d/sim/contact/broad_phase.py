@@ -47,6 +47,7 @@ class Candidates:
         self._margin = wp.zeros(1, dtype=wp.float64, device=device)
         self.built = False
         """Whether the boxes hold for the present reach."""
+        self._reach = 0.0
         self._reserve(CAPACITY)
 
     @property
@@ -58,9 +59,9 @@ class Candidates:
         self.kind = wp.zeros(capacity, dtype=int, device=self.model.device)
         self.primitives = wp.zeros(capacity, dtype=wp.vec4i, device=self.model.device)
 
-    def invalidate(self) -> None:
-        """Forget the boxes, so that the next `cover` rebuilds (the barrier's reach changed)."""
-        self.built = False
+    def require(self, reach: float) -> None:
+        """Forget the boxes where they were made for a shorter reach of the barrier [m]."""
+        self.built &= reach <= self._reach
 
     def cover(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
         """Hold every pair that comes within `reach` while vertices move straight from `start` to `end`.
@@ -71,6 +72,7 @@ class Candidates:
             reach: barrier activation distance d_hat [m].
             skin: motion beyond the boxes that a rebuild leaves room for [m].
         """
+        self.require(reach)
         if self.built:
             self._outside.zero_()
             self.flag_outside(start, end, self._outside)
@@ -91,6 +93,7 @@ class Candidates:
         boxes = self._boxes
         boxes.enclose(start, end, 0.5 * reach + skin)
         _, close = boxes.close_pairs()
+        self._reach = reach
         self._margin.fill_(0.5 * reach)
         while True:
             self.size.zero_()

@@ -31,6 +31,7 @@ class BarrierContact:
         """kappa [N], shape (worlds,)."""
         self.reach = wp.zeros(1, dtype=wp.float64, device=model.device)
         """d_hat on the device [m], shape (1,)."""
+        self._d_hat = 0.0
         self.d_hat = 1.0e-3
 
     @property
@@ -40,6 +41,8 @@ class BarrierContact:
 
     @d_hat.setter
     def d_hat(self, value: float) -> None:
+        if value == self._d_hat:
+            return
         self._d_hat = value
         self.reach.fill_(value)
 

@@ -35,10 +35,10 @@ def pull_back_reach(
     """
     candidates = contact.candidates
     wp.launch(
-        _pull_back, dim=candidates.count, device=model.device,
+        _pull_back, dim=candidates.capacity, device=model.device,
         inputs=[
-            model.body_world, model.vertex_rest, model.vertex_body, contact.stiffness, contact.d_hat,
-            candidates.kind, candidates.primitives, position, adjoint,
+            model.body_world, model.vertex_rest, model.vertex_body, contact.stiffness, contact.reach,
+            candidates.size, candidates.kind, candidates.primitives, position, adjoint,
         ],
         outputs=[reach],
     )  # fmt: skip
@@ -51,8 +51,9 @@ def _pull_back(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    activation: wp.array(dtype=wp.float64),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
@@ -61,6 +62,9 @@ def _pull_back(
     reach: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    d_hat = activation[0]
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
     d = contact.distance
     if d >= d_hat:

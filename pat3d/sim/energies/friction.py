@@ -31,7 +31,9 @@ class Friction:
 
     def __init__(self, model: Model):
         self.model = model
-        self._scale = wp.zeros(1, dtype=wp.float64, device=model.device)
+        self.scale = wp.zeros(1, dtype=wp.float64, device=model.device)
+        """epsilon on the device [m], shape (1,)."""
+        self._epsilon = 0.0
         self.epsilon = 1.0e-5
         self.reference = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
         """State from which displacements count, shape (bodies, 4), vec3d."""
@@ -50,8 +52,10 @@ class Friction:
 
     @epsilon.setter
     def epsilon(self, value: float) -> None:
+        if value == self._epsilon:
+            return
         self._epsilon = value
-        self._scale.fill_(value)
+        self.scale.fill_(value)
 
     @property
     def capacity(self) -> int:
@@ -92,7 +96,7 @@ class Friction:
     def _inputs(self, q: wp.array, worlds: wp.array) -> list:
         model = self.model
         return [
-            model.body_world, model.body_dof, self.coefficient, self._scale, worlds,
+            model.body_world, model.body_dof, self.coefficient, self.scale, worlds,
             self.size, self._bodies, self._coefficients, self._normal, self._force, self.reference, q,
         ]  # fmt: skip
 

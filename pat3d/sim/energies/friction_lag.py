@@ -34,7 +34,7 @@ def pull_back_lag(
     friction: Friction,
     candidates: Candidates,
     position: wp.array,
-    d_hat: float,
+    record_reach: wp.array,
     stiffness: wp.array,
     q: wp.array,
     adjoint: wp.array,
@@ -49,7 +49,7 @@ def pull_back_lag(
         friction: coefficient, epsilon and reference state of the step.
         candidates: pairs that cover the recorded state.
         position: vertex positions of the recorded state [m], shape (vertices,), vec3d.
-        d_hat: barrier activation distance at the record [m].
+        record_reach: barrier activation distance at the record [m], shape (1,).
         stiffness: barrier stiffness [N], shape (worlds,).
         q: state at the end of the step, shape (bodies, 4), vec3d.
         adjoint: w, shape (bodies, 4), vec3d.
@@ -58,10 +58,11 @@ def pull_back_lag(
         reach: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
     """
     wp.launch(
-        _pull_back, dim=candidates.count, device=model.device,
+        _pull_back, dim=candidates.capacity, device=model.device,
         inputs=[
-            model.body_world, model.vertex_rest, model.vertex_body, stiffness, d_hat, friction.coefficient,
-            friction.epsilon, candidates.kind, candidates.primitives, position, friction.reference, q, adjoint,
+            model.body_world, model.vertex_rest, model.vertex_body, stiffness, record_reach, friction.coefficient,
+            friction.scale, candidates.size, candidates.kind, candidates.primitives,
+            position, friction.reference, q, adjoint,
         ],
         outputs=[recorded, reference, reach],
     )  # fmt: skip
@@ -91,10 +92,11 @@ def _pull_back(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    activation: wp.array(dtype=wp.float64),
     coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
+    scale: wp.array(dtype=wp.float64),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
@@ -107,6 +109,10 @@ def _pull_back(
     reach: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    d_hat = activation[0]
+    epsilon = scale[0]
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
     d = contact.distance
     if d >= d_hat:

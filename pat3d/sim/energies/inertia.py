@@ -53,7 +53,8 @@ class Inertia:
 
 
 @wp.func
-def _mass_matrix(i: int, j: int, mass: wp.float64, moment: wp.mat33d) -> wp.float64:
+def mass_matrix(i: int, j: int, mass: wp.float64, moment: wp.mat33d) -> wp.float64:
+    """Entry of diag(m, S) [kg, kg m^2]."""
     if i == 0 or j == 0:
         if i == j:
             return mass
@@ -87,7 +88,7 @@ def _value(
     for i in range(4):
         pull = wp.vec3d()
         for j in range(4):
-            pull += s * _mass_matrix(i, j, mass, body_moment[body]) * (q[body, j] - start[body, j])
+            pull += s * mass_matrix(i, j, mass, body_moment[body]) * (q[body, j] - start[body, j])
         total += wp.float64(0.5) * wp.dot(q[body, i] - start[body, i], pull)
         if i == 0:
             pull += wp.vec3d(wp.float64(0.0), wp.float64(0.0), mass * _G)
@@ -116,6 +117,6 @@ def _hessian(
     base = 12 * body_dof[body]
     for i in range(4):
         for j in range(4):
-            weight = sigma[world] * _mass_matrix(i, j, body_mass[body], body_moment[body])
+            weight = sigma[world] * mass_matrix(i, j, body_mass[body], body_moment[body])
             for k in range(3):
                 hessian[world, base + 3 * i + k, base + 3 * j + k] += weight

@@ -84,28 +84,16 @@ class DenseSolver:
             if size:
                 solution[w, :size] = _solve_convex(matrices[w, :size, :size], right[w, :size])
 
-    def solve(self, hessian: wp.array, right: NDArray[np.float64], active: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Solution of H x = right for symmetric H, not necessarily definite.
-
-        Args:
-            hessian: shape (worlds, unknowns, unknowns), float64.
-            right: shape (bodies, 4, 3).
-            active: worlds to solve, shape (worlds,).
-
-        Returns:
-            x, shape (bodies, 4, 3); zero for fixed bodies and inactive worlds.
-        """
-        self.set_right_side(hessian, wp.array(-right, dtype=wp.vec3d, device=self.model.device))
-        matrices, vectors, solution = hessian.numpy(), self._right.numpy(), self._solution.numpy()
-        solution[...] = 0.0
+    def solve_symmetric(self, hessian: wp.array, active: NDArray[np.bool_]) -> None:
+        """Solve the systems of the active worlds as they are, definite or not; arguments as above."""
+        if self.torch is not None:
+            self._solve_some(self.torch, hessian, np.flatnonzero(active), _solve_symmetric_batch)
+            return
+        matrices, right, solution = hessian.numpy(), self._right.numpy(), self._solution.numpy()
         for w in np.flatnonzero(active):
             size = 12 * int(self.model.free_bodies[w])
             if size:
-                solution[w, :size] = solve(matrices[w, :size, :size], vectors[w, :size], assume_a="sym")
-        self._solution.assign(solution)
-        x = wp.zeros((self.model.bodies, 4), dtype=wp.vec3d, device=self.model.device)
-        self.get_solution(x)
-        return x.numpy().reshape(-1, 4, 3).copy()
+                solution[w, :size] = solve(matrices[w, :size, :size], right[w, :size], assume_a="sym")
 
     def launch_solve(self, hessian: wp.array) -> None:
         """Solve the systems of all worlds on the GPU, or mark them as unsolved; part of a program."""
@@ -152,6 +140,16 @@ def _solve_convex_batch(torch: Any, matrix: Any, right: Any) -> Any:
     if bool(info.any()):
         bad = info.nonzero()[:, 0]
         x[bad] = _turn_eigenvalues(torch, matrix[bad], right[bad])
+    return x
+
+
+def _solve_symmetric_batch(torch: Any, matrix: Any, right: Any) -> Any:
+    """Batched solution of symmetric systems, shape (worlds, unknowns)."""
+    factor, info = torch.linalg.cholesky_ex(matrix)
+    x = torch.cholesky_solve(right[..., None], factor)[..., 0]
+    if bool(info.any()):
+        bad = info.nonzero()[:, 0]
+        x[bad] = torch.linalg.solve(matrix[bad], right[bad])
     return x
 
 

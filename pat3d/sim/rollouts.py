@@ -24,7 +24,7 @@ from pat3d.errors import SimulationError
 from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model
 from pat3d.sim.recording import RecordedRun, Recording
-from pat3d.sim.settle import Progress, SettleOptions
+from pat3d.sim.settling import Progress, SettleOptions
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -106,7 +106,7 @@ def rollout(
     )
     ended: dict[str, Any] = {"at_rest": np.zeros(model.worlds, dtype=bool)}
 
-    def forward() -> tuple[Recording, NDArray[np.float64]]:
+    def forward() -> tuple[Recording, torch.Tensor]:
         # Factorisations of a few hundred unknowns lose more to the threads of BLAS than they gain.
         with threadpool_limits(limits=1, user_api="blas"):
             run.refuse_intersections()
@@ -116,7 +116,8 @@ def rollout(
                 ended["at_rest"], ended["residual"] = run.polish()
             else:
                 ended["residual"] = run.potential.residual(run.potential.gradient(run.q, inertia=False))
-        return run.recorded()
+        record, states = run.recorded()
+        return record, torch.stack([wp.to_torch(state).reshape(shape) for state in states])
 
     frames: Any = _Steps.apply(forward, *inputs)
     return Rollout(frames=frames, steps=np.array(run.kept), **ended)
@@ -147,7 +148,7 @@ class _Steps(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, run: Any, q0: torch.Tensor, *parameters: torch.Tensor) -> torch.Tensor:
         record, states = run()
-        frames = torch.from_numpy(states.reshape(-1, *q0.shape)).to(q0.device)
+        frames = states.to(q0.device)
         ctx.record, ctx.devices = record, [q0.device, *(parameter.device for parameter in parameters)]
         # Saved as torch saves: frames changed in place are noticed.
         ctx.save_for_backward(frames)
@@ -156,7 +157,11 @@ class _Steps(torch.autograd.Function):
     @staticmethod
     def backward(ctx: Any, *gradients: torch.Tensor) -> tuple[torch.Tensor | None, ...]:
         (frames,) = ctx.saved_tensors
-        states, losses = (part.detach().cpu().numpy().reshape(len(frames), -1, 4, 3) for part in (frames, gradients[0]))
+        device = wp.device_to_torch(ctx.record.model.device)
+        states, losses = (
+            wp.from_torch(part.detach().to(device).reshape(len(frames), -1, 4, 3).contiguous(), dtype=wp.vec3d)
+            for part in (frames, gradients[0])
+        )
         with threadpool_limits(limits=1, user_api="blas"):
             found = backward(ctx.record, states, losses, d_hat=ctx.needs_input_grad[4])
         results = (

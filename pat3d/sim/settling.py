@@ -12,7 +12,7 @@ fades, which ends at static equilibrium instead of creeping for ever.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from pat3d.sim.measures import StepMeasures
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.solvers.newton import Newton, NewtonResult
+from pat3d.sim.tape import StepRecord, Tape
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
@@ -73,33 +74,6 @@ class SettleOptions:
     """Unbalanced force of any body at rest over its weight."""
     move: float = 1.0e-8
     """Motion of any vertex in the last step at rest [m]."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class StepRecord:
-    """What one time step depended on besides the state it started from; enough to differentiate it."""
-
-    active: NDArray[np.bool_]
-    """Worlds that were stepped, shape (worlds,)."""
-    sigma: NDArray[np.float64]
-    """Inertia weight over the squared time step [1/s^2], shape (worlds,)."""
-    d_hat: float
-    """[m]"""
-    lag_d_hat: float
-    """Barrier activation distance at which friction was recorded [m]."""
-    epsilon: float
-    """[m]"""
-    reference: NDArray[np.int64]
-    """Index of the state from which friction displacements count, shape (worlds,)."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Tape:
-    """All states of a run and the steps between them, for the backward pass."""
-
-    states: list[NDArray[np.float64]] = field(default_factory=list)
-    """Shape (bodies, 4, 3) each; one more than steps."""
-    steps: list[StepRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -168,7 +142,7 @@ class Run:
         self.reference = np.zeros(model.worlds, dtype=np.int64)
         self.lag_d_hat = options.d_hat
         if tape is not None:
-            tape.states.append(self.state())
+            tape.states.append(wp.clone(self.q))
         self.frames = self.polish_steps = self.iterations = self.steps = 0
         self.throw = True
         """Whether a world that can never move on raises, or stays where it is."""
@@ -211,7 +185,7 @@ class Run:
     def set_reach(self, d_hat: float) -> None:
         """Change the barrier activation distance [m]."""
         self.potential.contact.d_hat = d_hat
-        self.potential.candidates.invalidate()
+        self.potential.candidates.require(d_hat)
 
     def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NewtonResult:
         """One time step with inertia scaled by `weight`, shape (worlds,), from a state whose friction is recorded."""
@@ -227,7 +201,7 @@ class Run:
         self.unconverged += active & ~result.converged
         self._halt(diagnose(self.newton, active, result))
         if self.tape is not None:
-            self.tape.states.append(self.state())
+            self.tape.states.append(wp.clone(self.q))
             self.tape.steps.append(
                 StepRecord(
                     active=active.copy(), sigma=sigma, d_hat=potential.contact.d_hat,
@@ -261,10 +235,7 @@ class Run:
         if self._last_anchored is None or not np.array_equal(worlds, self._last_anchored):
             self._last_anchored = worlds.copy()
             self._anchored.assign(worlds.astype(np.int32))
-        wp.launch(
-            _anchor, dim=self.model.bodies, device=self.model.device,
-            inputs=[self.model.body_world, self._anchored, self.q], outputs=[self.potential.friction.reference],
-        )  # fmt: skip
+        copy_worlds(self.model, self._anchored, self.q, self.potential.friction.reference)
 
     def record_friction(self) -> None:
         """Lag friction at the present state."""
@@ -396,17 +367,31 @@ def settle(
     return settled
 
 
+def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.array) -> None:
+    """Copy the states of the bodies of chosen worlds, shape (bodies, 4), vec3d, on the device.
+
+    Args:
+        model: the worlds.
+        worlds: nonzero for those to copy, shape (worlds,), int.
+        source: copied from.
+        target: copied to.
+    """
+    wp.launch(
+        _copy_worlds, dim=model.bodies, device=model.device, inputs=[model.body_world, worlds, source], outputs=[target]
+    )  # fmt: skip
+
+
 @wp.kernel
-def _anchor(
+def _copy_worlds(
     # Model
     body_world: wp.array(dtype=int),
     # State in
     worlds: wp.array(dtype=int),
-    q: wp.array2d(dtype=wp.vec3d),
+    source: wp.array2d(dtype=wp.vec3d),
     # Out
-    reference: wp.array2d(dtype=wp.vec3d),
+    target: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
     if worlds[body_world[body]] != 0:
         for i in range(4):
-            reference[body, i] = q[body, i]
+            target[body, i] = source[body, i]
