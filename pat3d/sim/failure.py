@@ -96,7 +96,8 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
     if not inside.any():
         return length, (-1, -1)
     at = int(np.argmin(np.where(inside, np.nan_to_num(allowed, nan=0.0), np.inf)))
-    others = body[pairs[at][pairs[at] >= 0]]
+    vertices = pairs[at]
+    others = body[vertices[vertices >= 0]]
     other = next((int(b) for b in others if b != others[0]), -1)
     return float(allowed[at]) * length, (int(others[0]), other)
 
