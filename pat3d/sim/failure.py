@@ -97,9 +97,9 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
         return length, (-1, -1)
     at = int(np.argmin(np.where(inside, np.nan_to_num(allowed, nan=0.0), np.inf)))
     vertices = pairs[at]
-    others = body[vertices[vertices >= 0]]
-    other = next((int(b) for b in others if b != others[0]), -1)
-    return float(allowed[at]) * length, (int(others[0]), other)
+    others = [int(body[v]) for v in vertices if v >= 0]
+    other = next((b for b in others if b != others[0]), -1)
+    return float(allowed[at]) * length, (others[0], other)
 
 
 def dump(model: Model, q: NDArray[np.float64], step: int, time_step: float) -> str:
