@@ -89,8 +89,8 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
     candidates = Candidates(model)
     candidates.rebuild(start, end, potential.contact.d_hat, SKIN)
     allowed = fractions(model, candidates, start, end)
-    body = model.vertex_body.numpy()
-    pairs = candidates.primitives.numpy()[: candidates.count]
+    body = np.asarray(model.vertex_body.numpy(), dtype=np.int64)
+    pairs = np.asarray(candidates.primitives.numpy()[: candidates.count], dtype=np.int64)
     inside = model.world_of[body[pairs[:, 0]]] == world
     length = min(reach, float(LONGEST_STEP))
     if not inside.any():
