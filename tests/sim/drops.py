@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from pat3d.assets.asset import ConvexPart
@@ -46,10 +48,9 @@ def random_body(kind: str, rng: np.random.Generator) -> list[ConvexPart]:
     return [convex_part(random_hull(rng) * rng.uniform(0.3, 1.2))]
 
 
-def random_scene(kind: str, seed: int) -> Model:
-    """Four bodies of `kind` above one another, in random orientations."""
+def add_random_bodies(builder: ModelBuilder, kind: str, seed: int) -> None:
+    """Add four bodies of `kind` above one another, in random orientations, to the present world."""
     rng = np.random.default_rng([KINDS.index(kind), seed])
-    builder = ModelBuilder()
     height = 0.02
     for i in range(4):
         scale, density = 1.0, float(10 ** rng.uniform(1.5, 3.5))
@@ -62,4 +63,17 @@ def random_scene(kind: str, seed: int) -> Model:
         place = (*(rng.uniform(-0.03, 0.03, 2) * scale), height)
         height += radius
         add_parts(builder, parts, Pose(position=place, quat_wxyz=tuple(quat / np.linalg.norm(quat))), density=density)
+
+
+def random_scene(kind: str, seed: int) -> Model:
+    """One world of four bodies of `kind`."""
+    return random_scenes(kind, [seed])
+
+
+def random_scenes(kind: str, seeds: Sequence[int]) -> Model:
+    """A world of four bodies of `kind` for every seed."""
+    builder = ModelBuilder()
+    for seed in seeds:
+        builder.new_world()
+        add_random_bodies(builder, kind, seed)
     return builder.finalize("cpu")
