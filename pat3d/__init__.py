@@ -2,13 +2,16 @@
 
     scene = pat3d.generate("a red mug on a wooden table", out="scenes/mug")
 
-The names below load what they need when they are first used; importing `pat3d` alone is cheap.
+The names below load what they need when they are first used; importing `pat3d` alone is cheap. It registers the
+environment "PAT3D-v0" with Gymnasium, at once or as soon as Gymnasium is imported.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from pat3d.envs.registration import register_with_gymnasium
 
 if TYPE_CHECKING:
     from pat3d.pipeline import build, generate
@@ -34,3 +37,6 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
+
+
+register_with_gymnasium()

@@ -63,6 +63,7 @@ def examine(target: Console) -> int:
             row("ok", package, f"{found}: {what}")
         else:
             row("no", package, f"not installed; would enable {what}: {_extra(package)}")
+    _engines(row)
     from pat3d.assets.cache import cache_root
 
     row("ok", "mesh cache", _folder(cache_root()))
@@ -89,13 +90,27 @@ def _warp(row: Any) -> bool:
     return True
 
 
-def _egl(row: Any) -> None:
-    from pat3d.view.gl import probe_egl
+def _engines(row: Any) -> None:
+    """Report which engines `pat3d check --engines` can run."""
+    from pat3d.check.engines.environments import NAMES, engines_root, how_to_get, is_made
 
-    if probe_egl():
-        row("ok", "EGL", "MuJoCo's own renderer works too (MUJOCO_GL=egl)")
-    else:
+    for name in NAMES:
+        if is_made(name):
+            row("ok", name, f"engine for pat3d check --engines, in {engines_root() / name}")
+        else:
+            row("no", name, f"would let pat3d check --engines run scenes there: {how_to_get(name)}")
+
+
+def _egl(row: Any) -> None:
+    from pat3d.view.gl import egl_renderer, is_software
+
+    card = egl_renderer()
+    if card is None:
         row("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
+    elif is_software(card):
+        row("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
+    else:
+        row("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
 
 
 def _cores() -> int:

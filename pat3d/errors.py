@@ -42,3 +42,17 @@ class CheckError(Pat3dError):
     """A scene failed its proof: certificate, penetration or settling."""
 
     exit_code = 1
+
+
+class EnvironmentSetupError(Pat3dError):
+    """A scene, task, robot or option from which no environment can be made."""
+
+
+class UnsettledSceneError(Pat3dError):
+    """A scene that moves when MuJoCo loads it; nothing may be measured on it."""
+
+    exit_code = 1
+
+
+class TaskError(Pat3dError):
+    """A task that its scene does not allow: done already, out of reach, or too wide for the gripper."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pat3d.attempts import Delivery
     from pat3d.check.proof import Proof
+    from pat3d.exporters.reload import ParityReport
     from pat3d.rest import Rest
     from pat3d.scene import Scene
 
@@ -51,15 +52,19 @@ class Report:
     """Stages taken from an earlier run."""
     seconds: Mapping[str, float]
 
+    exports: Mapping[str, ParityReport] = field(default_factory=dict)
+    """What was found in every format when it was read back."""
+
     @property
     def passed(self) -> bool:
-        """Whether the scene is proven."""
-        return self.delivery.best.passed
+        """Whether the scene is proven, and every format says the same."""
+        return self.delivery.best.passed and all(report.passed for report in self.exports.values())
 
     @property
     def failures(self) -> tuple[str, ...]:
         """What disproves the scene, a line each."""
-        return self.delivery.best.failures
+        lines = [line for report in self.exports.values() for line in report.failures]
+        return (*self.delivery.best.failures, *lines)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
@@ -77,6 +82,7 @@ class Report:
             **of_scene(scene, checked.rest, checked.proof),
             "understood": dict(self.order),
             "layout": {"seed": best.layout_seed, "notes": list(best.notes)},
+            "exports": {name: report.as_dict() for name, report in self.exports.items()},
             "attempts": [attempt.as_dict() for attempt in self.delivery.tried],
             "delivered_attempt": best.number + 1,
             "inputs": {"order": self.delivery.key, **best.inputs},

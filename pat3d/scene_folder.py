@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
 
-OWN = ("scene.json", "assets", "mjcf", "usd", "urdf", "report.json", "preview.png", "trajectory.npz",
-       "loss.png", "before_after.png")  # fmt: skip
+OWN = (
+    "scene.json", "assets", "mjcf", "usd", "urdf", "sdf", "report.json", "summary.json", "preview.png",
+    "trajectory.npz", "loss.png", "before_after.png",
+)  # fmt: skip
 """What a scene folder holds; anything else in it is the user's and is kept."""
 
 MAX_REPORT_BYTES = 16 * 2**20

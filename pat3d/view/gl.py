@@ -14,17 +14,37 @@ data = mujoco.MjData(model)
 mujoco.mj_forward(model, data)
 with mujoco.Renderer(model, 64, 64) as renderer:
     renderer.update_scene(data)
-    print("drawn" if renderer.render().any() else "empty")
+    drawn = renderer.render().any()
+    from OpenGL import GL
+    print(GL.glGetString(GL.GL_RENDERER).decode("ascii", "replace") if drawn else "")
 """
 
 
+SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software")
+"""In the names of renderers that are no graphics card."""
+
+
 def probe_egl(timeout: float = 20.0) -> bool:
-    """Whether MuJoCo's EGL renderer draws a picture here.
+    """Whether MuJoCo's EGL renderer draws a picture here. Never raises.
+
+    Args:
+        timeout: [s] after which the answer is no.
+    """
+    return egl_renderer(timeout) is not None
+
+
+def is_software(renderer: str) -> bool:
+    """Whether `renderer`, as GL names it, computes on the CPU."""
+    return any(word in renderer.lower() for word in SOFTWARE)
+
+
+def egl_renderer(timeout: float = 20.0) -> str | None:
+    """The name of what draws MuJoCo's pictures through EGL here, None where nothing does.
 
     Broken drivers crash or hang, so the attempt runs in a process of its own. Never raises.
 
     Args:
-        timeout: [s] after which the answer is no.
+        timeout: [s] after which the answer is None.
     """
     try:
         done = subprocess.run(
@@ -36,5 +56,6 @@ def probe_egl(timeout: float = 20.0) -> bool:
             check=False,
         )
     except (OSError, ValueError, subprocess.SubprocessError):
-        return False
-    return done.returncode == 0 and done.stdout.strip().endswith(b"drawn")
+        return None
+    name = done.stdout.decode("ascii", "replace").strip()
+    return name if done.returncode == 0 and name else None

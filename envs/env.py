@@ -1,0 +1,255 @@
+"""The environment behind gymnasium.make("PAT3D-v0")."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, ClassVar, Literal
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.loading import DEFAULT_TASK, LoadedScene, load
+from pat3d.envs.observations import Observation, ObservationSpec, Observer
+from pat3d.envs.pictures import Pictures
+from pat3d.envs.placement import Placement, place
+from pat3d.envs.robots import make_robot
+from pat3d.envs.simulation import Simulation
+from pat3d.envs.tasks.manipulate import Pick
+from pat3d.envs.tasks.registry import parse_task
+from pat3d.envs.tasks.task import Judge, Task, Verdict
+from pat3d.envs.world import CAMERAS, compose
+from pat3d.errors import EnvironmentSetupError, TaskError
+from pat3d.scene import Scene
+
+Source = str | os.PathLike[str] | Scene | None
+
+REWARDS = ("sparse", "dense")
+RENDER_MODES = ("rgb_array", "depth_array")
+
+_KEPT_WORLDS = 4
+"""Compiled scenes an environment keeps for the next time one of them is asked for."""
+
+
+class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
+    """A robot arm in front of a proven scene, with a task.
+
+    Actions are in [-1, 1]; see `pat3d.envs.controllers.RobotController`. An episode terminates with success; the time
+    limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the task's
+    progress in [0, 1], see the judge of each task.
+
+    Args:
+        scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
+        task: "pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task;
+            None for picking the first object that can be picked.
+        robot: Panda, UR5e, Sawyer or IIWA.
+        obs: "state", "rgb" or "rgbd".
+        control: "osc", "joint_velocity" or "joint_position".
+        reward: "sparse" or "dense".
+        control_freq: actions a second [1/s].
+        cameras: those of the rgb and rgbd observations.
+        image_size: height and width of the pictures [pixel].
+        segmentation: whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object.
+        start_noise: standard deviation of the robot's posture at the start [rad].
+        max_objects: rows of the state's "objects"; None for as many as the scene's moving objects.
+        sleep: leave out objects at rest until something touches them; twice as fast (Panda and Sawyer).
+        render_mode: "rgb_array", "depth_array" or None.
+        render_camera: for `render`.
+        render_size: height and width for `render` [pixel].
+
+    Raises:
+        UnsettledSceneError: the scene moves when MuJoCo loads it.
+        TaskError: the task cannot be done in the scene by this robot; says why.
+        EnvironmentSetupError: an argument is not valid; says what is.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 20}  # type: ignore[misc]
+
+    def __init__(
+        self,
+        scene: Source = None,
+        task: str | Task | None = None,
+        robot: str = "Panda",
+        obs: Literal["state", "rgb", "rgbd"] = "state",
+        control: Literal["osc", "joint_velocity", "joint_position"] = "osc",
+        reward: Literal["sparse", "dense"] = "sparse",
+        control_freq: float = 20.0,
+        cameras: Sequence[str] = ("agentview", "wrist"),
+        image_size: tuple[int, int] = (128, 128),
+        segmentation: bool = False,
+        start_noise: float = 0.02,
+        max_objects: int | None = None,
+        sleep: bool = True,
+        render_mode: str | None = None,
+        render_camera: str = "agentview",
+        render_size: tuple[int, int] = (480, 640),
+    ) -> None:
+        _one_of("reward", reward, REWARDS)
+        _one_of("camera", render_camera, CAMERAS)
+        if render_mode is not None:
+            _one_of("render mode", render_mode, RENDER_MODES)
+        if not (np.isfinite(start_noise) and 0.0 <= start_noise <= 0.5):
+            raise EnvironmentSetupError(f"start_noise is 0 to 0.5 rad, not {start_noise}.")
+        self.robot, self.control, self.reward, self.control_freq = robot, control, reward, control_freq
+        self.render_mode, self._render_camera, self._render_size = render_mode, render_camera, render_size
+        self.metadata = {**TabletopEnv.metadata, "render_fps": round(control_freq)}  # type: ignore[misc]
+        self._start_noise, self._sleep = start_noise, sleep
+        make_robot(robot)
+        self._kept: dict[tuple[str, str], tuple[Task, Simulation]] = {}
+        self._pictures: Pictures | None = None
+        self._loaded: LoadedScene = load(scene)
+        self._task_given = DEFAULT_TASK if scene is None and task is None else task
+        moving = sum(not obj.fixed for obj in self._loaded.scene.objects)
+        self._spec = ObservationSpec(
+            kind=obs,
+            cameras=tuple(cameras),
+            height=image_size[0],
+            width=image_size[1],
+            segmentation=segmentation,
+            max_objects=moving if max_objects is None else max_objects,
+        )
+        self._enter(self._loaded, self._task_given)
+        self._verdict = Verdict(success=False)
+        self._judge: Judge | None = None
+        self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
+        size = self.simulation.controller.size
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene at rest."""
+        return self._loaded.scene
+
+    @property
+    def placement(self) -> Placement:
+        """Where the robot stands, and the grasps that are within its reach."""
+        return self.simulation.world.placement
+
+    @property
+    def instruction(self) -> str:
+        """The task as one tells it to a person."""
+        return self.task.instruction(self.scene)
+
+    @property
+    def objects(self) -> tuple[str, ...]:
+        """Names of the rows of the state's "objects"."""
+        return self.simulation.world.objects
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Start an episode.
+
+        Args:
+            seed: of the robot's posture; the same seed gives the same episode bit for bit.
+            options: "scene" (a folder or a scene) and "task" change what the episode is about, from now on.
+        """
+        super().reset(seed=seed)
+        if options:
+            unknown = sorted(set(options) - {"scene", "task"})
+            if unknown:
+                raise EnvironmentSetupError(f'no reset option "{", ".join(unknown)}". Options: scene, task.')
+            loaded = load(options["scene"]) if "scene" in options else self._loaded
+            task = options.get("task", self._task_given)
+            self._enter(loaded, task)
+            self._loaded, self._task_given = loaded, task
+        count = len(self.simulation.world.robot.arm_joints)
+        # Three standard deviations at most: a start posture that touches something is no start.
+        noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self._start_noise
+        self.simulation.reset(noise)
+        self._judge = self.task.begin(self.simulation.state)
+        self._verdict = self._judge.update(self.simulation.state, 0.0)
+        return self._observation(), self._info()
+
+    def step(self, action: NDArray[np.float32]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Do one action: observation, reward, terminated (success), truncated (the simulation failed), info."""
+        if self._judge is None:
+            raise gymnasium.error.ResetNeeded("reset the environment before its first step.")
+        values = np.asarray(action, dtype=np.float64)
+        size = self.simulation.controller.size
+        if values.shape != (size,) or not np.isfinite(values).all():
+            raise EnvironmentSetupError(f"an action is {size} finite numbers, got {action}.")
+        self.simulation.step(np.clip(values, -1.0, 1.0))
+        self._verdict = self._judge.update(self.simulation.state, self.simulation.period)
+        broken = self.simulation.broken
+        success = self._verdict.success and not broken
+        reward = float(success) if self.reward == "sparse" else float(self._verdict.progress)
+        return self._observation(), reward, success, broken, self._info()
+
+    def render(self) -> NDArray[Any] | None:  # type: ignore[override]
+        """A picture of the present state: RGB, shape (height, width, 3), or depth [m], shape (height, width)."""
+        if self.render_mode is None:
+            gymnasium.logger.warn('render needs a mode: gymnasium.make("PAT3D-v0", render_mode="rgb_array").')
+            return None
+        depth = self.render_mode == "depth_array"
+        picture = self.pictures.take(self._render_camera, *self._render_size, depth=depth)
+        return picture.depth if depth else picture.image
+
+    def close(self) -> None:
+        """Free the graphics context."""
+        if self._pictures is not None:
+            self._pictures.close()
+            self._pictures = None
+
+    @property
+    def pictures(self) -> Pictures:
+        """Takes pictures of the present state."""
+        if self._pictures is None:
+            self._pictures = Pictures(self.simulation)
+        return self._pictures
+
+    def _enter(self, loaded: LoadedScene, task: str | Task | None) -> None:
+        """Make `task` in `loaded` what the next episode is about; nothing changes where that is impossible."""
+        name = task.spec if isinstance(task, Task) else task or ""
+        key = (loaded.checksum, name)
+        if key not in self._kept:
+            chosen, placement = choose(loaded.scene, task, self.robot)
+            world = compose(loaded.scene, loaded.mjcf, make_robot(self.robot), placement)
+            self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self._sleep))
+            if len(self._kept) > _KEPT_WORLDS:
+                del self._kept[next(iter(self._kept))]
+        chosen, simulation = self._kept[key]
+        observer = Observer(self._spec, simulation)
+        self.task, self.simulation, self._observer = chosen, simulation, observer
+        self.close()
+
+    def _observation(self) -> Observation:
+        pictures = None if self._spec.kind == "state" else self.pictures
+        return self._observer.observe(self._verdict, pictures)
+
+    def _info(self) -> dict[str, Any]:
+        state = self.simulation.state
+        return {
+            "success": self._verdict.success,
+            "predicates": dict(self._verdict.predicates),
+            "progress": self._verdict.progress,
+            "toppled": state.toppled(),
+            "fell": state.fell(),
+            "touched": state.all_touched(),
+            "task": self.task.spec,
+            "instruction": self.instruction,
+        }
+
+
+def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
+    """The task and where the robot stands for it; without a task, the first object that can be picked."""
+    if task is not None:
+        chosen = task if isinstance(task, Task) else parse_task(task)
+        chosen.check(scene)
+        return chosen, place(scene, robot, chosen.needs(scene))
+    reasons = []
+    for obj in scene.objects:
+        if obj.fixed:
+            continue
+        chosen = Pick(target=obj.name)
+        try:
+            return chosen, place(scene, robot, chosen.needs(scene))
+        except TaskError as error:
+            reasons.append(str(error))
+    raise TaskError("nothing in the scene can be picked: " + " ".join(reasons))
+
+
+def _one_of(what: str, value: str, valid: Sequence[str]) -> None:
+    if value not in valid:
+        raise EnvironmentSetupError(f'no {what} "{value}". Valid: {", ".join(valid)}.')

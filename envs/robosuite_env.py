@@ -1,0 +1,135 @@
+"""A second door: the scene as a native robosuite environment, for people whose tools expect one.
+
+    import robosuite
+    import pat3d.envs.robosuite_env
+    env = robosuite.make("PAT3DScene", robots="Panda", scene="scenes/desk", task="pick:red mug", use_camera_obs=False)
+
+The world is the same as that of PAT3D-v0: robosuite's arm is attached to the exported MJCF, whose options it steps.
+robosuite compiles it anew at every reset unless hard_reset=False.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from pat3d.envs.env import Source, choose
+from pat3d.envs.loading import DEFAULT_TASK, load
+from pat3d.envs.robots import make_robot, robosuite_module
+from pat3d.envs.state import SimState
+from pat3d.envs.tasks.task import Judge, Task, Verdict
+from pat3d.envs.world import furnish, index
+from pat3d.errors import EnvironmentSetupError
+
+_Base: Any = robosuite_module("environments.manipulation.manipulation_env").ManipulationEnv
+
+
+class PAT3DScene(_Base):
+    """A scene of PAT3D with its task; every other argument is robosuite's own.
+
+    Args:
+        robots: one of the arms of PAT3D-v0.
+        scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
+        task: as for PAT3D-v0.
+        reward_shaping: the progress in [0, 1] instead of 1 at success.
+        **options: of robosuite's ManipulationEnv.
+    """
+
+    def __init__(
+        self,
+        robots: str = "Panda",
+        scene: Source = None,
+        task: str | Task | None = None,
+        reward_shaping: bool = False,
+        **options: Any,
+    ) -> None:
+        if not isinstance(robots, str):
+            raise EnvironmentSetupError("PAT3DScene has one robot; give its name.")
+        self._robot = make_robot(robots)
+        self._loaded = load(scene)
+        given = DEFAULT_TASK if scene is None and task is None else task
+        self.task, self.placement = choose(self._loaded.scene, given, robots)
+        self.reward_shaping = reward_shaping
+        self._judge: Judge | None = None
+        self._verdict = Verdict(success=False)
+        options.setdefault("gripper_types", self._robot.gripper_name)
+        super().__init__(robots=robots, base_types="NullMount", **options)
+
+    def reward(self, action: Any = None) -> float:
+        """1 at success, or the progress with reward_shaping."""
+        self._verdict = self._follow(self.control_timestep)
+        return float(self._verdict.progress if self.reward_shaping else self._verdict.success)
+
+    def _initialize_sim(self, xml_string: str | None = None) -> None:
+        """Attach robosuite's own world, which is the robot alone, to the scene, and compile both as they are.
+
+        Writing the whole as text, as robosuite would, rounds every number to six digits.
+        """
+        mujoco: Any = import_module("mujoco")
+        text = xml_string or self.model.get_xml()
+        for processor in self._xml_processors:
+            text = processor(text)
+        own = mujoco.MjSpec.from_string(text)
+        for camera in list(own.cameras):
+            if camera.name in ("agentview", "frontview"):
+                own.delete(camera)
+        for geom in list(own.worldbody.geoms):
+            own.delete(geom)
+        spec = mujoco.MjSpec.from_file(str(self._loaded.mjcf))
+        furnish(spec, self.placement)
+        spec.attach(own, prefix="", frame=spec.worldbody.add_frame())
+        self.sim = robosuite_module("utils.binding_utils").MjSim(spec.compile())
+        self.sim.forward()
+        self.initialize_time(self.control_freq)
+
+    def _load_model(self) -> None:
+        super()._load_model()
+        arm = self.robots[0].robot_model
+        arm.set_base_xpos(np.array(self.placement.base_position))
+        arm.set_base_ori(np.array([0.0, 0.0, self.placement.yaw]))
+        arena = robosuite_module("models.arenas").EmptyArena()
+        self.model = robosuite_module("models.tasks").ManipulationTask(mujoco_arena=arena, mujoco_robots=[arm])
+
+    def _setup_references(self) -> None:
+        super()._setup_references()
+        world = index(self.sim.model._model, self._loaded.scene, self._robot, self.placement, prefix="")
+        self.state = SimState(world, self.sim.data._data)
+
+    def _reset_internal(self) -> None:
+        super()._reset_internal()
+        self.sim.forward()
+        self.state.begin()
+        self._judge = self.task.begin(self.state)
+        self._verdict = self._judge.update(self.state, 0.0)
+
+    def _follow(self, seconds: float) -> Verdict:
+        if self._judge is None:
+            return self._verdict
+        self.state.refresh()
+        return self._judge.update(self.state, seconds)
+
+    def _check_success(self) -> bool:
+        return self._verdict.success
+
+    def _setup_observables(self) -> Any:
+        observables = super()._setup_observables()
+        observable = robosuite_module("utils.observables")
+        sensor: Any = observable.sensor
+        for name in self.state.world.objects:
+            slug = name.replace(" ", "_")
+
+            @sensor(modality="object")
+            def position(cache: Any, name: str = name) -> Any:
+                return np.array(self.state.position(name))
+
+            @sensor(modality="object")
+            def orientation(cache: Any, name: str = name) -> Any:
+                # Robosuite writes quaternions with the scalar last.
+                return np.roll(self.state.quat_wxyz(name), -1)
+
+            for suffix, read in (("pos", position), ("quat", orientation)):
+                full = f"{slug}_{suffix}"
+                observables[full] = observable.Observable(name=full, sensor=read, sampling_rate=self.control_freq)
+        return observables

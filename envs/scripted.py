@@ -1,0 +1,101 @@
+"""A scripted hand that picks things up: it knows the true poses and is a reference for learned policies."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.grasp import Grasp
+from pat3d.envs.placement import HOVER, hand_rotation
+from pat3d.envs.robots import measure_gripper
+from pat3d.errors import EnvironmentSetupError
+
+Array = NDArray[np.float64]
+
+POSITION_STEP = 0.05
+"""Of an action of 1 [m]."""
+
+ANGLE_STEP = 0.5
+"""Of an action of 1 [rad]."""
+
+POSITION_GAIN = 2.0
+ANGLE_GAIN = 1.0
+
+CLOSE_STEPS = 12
+"""Control steps that the fingers need to close."""
+
+LIFT = 0.16
+"""[m]"""
+
+
+class ScriptedPick:
+    """Takes an object from above with the environment's operational-space control, and lifts it.
+
+    Args:
+        env: a TabletopEnv (unwrapped) with osc control, after its reset.
+        target: the object; the task's by default.
+        attempt: which of the reachable grasps to use, best first.
+    """
+
+    def __init__(self, env: Any, target: str | None = None, attempt: int = 0) -> None:
+        if env.control != "osc":
+            raise EnvironmentSetupError(f'the scripted hand needs control="osc", not "{env.control}".')
+        self._env = env
+        grasps = env.placement.grasps
+        name = target or next(iter(grasps), None)
+        if name is None or not grasps.get(name):
+            raise EnvironmentSetupError(f'no grasp of "{name}" is known; the task\'s objects: {", ".join(grasps)}.')
+        self._grasp: Grasp = grasps[name][attempt % len(grasps[name])]
+        self._gripper = measure_gripper(env.robot)
+        self._phase, self._closing = 0, 0
+        self._rotation = self._nearer(self._grasp.closing)
+
+    def action(self) -> NDArray[np.float32]:
+        """The next action, shape (7,)."""
+        at = np.array(self._grasp.position) + [0.0, 0.0, self._gripper.tip]
+        if self._phase == 0:
+            command, error = self._towards(at + [0.0, 0.0, HOVER], -1.0)
+            self._phase += error < 0.012
+        elif self._phase == 1:
+            command, error = self._towards(at, -1.0)
+            self._phase += error < 0.004
+        elif self._phase == 2:
+            command, _ = self._towards(at, 1.0)
+            self._closing += 1
+            self._phase += self._closing >= CLOSE_STEPS
+        else:
+            command, _ = self._towards(at + [0.0, 0.0, LIFT], 1.0)
+        return command
+
+    def _towards(self, position: Array, fingers: float) -> tuple[NDArray[np.float32], float]:
+        """The action that brings the hand nearer to `position` [m], and how far it is [m, a radian counting 5 cm]."""
+        state, yaw = self._env.simulation.state, self._env.placement.yaw
+        c, s = math.cos(yaw), math.sin(yaw)
+        to_base = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        move = to_base @ (position - state.hand)
+        turn = to_base @ _rotation_vector(self._rotation @ state.hand_rotation.T)
+        command = np.concatenate([
+            _limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]
+        ])  # fmt: skip
+        error = float(np.linalg.norm(move)) + 0.05 * float(np.linalg.norm(turn))
+        return command.astype(np.float32), error
+
+    def _nearer(self, closing: float) -> Array:
+        """Of the two hand rotations that close along one line, that with the shorter turn."""
+        now = self._env.simulation.state.hand_rotation
+        both = [hand_rotation(closing + half, self._gripper.closing_axis) for half in (0.0, math.pi)]
+        return max(both, key=lambda rotation: float(np.trace(rotation @ now.T)))
+
+
+def _limited(values: Array) -> Array:
+    """`values` scaled down together so that none is beyond 1."""
+    return values / max(1.0, float(np.abs(values).max()))
+
+
+def _rotation_vector(rotation: Array) -> Array:
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(rotation).as_rotvec()

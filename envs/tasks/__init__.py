@@ -1,0 +1,1 @@
+"""Tasks: what to do in a scene, when it is done, and what the hand has to get to."""

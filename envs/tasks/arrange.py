@@ -1,0 +1,254 @@
+"""Tasks about several objects: sort by colour, unload a container, retrieve what is underneath or behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from pat3d.assets.colours import COLOURS
+from pat3d.envs.placement import Needs
+from pat3d.envs.predicates import at_rest, inside, on_top
+from pat3d.envs.state import SimState
+from pat3d.envs.tasks.manipulate import REST_SECONDS, LiftJudge, above, check_move
+from pat3d.envs.tasks.task import (
+    Judge,
+    Task,
+    Timer,
+    Verdict,
+    children,
+    closeness,
+    movable,
+    origin,
+    present,
+    standing_on,
+)
+from pat3d.errors import TaskError
+from pat3d.scene import Scene
+
+BEHIND = 0.15
+"""Something this much nearer to the viewer, and in line, is in front [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sort(Task):
+    """Every coloured object into or onto the container of its colour."""
+
+    kind: ClassVar[str] = "sort"
+    form: ClassVar[str] = "sort"
+
+    @property
+    def spec(self) -> str:
+        return "sort"
+
+    def instruction(self, scene: Scene) -> str:
+        homes = sorted(set(self.pairs(scene).values()))
+        return f"sort the objects by colour into {' and '.join(f'the {home}' for home in homes)}"
+
+    def pairs(self, scene: Scene) -> dict[str, str]:
+        """Container of every object that has one: the only container of the same colour.
+
+        Raises:
+            TaskError: the scene has no containers of different colours, or nothing to put into them.
+        """
+        coloured = {obj.name: colour for obj in scene.objects if (colour := colour_of(scene, obj.name))}
+        holds = {name: colour for name, colour in coloured.items() if scene[name].asset.region("in") is not None}
+        items = [name for name in coloured if name not in holds and not scene[name].fixed]
+        wanted = {coloured[name] for name in items}
+        # Cups are containers too: homes are those whose colour something else has.
+        homes = {name: colour for name, colour in holds.items() if colour in wanted}
+        if len(set(homes.values())) != len(homes):
+            repeated = ", ".join(f'"{name}"' for name in homes)
+            raise TaskError(f"sorting needs one container of each colour; several share one: {repeated}.")
+        by_colour = {colour: name for name, colour in homes.items()}
+        pairs = {name: by_colour[coloured[name]] for name in items if coloured[name] in by_colour}
+        if len(set(pairs.values())) < 2:
+            raise TaskError(
+                "sorting needs two containers of different colours and something of each colour to put into them; "
+                f"the scene's colours: {', '.join(f'{name}: {colour}' for name, colour in coloured.items()) or 'none'}."
+            )
+        return pairs
+
+    def check(self, scene: Scene) -> None:
+        pairs = self.pairs(scene)
+        for name, home in pairs.items():
+            check_move(scene, name, home)
+        if all(scene.parent(name) == home for name, home in pairs.items()):
+            raise TaskError("everything is sorted already.")
+
+    def needs(self, scene: Scene) -> Needs:
+        pairs = {name: home for name, home in self.pairs(scene).items() if scene.parent(name) != home}
+        return Needs(grasp=tuple(pairs), visit=tuple(above(scene, home) for home in sorted(set(pairs.values()))))
+
+    def begin(self, state: SimState) -> Judge:
+        return _SortJudge(self.pairs(state.scene))
+
+
+class _SortJudge(Judge):
+    """Progress is the share of objects in place, and of the next one how near it is to its home."""
+
+    def __init__(self, pairs: dict[str, str]) -> None:
+        self._pairs, self._timer = pairs, Timer(REST_SECONDS)
+
+    def update(self, state: SimState, seconds: float) -> Verdict:
+        sorted_ = {name: inside(state, name, home) for name, home in self._pairs.items()}
+        resting = all(at_rest(state, name) for name in self._pairs)
+        done = self._timer.update(all(sorted_.values()) and resting, seconds)
+        pending = [name for name, there in sorted_.items() if not there]
+        target = pending[0] if pending else next(iter(self._pairs))
+        goal = state.position(self._pairs[target])
+        progress = (len(sorted_) - len(pending)) / len(sorted_)
+        if pending:
+            progress += _approach(state, target, goal) / len(sorted_)
+        return Verdict(
+            success=done,
+            predicates={**{f'"{name}" sorted': there for name, there in sorted_.items()}, "released": resting},
+            progress=1.0 if done else min(progress, 1.0),
+            target=target,
+            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unload(Task):
+    """Take everything out of, or off, something, without dropping any of it."""
+
+    kind: ClassVar[str] = "unload"
+    form: ClassVar[str] = "unload:CONTAINER"
+
+    container: str
+
+    @property
+    def spec(self) -> str:
+        return f"unload:{self.container}"
+
+    def instruction(self, scene: Scene) -> str:
+        inner = any(rel.parent == self.container and rel.kind == "in" for rel in scene.relations)
+        return f"take everything {'out of' if inner else 'off'} the {self.container}"
+
+    def check(self, scene: Scene) -> None:
+        present(scene, self.container)
+        contents = children(scene, self.container)
+        if not contents:
+            raise TaskError(f'"{self.container}" is empty already.')
+        for name in contents:
+            movable(scene, name)
+
+    def needs(self, scene: Scene) -> Needs:
+        return Needs(grasp=children(scene, self.container), cleared=True)
+
+    def begin(self, state: SimState) -> Judge:
+        return _UnloadJudge(self.container, children(state.scene, self.container))
+
+
+class _UnloadJudge(Judge):
+    """Progress is the share of objects outside, and of the next one how high it is."""
+
+    def __init__(self, container: str, contents: tuple[str, ...]) -> None:
+        self._container, self._contents, self._timer = container, contents, Timer(REST_SECONDS)
+
+    def update(self, state: SimState, seconds: float) -> Verdict:
+        within = [
+            name
+            for name in self._contents
+            if state.touch(name, self._container)
+            or inside(state, name, self._container)
+            or on_top(state, name, self._container)
+        ]
+        resting = all(at_rest(state, name) for name in self._contents)
+        fell = [name for name in state.fell() if name in self._contents]
+        done = self._timer.update(not within and not fell and resting, seconds)
+        target = max(within or self._contents, key=lambda name: float(state.centre(name)[2]))
+        start = state.start_centre(target)
+        goal = np.array([start[0], start[1], start[2] + 0.15])
+        progress = (len(self._contents) - len(within) - len(fell)) / len(self._contents)
+        if within:
+            progress += _approach(state, target, goal) / len(self._contents)
+        return Verdict(
+            success=done,
+            predicates={"empty": not within, "released": resting, "nothing fell": not fell},
+            progress=1.0 if done else float(np.clip(progress, 0.0, 1.0)),
+            target=target,
+            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Retrieve(Task):
+    """Pick an object that others stand on or in front of, and knock none of them over."""
+
+    kind: ClassVar[str] = "retrieve"
+    form: ClassVar[str] = "retrieve:OBJECT"
+
+    target: str
+
+    @property
+    def spec(self) -> str:
+        return f"retrieve:{self.target}"
+
+    def instruction(self, scene: Scene) -> str:
+        on = standing_on(scene, self.target)
+        where = f" from under the {on[0]}" if on else origin(scene, self.target)
+        return f"take out the {self.target}{where} without knocking anything over"
+
+    def check(self, scene: Scene) -> None:
+        movable(scene, self.target)
+        if not standing_on(scene, self.target) and not _in_front(scene, self.target):
+            raise TaskError(f'nothing stands on or in front of "{self.target}"; use "pick:{self.target}".')
+
+    def needs(self, scene: Scene) -> Needs:
+        return Needs(grasp=(*children(scene, self.target), self.target), cleared=True)
+
+    def begin(self, state: SimState) -> Judge:
+        return _RetrieveJudge(self.target, state)
+
+
+class _RetrieveJudge(Judge):
+    """A lift during which nothing else topples or falls; progress is that of the lift until something does."""
+
+    def __init__(self, target: str, state: SimState) -> None:
+        self._target, self._lift, self._broken = target, LiftJudge(target, state), False
+
+    def update(self, state: SimState, seconds: float) -> Verdict:
+        lift = self._lift.update(state, seconds)
+        upset = [name for name in (*state.toppled(), *state.fell()) if name != self._target]
+        self._broken = self._broken or bool(upset)
+        return Verdict(
+            success=lift.success and not self._broken,
+            predicates={**lift.predicates, "nothing toppled": not self._broken},
+            progress=0.0 if self._broken else lift.progress,
+            target=lift.target,
+            goal=lift.goal,
+        )
+
+
+def colour_of(scene: Scene, name: str) -> str | None:
+    """The colour of an object: the word in its name, else what its recipe says."""
+    for word in name.replace("-", " ").split():
+        if word in COLOURS:
+            return word
+    colours = scene[name].asset.provenance.get("colours") or ()
+    return colours[0] if colours and colours[0] in COLOURS else None
+
+
+def _approach(state: SimState, target: str, goal: np.ndarray) -> float:
+    """How far the move of one object is, in [0, 1)."""
+    centre = state.centre(target)
+    near = closeness(float(np.linalg.norm(state.hand - centre)), 0.2)
+    return 0.2 * near + 0.2 * float(state.held(target)) + 0.5 * closeness(float(np.linalg.norm(goal - centre)), 0.25)
+
+
+def _in_front(scene: Scene, name: str) -> list[str]:
+    """Objects on the same support that stand closely in front of `name`."""
+    found = []
+    own = scene[name].pose.apply(np.concatenate([part.vertices for part in scene[name].asset.parts]))
+    for obj in scene.objects:
+        if obj.name == name or scene.parent(obj.name) != scene.parent(name):
+            continue
+        points = obj.pose.apply(np.concatenate([part.vertices for part in obj.asset.parts]))
+        ahead = own[:, 1].min() - points[:, 1].max()
+        in_line = points[:, 0].min() < own[:, 0].max() and points[:, 0].max() > own[:, 0].min()
+        if in_line and -0.01 <= ahead <= BEHIND:
+            found.append(obj.name)
+    return found

@@ -1,0 +1,49 @@
+"""From "pick:red mug" to a task, and the tasks that a scene allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Any
+
+from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
+from pat3d.envs.tasks.manipulate import Pick, Place, Stack
+from pat3d.envs.tasks.task import Task, split
+from pat3d.errors import TaskError
+from pat3d.scene import Scene
+
+TASKS: dict[str, type[Task]] = {kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve)}
+"""Every kind of task by the first word of its specification."""
+
+
+def parse_task(spec: str) -> Task:
+    """The task that `spec` describes: "pick:red mug", "place:green apple:blue bowl", "sort".
+
+    Raises:
+        TaskError: an unknown kind or the wrong number of names; the message says what is valid.
+    """
+    kind, arguments = split(spec)
+    if kind not in TASKS:
+        raise TaskError(f'no task "{kind}". Tasks: {", ".join(task.form for task in TASKS.values())}.')
+    task: Any = TASKS[kind]
+    names = [field.name for field in fields(task)]
+    if len(arguments) != len(names) or not all(arguments):
+        raise TaskError(f'"{spec}" does not fit "{task.form}".')
+    return task(**dict(zip(names, arguments, strict=True)))
+
+
+def possible_tasks(scene: Scene) -> Iterator[Task]:
+    """Every task that the scene's tree and sizes allow; whether a robot reaches it is decided by its placement."""
+    names = [obj.name for obj in scene.objects]
+    for kind in TASKS.values():
+        count = len(fields(kind))  # type: ignore[arg-type]
+        combinations = (
+            [()] if count == 0 else [(a,) for a in names] if count == 1 else [(a, b) for a in names for b in names]
+        )
+        for arguments in combinations:
+            task = parse_task(":".join((kind.kind, *arguments)))
+            try:
+                task.check(scene)
+            except TaskError:
+                continue
+            yield task

@@ -1,0 +1,141 @@
+"""What every task has in common.
+
+A task is plain data that fits any scene with the objects it names. `check` says whether a scene allows it, `needs` what
+the robot has to reach, `begin` starts judging an episode: success is decided on the state of the simulation alone.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.placement import Needs
+from pat3d.envs.state import SimState
+from pat3d.errors import TaskError
+from pat3d.scene import GROUND, Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """How far an episode is after one control step."""
+
+    success: bool
+    predicates: Mapping[str, bool] = field(default_factory=dict)
+    """What success is made of, by name."""
+    progress: float = 0.0
+    """In [0, 1]; the dense reward."""
+    target: str = ""
+    """The object that the next move is about."""
+    goal: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Where that object's centre should get to [m]."""
+
+
+class Judge(ABC):
+    """Follows one episode."""
+
+    @abstractmethod
+    def update(self, state: SimState, seconds: float) -> Verdict:
+        """Judge the present state, `seconds` after the last one (0 right after the reset)."""
+
+
+class Task(ABC):
+    """Something to do in a scene."""
+
+    kind: ClassVar[str]
+    """First word of the task's specification."""
+    form: ClassVar[str]
+    """How the specification is written, for messages."""
+
+    @property
+    @abstractmethod
+    def spec(self) -> str:
+        """The text from which `parse_task` makes this task again."""
+
+    @abstractmethod
+    def instruction(self, scene: Scene) -> str:
+        """The task as one tells it to a person."""
+
+    @abstractmethod
+    def check(self, scene: Scene) -> None:
+        """Raise TaskError where the scene lacks an object, or the task is done already."""
+
+    @abstractmethod
+    def needs(self, scene: Scene) -> Needs:
+        """What the robot has to reach."""
+
+    @abstractmethod
+    def begin(self, state: SimState) -> Judge:
+        """A judge of an episode that starts in `state`."""
+
+
+class Timer:
+    """For how long a condition has held without a break."""
+
+    def __init__(self, needed: float) -> None:
+        self.needed, self.held = needed, 0.0
+
+    def update(self, holds: bool, seconds: float) -> bool:
+        """Whether it has held long enough by now."""
+        self.held = self.held + seconds if holds else 0.0
+        # A step of the control period is as fine as time is measured.
+        return self.held >= self.needed - 1e-9
+
+
+def movable(scene: Scene, name: str) -> None:
+    """Raise TaskError unless `name` is an object of the scene that can move."""
+    names = [obj.name for obj in scene.objects if not obj.fixed]
+    if name not in names:
+        fixed = any(obj.name == name for obj in scene.objects)
+        what = "is fixed" if fixed else "is not in the scene"
+        raise TaskError(f'"{name}" {what}. Objects that can move: {", ".join(names) or "none"}.')
+
+
+def present(scene: Scene, name: str) -> None:
+    """Raise TaskError unless `name` is an object of the scene."""
+    names = [obj.name for obj in scene.objects]
+    if name not in names:
+        raise TaskError(f'"{name}" is not in the scene. Objects: {", ".join(names)}.')
+
+
+def children(scene: Scene, parent: str) -> tuple[str, ...]:
+    """Objects directly on or in `parent`, in the order of the scene."""
+    return tuple(obj.name for obj in scene.objects if scene.parent(obj.name) == parent)
+
+
+def standing_on(scene: Scene, parent: str) -> tuple[str, ...]:
+    """Objects directly on `parent`, not in it, in the order of the scene."""
+    on = {rel.child for rel in scene.relations if rel.kind == "on" and rel.parent == parent}
+    return tuple(obj.name for obj in scene.objects if obj.name in on)
+
+
+def origin(scene: Scene, name: str) -> str:
+    """Where an object stands, as " from the tray"; nothing for one on the ground."""
+    parent = scene.parent(name)
+    return "" if parent == GROUND else f" from the {parent}"
+
+
+def centre_of_mass(scene: Scene, name: str) -> Array:
+    """Of an object at rest [m], shape (3,)."""
+    obj = scene[name]
+    return obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0]
+
+
+def closeness(distance: float, scale: float) -> float:
+    """1 at no distance, falling to nothing over a few `scale` [m]."""
+    return float(1.0 - np.tanh(distance / scale))
+
+
+def split(spec: str) -> tuple[str, list[str]]:
+    """The kind and the arguments of a specification: "place:red mug:tray" -> "place", ["red mug", "tray"]."""
+    kind, *arguments = [part.strip() for part in spec.split(":")]
+    return kind, arguments
+
+
+Parser = Callable[[list[str]], Task]

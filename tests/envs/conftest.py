@@ -1,0 +1,31 @@
+"""The environment of the shipped scene, made once; robosuite's absence skips what needs it."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+# The CPU draws the same everywhere; the agreement with GL has a test of its own.
+os.environ.setdefault("PAT3D_RENDERER", "cpu")
+
+
+@pytest.fixture(scope="session")
+def env():
+    """A TabletopEnv with a Panda on the shipped scene; its task may change from test to test."""
+    pytest.importorskip("robosuite")
+    pytest.importorskip("gymnasium")
+    from pat3d.envs.env import TabletopEnv
+
+    made = TabletopEnv()
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="session")
+def breakfast():
+    """The shipped scene: a red mug, a green apple, a banana and a blue bowl on a wooden tray."""
+    from pat3d.envs.loading import default_scene
+    from pat3d.scene_io import load_scene
+
+    return load_scene(default_scene())

@@ -1,0 +1,300 @@
+"""The environment as Gymnasium's users see it."""
+
+from __future__ import annotations
+
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+pytest.importorskip("robosuite")
+gymnasium = pytest.importorskip("gymnasium")
+
+import mujoco  # noqa: E402
+from gymnasium.utils.env_checker import check_env  # noqa: E402
+
+import pat3d  # noqa: E402, F401
+from pat3d.envs.env import TabletopEnv  # noqa: E402
+from pat3d.envs.loading import default_scene, load  # noqa: E402
+from pat3d.envs.scripted import ScriptedPick  # noqa: E402
+from pat3d.errors import EnvironmentSetupError, TaskError  # noqa: E402
+
+
+def test_gymnasium_s_checker_finds_nothing_to_complain_about(env):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env, skip_render_check=True)
+
+
+def test_picture_observations_and_rendering_pass_the_checker():
+    made = TabletopEnv(
+        obs="rgbd", segmentation=True, render_mode="rgb_array", image_size=(64, 96), render_size=(60, 80)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # Rendering is checked by hand: the checker makes environments anew for every mode.
+        check_env(made, skip_render_check=True)
+    observation, _ = made.reset(seed=0)
+    assert observation["agentview_image"].shape == (64, 96, 3)
+    assert observation["wrist_depth"].dtype == np.float32
+    assert set(np.unique(observation["agentview_segmentation"])) >= {0, 1, 2, 3, 4, 5, 6}
+    assert made.render().shape == (60, 80, 3)
+    made.close()
+
+
+def test_the_physics_is_the_exported_scene_s_own(env):
+    """Options, inertias, contact parameters and poses of the scene equal those of its MJCF alone, bit for bit."""
+    alone = mujoco.MjModel.from_xml_path(str(load(None).mjcf))
+    model = env.simulation.model
+    for option in (
+        "timestep",
+        "integrator",
+        "cone",
+        "impratio",
+        "ccd_tolerance",
+        "solver",
+        "iterations",
+        "disableflags",
+    ):
+        assert getattr(model.opt, option) == getattr(alone.opt, option), option
+    for body in range(1, alone.nbody):
+        other = model.body(alone.body(body).name).id
+        for field in ("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_pos", "body_quat"):
+            np.testing.assert_array_equal(getattr(model, field)[other], getattr(alone, field)[body])
+    for geom in range(alone.ngeom):
+        name = alone.geom(geom).name
+        if not alone.geom_bodyid[geom]:
+            continue
+        other = model.geom(name).id
+        for field in ("geom_friction", "geom_solref", "geom_solimp", "geom_margin", "geom_condim", "geom_size"):
+            np.testing.assert_array_equal(getattr(model, field)[other], getattr(alone, field)[geom])
+
+
+def test_objects_asleep_wake_when_they_are_touched_and_rest_exactly_until_then(env):
+    """Until the robot arrives the banana does not move by a bit, and still touches the tray; the mug is then lifted."""
+    env.reset(seed=0, options={"task": "pick:red mug"})
+    state, zero = env.simulation.state, np.zeros(7, dtype=np.float32)
+    assert state.touch("banana", "wooden tray")
+    env.step(zero)
+    before = state.position("banana").copy()
+    assert env.simulation.data.ncon < 10, "nothing sleeps"
+    for _ in range(5):
+        env.step(zero)
+    np.testing.assert_array_equal(state.position("banana"), before)
+    assert state.touch("banana", "wooden tray")
+    hand = ScriptedPick(env)
+    for _ in range(60):
+        env.step(hand.action())
+    assert state.held("red mug")
+    assert not state.touch("red mug", "wooden tray")
+
+
+def test_sleeping_or_not_the_pick_ends_the_same_way():
+    """Both runs lift the mug; the hand's path differs by less than a centimetre."""
+    paths = []
+    for sleep in (True, False):
+        made = TabletopEnv(sleep=sleep)
+        observation, _ = made.reset(seed=0)
+        hand, path = ScriptedPick(made), []
+        success = False
+        while not success and len(path) < 120:
+            observation, _, success, *_ = made.step(hand.action())
+            path.append(observation["eef_pos"])
+        assert success
+        paths.append(np.array(path))
+    count = min(map(len, paths))
+    assert np.abs(paths[0][:count] - paths[1][:count]).max() < 0.01
+
+
+def test_nothing_moves_while_the_robot_stands_still(env):
+    """With the robot in the world the scene is as still as it was proven to be: a tenth of a millimetre in 5 s."""
+    env = TabletopEnv(sleep=False)
+    env.reset(seed=0)
+    state = env.simulation.state
+    before = {name: state.position(name).copy() for name in env.objects}
+    for _ in range(100):
+        env.step(np.zeros(7, dtype=np.float32))
+    for name in env.objects:
+        assert np.linalg.norm(state.position(name) - before[name]) < 1e-4
+        assert state.tilt(name) < 0.1
+
+
+def test_the_same_seed_gives_the_same_episode_bit_for_bit(env):
+    actions = np.random.default_rng(5).uniform(-1, 1, (25, 7)).astype(np.float32)
+
+    def episode(seed: int) -> list[bytes]:
+        observation, _ = env.reset(seed=seed)
+        seen = [observation]
+        seen += [env.step(action)[0] for action in actions]
+        return [value.tobytes() for one in seen for _, value in sorted(one.items())]
+
+    first = episode(3)
+    # Something else in between leaves no trace.
+    env.reset(seed=9)
+    env.step(np.ones(7, dtype=np.float32))
+    assert episode(3) == first
+    assert episode(4) != first
+
+
+def test_another_instance_gives_the_same_episode(env):
+    twin = TabletopEnv()
+    action = np.full(7, 0.4, dtype=np.float32)
+    for one in (env, twin):
+        one.reset(seed=11, options={"task": "pick:red mug"})
+    for _ in range(10):
+        ours, theirs = env.step(action)[0], twin.step(action)[0]
+    assert all(ours[name].tobytes() == theirs[name].tobytes() for name in ours)
+
+
+@pytest.mark.parametrize(("seed", "attempt"), [(0, 0), (1, 1), (2, 0)])
+def test_a_scripted_hand_picks_the_mug_for_real(env, seed, attempt):
+    """The fingers close on the rim, friction alone lifts the mug by 10 cm, and a second later the episode succeeds."""
+    env.reset(seed=seed, options={"task": "pick:red mug"})
+    hand = ScriptedPick(env, attempt=attempt)
+    for step in range(120):  # noqa: B007
+        _, reward, success, truncated, info = env.step(hand.action())
+        if success or truncated:
+            break
+    assert success
+    assert reward == 1.0
+    assert info["predicates"] == {"grasped": True, "lifted": True, "held": True}
+    assert info["touched"] == ["red mug"]
+    assert info["toppled"] == []
+    assert step > 20, "success before a second of holding"
+
+
+@pytest.mark.parametrize("control", ["joint_velocity", "joint_position"])
+def test_joint_control_moves_the_joint_it_names(control):
+    made = TabletopEnv(control=control)
+    before, _ = made.reset(seed=0)
+    action = np.zeros(8, dtype=np.float32)
+    action[0] = 0.5
+    for _ in range(10):
+        after, *_ = made.step(action)
+    moved = after["joint_pos"] - before["joint_pos"]
+    assert moved[0] > 0.03
+    assert np.abs(moved[1:]).max() < 0.02
+
+
+@pytest.mark.parametrize("robot", ["UR5e", "Sawyer"])
+def test_other_robots_stand_in_front_of_the_same_scene(robot):
+    made = TabletopEnv(robot=robot, task="pick:banana")
+    made.reset(seed=0)
+    for _ in range(10):
+        observation, *_ = made.step(np.zeros(7, dtype=np.float32))
+    assert made.observation_space.contains(observation)
+    assert "banana" in made.placement.describe()
+
+
+def test_operational_space_actions_move_the_hand_in_the_frame_of_the_base(env):
+    """The robot faces -y here, so its forward (+x of its base) is -y of the world."""
+    start, _ = env.reset(seed=0, options={"task": "pick:red mug"})
+    for _ in range(10):
+        after, *_ = env.step(np.array([0.5, 0, 0, 0, 0, 0, -1], dtype=np.float32))
+    moved = after["eef_pos"] - start["eef_pos"]
+    assert moved[1] < -0.03
+    assert np.abs(moved[[0, 2]]).max() < 0.01
+
+
+def test_reset_is_quick(env):
+    env.reset(seed=0)
+    times = []
+    for _ in range(10):
+        start = time.perf_counter()
+        env.reset()
+        times.append(time.perf_counter() - start)
+    # 1.5 ms on an idle core; the bound leaves room for busy ones.
+    assert min(times) < 0.02
+
+
+def test_the_dense_reward_grows_along_a_pick():
+    made = TabletopEnv(reward="dense")
+    made.reset(seed=0)
+    hand = ScriptedPick(made)
+    rewards = []
+    for _ in range(100):
+        _, reward, success, *_ = made.step(hand.action())
+        rewards.append(reward)
+        if success:
+            break
+    assert rewards[-1] == 1.0
+    assert 0.0 <= rewards[0] < 0.2
+    assert all(0.0 <= reward <= 1.0 for reward in rewards)
+    # From closing the fingers on it never falls back by more than the hand's wobble.
+    assert np.diff(rewards[36:]).min() > -0.05
+
+
+def test_the_time_limit_truncates():
+    made = gymnasium.make("PAT3D-v0", max_episode_steps=3)
+    made.reset(seed=0)
+    ends = [made.step(np.zeros(7, dtype=np.float32))[2:4] for _ in range(3)]
+    assert ends == [(False, False), (False, False), (False, True)]
+    made.close()
+
+
+def test_vector_environments_run_in_processes_of_their_own():
+    vector = gymnasium.make_vec("PAT3D-v0", num_envs=2, vectorization_mode="async")
+    observation, info = vector.reset(seed=[1, 2])
+    assert observation["objects"].shape == (2, 5, 7)
+    assert not np.array_equal(observation["joint_pos"][0], observation["joint_pos"][1])
+    observation, *_, info = vector.step(np.zeros((2, 7), dtype=np.float32))
+    assert list(info["instruction"]) == ["pick up the red mug from the wooden tray"] * 2
+    vector.close()
+
+
+def test_another_scene_can_be_entered_at_reset(env, tmp_path, breakfast):
+    """The shipped scene without its bowl: one object fewer, the rows beyond it are zero."""
+    from dataclasses import replace
+
+    from pat3d.scene_io import save_scene
+
+    fewer = replace(
+        breakfast,
+        objects=tuple(obj for obj in breakfast.objects if obj.name != "blue bowl"),
+        relations=tuple(rel for rel in breakfast.relations if rel.child != "blue bowl"),
+    )
+    save_scene(fewer, tmp_path / "fewer")
+    observation, info = env.reset(seed=0, options={"scene": tmp_path / "fewer", "task": "pick:banana"})
+    assert info["instruction"] == "pick up the banana from the wooden tray"
+    assert len(env.objects) == 4
+    assert env.observation_space.contains(observation)
+    assert not observation["objects"][4].any()
+    observation, info = env.reset(seed=0, options={"scene": default_scene(), "task": "pick:red mug"})
+    assert observation["objects"][4].any()
+
+
+def test_a_scene_with_more_objects_than_the_space_is_refused_and_nothing_changes(env):
+    made = TabletopEnv(max_objects=5)
+    made.reset(seed=0)
+    with pytest.raises(EnvironmentSetupError, match="max_objects=5"):
+        TabletopEnv(max_objects=3)
+    with pytest.raises(TaskError, match="no task"):
+        made.reset(options={"task": "juggle:red mug"})
+    assert made.task.spec == "pick:red mug"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"robot": "Optimus"}, "Robots: Panda, UR5e, Sawyer"),
+        ({"task": "pick:teapot"}, "Objects that can move: red mug, green apple"),
+        ({"task": "juggle"}, "Tasks: pick:OBJECT"),
+        ({"task": "place:banana"}, "does not fit"),
+        ({"obs": "smell"}, "Observations: state, rgb, rgbd"),
+        ({"control": "telepathy"}, "Controls: osc"),
+        ({"reward": "praise"}, "Valid: sparse, dense"),
+        ({"obs": "rgb", "cameras": ("ceiling",)}, "Cameras: agentview, frontview, wrist"),
+        ({"control_freq": 33.0}, "whole number of time steps"),
+        ({"start_noise": float("nan")}, "0 to 0.5"),
+    ],
+)
+def test_a_wrong_argument_is_answered_with_what_is_valid(arguments, message):
+    with pytest.raises((EnvironmentSetupError, TaskError), match=message):
+        TabletopEnv(**arguments)
+
+
+def test_an_action_that_is_no_number_is_refused(env):
+    env.reset(seed=0)
+    with pytest.raises(EnvironmentSetupError, match="7 finite numbers"):
+        env.step(np.full(7, np.nan, dtype=np.float32))
