@@ -24,8 +24,7 @@ class Rest:
     centres: NDArray[np.float64]
     """Centres of mass in the frames of the assets [m], shape (objects, 3)."""
     record: Mapping[str, Any]
-    """at_rest, status, unconverged_steps, residual, frames, polish_steps, newton_iterations, time_step;
-    JSON-serialisable."""
+    """at_rest, status, unconverged_steps, residual, frames, polish_steps, newton_iterations, time_step."""
     optimisation: Mapping[str, Any] | None = None
     """Of the layout that settled, where there was one; JSON-serialisable."""
     pictures: Mapping[str, bytes] = field(default_factory=dict)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import trimesh
 
 from pat3d.assets.asset import ConvexPart
 from pat3d.assets.hull import convex_part
@@ -13,8 +14,8 @@ from pat3d.scene import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from tests.sim.builders import box_points, random_hull
 
-KINDS = ("convex", "concave", "thin", "tiny-beside-huge", "sharp")
-"""Hulls; unions of hulls; plates of 0.5 mm; mass ratios of a million; needle pyramids."""
+KINDS = ("convex", "concave", "thin", "tiny-beside-huge", "sharp", "lumpy")
+"""Hulls; unions of hulls; plates of 0.5 mm; mass ratios of a million; needle pyramids; surfaces in clusters."""
 
 
 def add_parts(builder: ModelBuilder, parts: list[ConvexPart], pose: Pose, *, density: float) -> int:
@@ -45,6 +46,13 @@ def random_body(kind: str, rng: np.random.Generator) -> list[ConvexPart]:
         radius, height = rng.uniform(0.002, 0.01), rng.uniform(0.06, 0.12)
         ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(base)], axis=1)
         return [convex_part(np.vstack([ring, [[0.0, 0.0, height]]]) - [0, 0, height / 2])]
+    if kind == "lumpy":
+        sphere = trimesh.creation.icosphere(subdivisions=2)
+        x = np.asarray(sphere.vertices)
+        waves = rng.uniform(-5, 5, (3, 3))
+        lumps = 1 + 0.12 * np.sin(x @ waves + rng.uniform(0, 6, 3)).sum(axis=1)
+        vertices = rng.uniform(0.02, 0.05) * lumps[:, None] * x * rng.uniform(0.5, 1.0, 3)
+        return [ConvexPart(vertices=vertices, faces=np.asarray(sphere.faces, dtype=np.int32))]
     return [convex_part(random_hull(rng) * rng.uniform(0.3, 1.2))]
 
 

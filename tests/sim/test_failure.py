@@ -4,13 +4,18 @@ import tempfile
 
 import numpy as np
 import pytest
+import warp as wp
 
 from pat3d.errors import SimulationError
 from pat3d.scene import Pose
+from pat3d.sim.contact.broad_phase import Candidates
+from pat3d.sim.contact.ccd import fractions, safe_step
 from pat3d.sim.failure import Status
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.settling import Run, SettleOptions, UnsettledError, settle
 from tests.sim.builders import add_hull, box_points
+from tests.sim.drops import random_scene
+from tests.sim.oracles import IntersectionOracle
 
 
 @pytest.fixture(autouse=True)
@@ -111,3 +116,19 @@ def test_a_state_that_is_not_finite_is_refused():
     q[0, 1, 1] = np.nan
     with pytest.raises(SimulationError, match='"body" is not finite'):
         Run(model, SettleOptions(), lambda *_: None, q).refuse_intersections()
+
+
+def test_the_step_that_is_safe_is_the_least_that_any_pair_allows():
+    model = random_scene("concave", 5)
+    rng, steps = np.random.default_rng(0), []
+    oracle = IntersectionOracle(model)
+    candidates = Candidates(model)
+    for scale in (1.0, 3.0, 10.0):
+        target = model.q0 + scale * rng.normal(size=(model.bodies, 4, 3)) * 0.1
+        start, end = (wp.array(oracle.positions(q), dtype=wp.vec3d, device="cpu") for q in (model.q0, target))
+        candidates.rebuild(start, end, 1e-3, 1e-4)
+        step = wp.full(1, 1.0, dtype=wp.float64, device="cpu")
+        safe_step(model, candidates, start, end, step)
+        assert step.numpy()[0] == fractions(model, candidates, start, end).min(initial=1.0)
+        steps.append(step.numpy()[0])
+    assert min(steps) < 0.9

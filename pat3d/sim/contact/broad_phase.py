@@ -91,10 +91,10 @@ class Candidates:
     def rebuild(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
         """Collect the pairs anew; arguments as of `cover`."""
         model = self.model
+        self._reach = reach
         boxes = self._boxes
         boxes.enclose(start, end, 0.5 * reach + skin)
         _, close = boxes.close_pairs()
-        self._reach = reach
         self._margin.fill_(0.5 * reach)
         while True:
             self.size.zero_()
