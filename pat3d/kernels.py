@@ -32,8 +32,14 @@ MODULES = (
 """Modules with kernels, quick ones first."""
 
 
-def prepare(device: str, progress: Progress = silent) -> str:
+def prepare(device: str, progress: Progress = silent, *, deterministic: bool = False) -> str:
     """Load every kernel for `device` ("cpu" or "cuda"), compiling what no earlier run has compiled.
+
+    Args:
+        device: Warp's name of the device, or "cuda" for the first GPU.
+        progress: called before every module.
+        deterministic: whether all later runs of this process on a GPU give the same bits every time, for more time and
+            memory (`pat3d.sim.determinism`); those on a CPU do anyway.
 
     Returns:
         Warp's name of the device.
@@ -46,6 +52,8 @@ def prepare(device: str, progress: Progress = silent) -> str:
     name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
     if name is None:
         raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
+    if deterministic and wp.get_device(name).is_cuda:
+        import_module("pat3d.sim.determinism").enable()
     detail = "" if is_warm() else "compiling kernels, once, up to a minute"
     for number, module in enumerate(MODULES):
         progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))

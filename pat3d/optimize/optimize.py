@@ -201,7 +201,12 @@ class _Search:
             builder.add_scene(self.placement.scene(start.poses, start.attachments))
         model = builder.finalize(self.options.device)
         try:
-            found = settle(model, self.options.settle, lambda _, step, motion: self.progress(phase, step, motion))
+            found = settle(
+                model,
+                self.options.settle,
+                lambda _, step, motion: self.progress(phase, step, motion),
+                throw=False,
+            )
         except SimulationError:
             if len(starts) == 1:
                 raise

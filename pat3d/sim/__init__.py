@@ -18,9 +18,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from pat3d.sim.failure import Status
     from pat3d.sim.model import Model, ModelBuilder, poses_from_states
     from pat3d.sim.rollouts import Rollout, rollout
-    from pat3d.sim.settling import Settled, SettleOptions, settle
+    from pat3d.sim.settling import Settled, SettleOptions, UnsettledError, settle
 
 __all__ = [
     "Model",
@@ -28,6 +29,8 @@ __all__ = [
     "Rollout",
     "SettleOptions",
     "Settled",
+    "Status",
+    "UnsettledError",
     "poses_from_states",
     "rollout",
     "settle",
@@ -39,6 +42,8 @@ _HOMES = {
     "Rollout": "pat3d.sim.rollouts",
     "SettleOptions": "pat3d.sim.settling",
     "Settled": "pat3d.sim.settling",
+    "Status": "pat3d.sim.failure",
+    "UnsettledError": "pat3d.sim.settling",
     "poses_from_states": "pat3d.sim.model",
     "rollout": "pat3d.sim.rollouts",
     "settle": "pat3d.sim.settling",

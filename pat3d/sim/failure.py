@@ -13,6 +13,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import fractions
 from pat3d.sim.model import Model
 from pat3d.sim.potential import SKIN
@@ -41,6 +42,8 @@ def diagnose(newton: Newton, active: NDArray[np.bool_], result: NewtonResult) ->
         return {}
     model = newton.model
     direction, step = newton.direction.numpy().reshape(-1, 4, 3), newton.step.numpy()
+    # A search that rounding ended was allowed its last trial.
+    drowned = result.stalled & (newton.fraction.numpy() >= 1.0)
     found = {}
     for world in failing:
         members = model.world_of == world
@@ -48,8 +51,11 @@ def diagnose(newton: Newton, active: NDArray[np.bool_], result: NewtonResult) ->
             found[int(world)] = Status.DEGENERATE
             continue
         wanted = reach_of(direction[members], model.body_radius[members])
-        # Rounding ends a search too; collision detection is to blame only where it allows nothing of a real motion.
-        if step[world] * wanted < NO_MOTION <= wanted and blocking_pair(newton, int(world))[0] < NO_MOTION:
+        if (
+            not drowned[world]
+            and step[world] * wanted < NO_MOTION <= wanted
+            and blocking_pair(newton, int(world))[0] < NO_MOTION
+        ):
             found[int(world)] = Status.BLOCKED
     return found
 
@@ -79,18 +85,21 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
     start = potential.positions(newton.q, potential._start)
     trial = wp.array(q + direction, dtype=wp.vec3d, device=model.device)
     end = potential.positions(trial, potential._end)
-    potential.candidates.rebuild(start, end, potential.contact.d_hat, SKIN)
-    allowed = fractions(model, potential.candidates, start, end)
-    body = model.vertex_body.numpy()
-    pairs = potential.candidates.primitives.numpy()[: potential.candidates.count]
+    # Of its own, so that a run that goes on is not disturbed.
+    candidates = Candidates(model)
+    candidates.rebuild(start, end, potential.contact.d_hat, SKIN)
+    allowed = fractions(model, candidates, start, end)
+    body = np.asarray(model.vertex_body.numpy(), dtype=np.int64)
+    pairs = np.asarray(candidates.primitives.numpy()[: candidates.count], dtype=np.int64)
     inside = model.world_of[body[pairs[:, 0]]] == world
     length = min(reach, float(LONGEST_STEP))
     if not inside.any():
         return length, (-1, -1)
     at = int(np.argmin(np.where(inside, np.nan_to_num(allowed, nan=0.0), np.inf)))
-    others = body[pairs[at][pairs[at] >= 0]]
-    other = next((int(b) for b in others if b != others[0]), -1)
-    return float(allowed[at]) * length, (int(others[0]), other)
+    vertices = pairs[at]
+    others = [int(body[v]) for v in vertices if v >= 0]
+    other = next((b for b in others if b != others[0]), -1)
+    return float(allowed[at]) * length, (others[0], other)
 
 
 def dump(model: Model, q: NDArray[np.float64], step: int, time_step: float) -> str:

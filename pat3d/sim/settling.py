@@ -12,7 +12,7 @@ fades, which ends at static equilibrium instead of creeping for ever.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from pat3d.sim.measures import StepMeasures
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.solvers.newton import Newton, NewtonResult
+from pat3d.sim.tape import StepRecord, Tape
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
@@ -73,33 +74,6 @@ class SettleOptions:
     """Unbalanced force of any body at rest over its weight."""
     move: float = 1.0e-8
     """Motion of any vertex in the last step at rest [m]."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class StepRecord:
-    """What one time step depended on besides the state it started from; enough to differentiate it."""
-
-    active: NDArray[np.bool_]
-    """Worlds that were stepped, shape (worlds,)."""
-    sigma: NDArray[np.float64]
-    """Inertia weight over the squared time step [1/s^2], shape (worlds,)."""
-    d_hat: float
-    """[m]"""
-    lag_d_hat: float
-    """Barrier activation distance at which friction was recorded [m]."""
-    epsilon: float
-    """[m]"""
-    reference: NDArray[np.int64]
-    """Index of the state from which friction displacements count, shape (worlds,)."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Tape:
-    """All states of a run and the steps between them, for the backward pass."""
-
-    states: list[wp.array] = field(default_factory=list)
-    """Shape (bodies, 4), vec3d each, on the device; one more than steps."""
-    steps: list[StepRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -43,9 +43,11 @@ def test_reduced_hull_contains_the_original_within_the_caps_and_keeps_its_base(s
     assert len(part.faces) <= 36
     assert _outside(points, part) <= 1e-9 * scale
     assert len(part.faces) == 2 * len(part.vertices) - 4
-    # What stands on the base stands as high as before.
-    assert part.bounds[0, 2] == pytest.approx(points[:, 2].min(), abs=1e-9 * scale)
-    assert part.bounds[1, 2] == pytest.approx(points[:, 2].max(), abs=1e-9 * scale)
+    # What stands on the base stands as high as before; where nothing else lets an edge go, levels give way by a tenth
+    # of the shortest edge.
+    hair = 0.1 * SHORT_EDGE * np.ptp(points, axis=0).max() * (1 + 1e-9)
+    assert points[:, 2].min() - hair <= part.bounds[0, 2] <= points[:, 2].min() + 1e-9 * scale
+    assert points[:, 2].max() - 1e-9 * scale <= part.bounds[1, 2] <= points[:, 2].max() + hair
 
 
 def test_base_and_top_of_a_fine_cylinder_stay_exactly_coplanar_and_cover_the_old_ones():

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+import trimesh
 
 from pat3d.assets.asset import ConvexPart
 from pat3d.assets.hull import convex_part
@@ -11,8 +14,8 @@ from pat3d.scene import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from tests.sim.builders import box_points, random_hull
 
-KINDS = ("convex", "concave", "thin", "tiny-beside-huge", "sharp")
-"""Hulls; unions of hulls; plates of 0.5 mm; mass ratios of a million; needle pyramids."""
+KINDS = ("convex", "concave", "thin", "tiny-beside-huge", "sharp", "lumpy")
+"""Hulls; unions of hulls; plates of 0.5 mm; mass ratios of a million; needle pyramids; surfaces in clusters."""
 
 
 def add_parts(builder: ModelBuilder, parts: list[ConvexPart], pose: Pose, *, density: float) -> int:
@@ -43,13 +46,19 @@ def random_body(kind: str, rng: np.random.Generator) -> list[ConvexPart]:
         radius, height = rng.uniform(0.002, 0.01), rng.uniform(0.06, 0.12)
         ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(base)], axis=1)
         return [convex_part(np.vstack([ring, [[0.0, 0.0, height]]]) - [0, 0, height / 2])]
+    if kind == "lumpy":
+        sphere = trimesh.creation.icosphere(subdivisions=2)
+        x = np.asarray(sphere.vertices)
+        waves = rng.uniform(-5, 5, (3, 3))
+        lumps = 1 + 0.12 * np.sin(x @ waves + rng.uniform(0, 6, 3)).sum(axis=1)
+        vertices = rng.uniform(0.02, 0.05) * lumps[:, None] * x * rng.uniform(0.5, 1.0, 3)
+        return [ConvexPart(vertices=vertices, faces=np.asarray(sphere.faces, dtype=np.int32))]
     return [convex_part(random_hull(rng) * rng.uniform(0.3, 1.2))]
 
 
-def random_scene(kind: str, seed: int) -> Model:
-    """Four bodies of `kind` above one another, in random orientations."""
+def add_random_bodies(builder: ModelBuilder, kind: str, seed: int) -> None:
+    """Add four bodies of `kind` above one another, in random orientations, to the present world."""
     rng = np.random.default_rng([KINDS.index(kind), seed])
-    builder = ModelBuilder()
     height = 0.02
     for i in range(4):
         scale, density = 1.0, float(10 ** rng.uniform(1.5, 3.5))
@@ -62,4 +71,17 @@ def random_scene(kind: str, seed: int) -> Model:
         place = (*(rng.uniform(-0.03, 0.03, 2) * scale), height)
         height += radius
         add_parts(builder, parts, Pose(position=place, quat_wxyz=tuple(quat / np.linalg.norm(quat))), density=density)
+
+
+def random_scene(kind: str, seed: int) -> Model:
+    """One world of four bodies of `kind`."""
+    return random_scenes(kind, [seed])
+
+
+def random_scenes(kind: str, seeds: Sequence[int]) -> Model:
+    """A world of four bodies of `kind` for every seed."""
+    builder = ModelBuilder()
+    for seed in seeds:
+        builder.new_world()
+        add_random_bodies(builder, kind, seed)
     return builder.finalize("cpu")

@@ -54,7 +54,7 @@ class IntersectionOracle:
         return _inside(x[first][0], x[second], self._faces(j)) or _inside(x[second][0], x[first], self._faces(i))
 
     def _faces(self, part: int) -> NDArray[np.int32]:
-        return self.triangles[slice(*self.ranges[part, 4:])] - self.ranges[part, 0]
+        return self.triangles[slice(*self.ranges[part, 4:6])] - self.ranges[part, 0]
 
 
 def _inside(point: NDArray[np.float64], vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> bool:

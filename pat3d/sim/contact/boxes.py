@@ -9,6 +9,8 @@ Boxes of parts prune those of clusters of primitives, and those prune primitives
 
 from __future__ import annotations
 
+from typing import Any
+
 import warp as wp
 
 from pat3d.sim.model import Model
@@ -68,7 +70,7 @@ class Boxes:
                 outputs=[self._part_low, self._part_high],
             )  # fmt: skip
 
-    def close_pairs(self) -> tuple[wp.array, wp.array]:
+    def close_pairs(self) -> tuple[Any, Any]:
         """Pairs of parts and pairs of clusters whose boxes overlap, vec2i."""
         model = self.model
         self._counter.zero_()

@@ -17,6 +17,7 @@ import warp as wp
 
 from pat3d.sim.contact.boxes import Boxes, boxes_overlap
 from pat3d.sim.contact.distance import EDGE_EDGE, POINT_GROUND, POINT_TRIANGLE
+from pat3d.sim.determinism import canonical, enabled
 from pat3d.sim.model import Model
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
@@ -114,7 +115,16 @@ class Candidates:
             if self.count <= self.capacity:
                 break
             self._reserve(2 * self.count)
+        if boxes.lanes > 1 and enabled():
+            self.sort()
         self.built = True
+
+    def sort(self) -> None:
+        """Put the pairs into one order, whichever threads found them first."""
+        kinds, primitives = self.kind.numpy()[: self.count], self.primitives.numpy()[: self.count]
+        order = canonical(kinds, primitives)
+        for array, values in ((self.kind, kinds), (self.primitives, primitives)):
+            wp.copy(array, wp.array(values[order], dtype=array.dtype, device=array.device), count=self.count)
 
 
 @wp.kernel

@@ -1,6 +1,6 @@
 # Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
-# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAssignmentType=false
 
 """Which bodies intersect at a state: the proof that a simulation may start.
 
@@ -56,7 +56,7 @@ def _launch(kernel: wp.Kernel, model: Model, pairs: wp.array, inputs: list) -> N
         return np.zeros((0, 2), dtype=np.int32)
     hit = wp.zeros(count, dtype=int, device=model.device)
     wp.launch(kernel, dim=(count, 2), device=model.device, inputs=[pairs, *inputs], outputs=[hit])
-    return pairs.numpy()[hit.numpy() != 0]
+    return np.asarray(pairs.numpy(), dtype=np.int32)[hit.numpy() != 0]
 
 
 @wp.func

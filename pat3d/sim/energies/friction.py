@@ -26,6 +26,10 @@ from pat3d.sim.model import Model
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
 
+CAPACITY = 64
+"""Contacts that there is room for at first."""
+
+
 class Friction:
     """Friction of the contacts recorded last."""
 
@@ -43,7 +47,7 @@ class Friction:
         """Number of contacts, shape (1,), int; kernels over `capacity` threads end at it."""
         self.count = 0
         """`size` on the host."""
-        self._reserve(64)
+        self._reserve(CAPACITY)
 
     @property
     def epsilon(self) -> float:

@@ -116,6 +116,11 @@ class Newton:
         """Multiple of the direction tried last, shape (worlds,), float64."""
         return self._step
 
+    @property
+    def fraction(self) -> wp.array:
+        """Fraction of the last trial that collision detection allowed, shape (worlds,), float64."""
+        return self._fraction
+
     def minimise(
         self,
         q: wp.array,
