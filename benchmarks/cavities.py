@@ -39,7 +39,7 @@ def outside(asset: Asset) -> NDArray[np.float64]:
     from scipy.spatial import ConvexHull
 
     visual = trimesh.Trimesh(asset.visual.vertices, asset.visual.faces, process=False)
-    sampled, _ = trimesh.sample.sample_surface(visual, SAMPLES, seed=0)
+    sampled = trimesh.sample.sample_surface(visual, SAMPLES, seed=0)[0]
     points = np.concatenate([asset.visual.vertices, sampled])
     depth = np.full((len(asset.parts), len(points)), np.inf)
     for number, part in enumerate(asset.parts):
