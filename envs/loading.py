@@ -106,8 +106,10 @@ def _export(scene: Scene, folder: Path | None) -> Path:
         digest.update(checksum_of(folder / "assets").encode())
         key = digest.hexdigest()
     # The exporter belongs to the key: another version may write the same scene differently.
-    exporter = Path(str(files("pat3d.exporters"))) / "mjcf.py"
-    key = hashlib.sha256((key + hashlib.sha256(exporter.read_bytes()).hexdigest()).encode()).hexdigest()
+    whole = hashlib.sha256(key.encode())
+    for source in sorted(Path(str(files("pat3d.exporters"))).glob("*.py")):
+        whole.update(source.read_bytes())
+    key = whole.hexdigest()
     target = cache_root() / "mjcf" / key[:32]
     if not (target / "scene.xml").is_file():
         write_mjcf(scene, target)

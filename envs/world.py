@@ -158,7 +158,11 @@ def _cameras(spec: Any, placement: Placement) -> None:
     towards = np.array([math.cos(placement.yaw), math.sin(placement.yaw), 0.0])
     reach = placement.focus_radius
     views = {
-        "agentview": (centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.42 + 0.8 * reach], centre, 45.0),
+        "agentview": (
+            centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.46 + 0.8 * reach],
+            centre + [0, 0, 0.07],
+            45.0,
+        ),
         "frontview": (
             centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach],
             centre - 0.15 * towards,
