@@ -43,7 +43,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     Args:
         scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
         task: "pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task;
-            None for picking the first object that can be picked. With a suite, a kind of task ("pick"), or None for all.
+            None for picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all.
         robot: Panda, UR5e, Sawyer or IIWA.
         suite: a suite folder instead of a scene; every reset draws one of its scenes with that scene's own task.
         split: of the suite: "train", "val", "test", "val/object", ...; None for all.

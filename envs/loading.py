@@ -48,8 +48,8 @@ def default_scene() -> Path:
 def load(source: str | os.PathLike[str] | Scene | None = None, *, proven_in: str | None = None) -> LoadedScene:
     """Load a scene folder, the scene that ships with the package (None), or a scene in memory.
 
-    The folder's own mjcf/scene.xml is used where there is one; otherwise the scene is exported into the cache. Where
-    these very files are known to stay still in the MuJoCo version `proven_in`, and it is the one here, that is believed.
+    The folder's own mjcf/scene.xml is used where there is one; otherwise the scene is exported into the cache. Files
+    that are known to stay still in the MuJoCo version `proven_in`, where that is the one here, are not tried again.
 
     Raises:
         SpecError: no readable scene there.

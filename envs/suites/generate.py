@@ -91,9 +91,8 @@ def _check_same(folder: SuiteFolder, request: Request) -> None:
     where = str(folder.path / MANIFEST)
     document = read_document(folder.path / MANIFEST)
     earlier = Request.from_dict(document.get("request"), where)
-    differ = {
-        name: value for name, value in earlier.as_dict().items() if name != "scenes" and value != request.as_dict()[name]
-    }  # fmt: skip
+    asked = {**request.as_dict(), "scenes": earlier.scenes}
+    differ = {name: value for name, value in earlier.as_dict().items() if value != asked[name]}
     if differ:
         said = ", ".join(f"{name} {json.dumps(value)}" for name, value in differ.items())
         raise SuiteError(f"{folder.path} holds a suite with {said}; ask for the same, or give a new folder.")
@@ -104,10 +103,9 @@ def _check_same(folder: SuiteFolder, request: Request) -> None:
         )
     from pat3d.versions import versions
 
-    made_with = document.get("versions")
-    changed = sorted(
-        name for name, value in versions().items() if isinstance(made_with, dict) and made_with.get(name) != value
-    )
+    found = document.get("versions")
+    made_with = found if isinstance(found, dict) else {}
+    changed = sorted(name for name, value in versions().items() if made_with.get(name) != value)
     if changed:
         said = ", ".join(f"{name} {made_with.get(name)} (here {versions()[name]})" for name in changed)
         raise SuiteError(f"{folder.path} was begun with {said}; go on with the same versions, or give a new folder.")

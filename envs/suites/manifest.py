@@ -34,7 +34,7 @@ AXES = {
 }
 """Along which scenes are more or less difficult."""
 
-_HUB = '''"""The suite as LeRobot's EnvHub takes it: a vector environment for every kind of task, over the test split."""
+_HUB = '''"""The suite for LeRobot's EnvHub: a vector environment for every kind of task, over the test split."""
 
 from pathlib import Path
 

@@ -56,7 +56,8 @@ def page(name: str, document: Mapping[str, Any]) -> str:
 <p class="dim">checksum <code>{escape(str(document["checksum"]))}</code></p>
 <h2>Splits</h2>
 {_table(["split", *kinds, "all"], splits)}
-<p class="dim">By object: what is moved is {escape(", ".join(held["val"]))} (val) or {escape(", ".join(held["test"]))} (test),
+<p class="dim">By object: what is moved is {escape(", ".join(held["val"]))} (val) or
+{escape(", ".join(held["test"]))} (test),
 which nothing in training asks to move. By layout: the arrangement's structure occurs in no training scene.</p>
 <h2>Difficulty</h2>
 <div class="tables">{axes}</div>

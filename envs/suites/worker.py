@@ -1,7 +1,7 @@
 """A worker process: reads units from its input, a JSON line each, and answers with a line each.
 
-It has no other tie to its run, shares no memory with it, and ends when its input does, in the middle of a unit too: a run
-that is killed leaves nobody behind who still writes.
+It has no other tie to its run and ends when its input does, in the middle of a unit too: a run that is killed leaves
+nobody behind who still writes.
 """
 
 from __future__ import annotations

@@ -58,8 +58,8 @@ def copy(made, tmp_path):
 def test_a_run_killed_and_started_again_makes_the_same_suite_bit_for_bit(made, tmp_path):
     """One worker and SIGKILL in the middle, against two workers of which one was killed: only the log may differ."""
     folder = tmp_path / "one"
-    command = [sys.executable, "-m", "pat3d", "suite", "generate", str(folder), "--tasks", "pick,stack", "--scenes", "4",
-               "--objects", "4-6", "--picture", "64", "--seed", "3", "--workers", "1"]  # fmt: skip
+    command = [sys.executable, "-m", "pat3d", "suite", "generate", str(folder), "--tasks", "pick,stack",
+               "--scenes", "4", "--objects", "4-6", "--picture", "64", "--seed", "3", "--workers", "1"]  # fmt: skip
     first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     scenes = SuiteFolder(folder)
     _wait(lambda: len(scenes.done()) >= 2 and any(scenes.work.glob("*-0*")))
@@ -157,7 +157,10 @@ def test_suites_from_a_newer_version_and_damaged_ones_are_told_apart(copy):
         ({"version": 99}, "reads up to 1. Upgrade pat3d"),
         ({"format": "other"}, "not a suite's description"),
         ({"scenes": document["scenes"][:1]}, "does not list 4 scenes"),
-        ({"scenes": [{**document["scenes"][0], "place": "../.."}, *document["scenes"][1:]]}, "of scene 0 is incomplete"),
+        (
+            {"scenes": [{**document["scenes"][0], "place": "../.."}, *document["scenes"][1:]]},
+            "of scene 0 is incomplete",
+        ),
     ):
         (copy / MANIFEST).write_text(json.dumps({**document, **change}))
         with pytest.raises(SuiteError, match=message):
