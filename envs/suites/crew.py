@@ -11,9 +11,11 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
+import pat3d
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
 from pat3d.errors import SuiteError
@@ -46,10 +48,17 @@ def worker_count(asked: str) -> int:
         SuiteError: it means nothing.
     """
     if asked == "auto":
-        return min(len(os.sched_getaffinity(0)), MAX_WORKERS)
+        return min(_cores(), MAX_WORKERS)
     if asked.isdecimal() and 1 <= int(asked) <= MAX_WORKERS:
         return int(asked)
     raise SuiteError(f'--workers is "auto" or a number from 1 to {MAX_WORKERS}, not "{asked}".')
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 class Crew:
@@ -77,11 +86,12 @@ class Crew:
         """Start a worker; it says when it is ready."""
         number, self._next = self._next, self._next + 1
         self._folder.work.mkdir(parents=True, exist_ok=True)
-        # A package on the path by chance, or from the folder one is in, is not what the worker should import.
-        path = os.pathsep.join(entry for entry in sys.path if entry)
+        # The same pat3d as here, and nothing from the folder one happens to be in.
+        root = str(Path(pat3d.__file__).resolve().parents[1])
+        path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
         with self._log(number).open("wb") as log:
             process = subprocess.Popen(
-                [sys.executable, "-m", "pat3d.envs.suites.worker"],
+                [sys.executable, "-P", "-m", "pat3d.envs.suites.worker"],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
                 env={**os.environ, **_ONE_THREAD, "PYTHONPATH": path}, start_new_session=True,
             )  # fmt: skip
@@ -137,7 +147,7 @@ class Crew:
             for process in self._processes.values():
                 process.wait()
 
-    def _log(self, number: int) -> Any:
+    def _log(self, number: int) -> Path:
         return self._folder.work / f"worker-{number}.log"
 
     def _send(self, number: int, message: dict[str, Any]) -> None:

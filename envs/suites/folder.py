@@ -14,7 +14,6 @@ a rejection. Both appear by renaming, so that a run may be killed at any moment.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import json
 import os
@@ -22,6 +21,7 @@ import re
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -98,6 +98,8 @@ class SuiteFolder:
             SuiteError: another process has it.
             ExportError: nothing can be written there.
         """
+        # There is none on Windows, where suites can be used but not made.
+        fcntl: Any = import_module("fcntl")
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             handle = os.open(self.path / LOCK, os.O_RDWR | os.O_CREAT, 0o644)

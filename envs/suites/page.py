@@ -30,9 +30,10 @@ def page(name: str, document: Mapping[str, Any]) -> str:
     request, scenes, rejected = document["request"], document["scenes"], document["rejected"]
     found = document["numbers"]
     settled = found["settled_in_mujoco"]
+    sizes = " to ".join(map(str, sorted(set(request["objects"]))))
     lead = (
         f"{found['scenes']} scenes from {found['candidates']} candidates; seed {request['seed']}, {request['robot']}, "
-        f"{request['objects'][0]} to {request['objects'][1]} objects. {settled['passed']} of {settled['of']} settled "
+        f"{sizes} objects. {settled['passed']} of {settled['of']} settled "
         f"scenes stay still in MuJoCo {document['versions'].get('mujoco')}; {found['intersections']} intersections. "
         f"Largest drift of a scene in the suite: {_figure(found['largest_drift_mm'])} mm, "
         f"{_figure(found['largest_turn_degrees'])} degrees in 5 s."

@@ -139,7 +139,10 @@ def _axes(made: Draft, scene: Scene | None) -> dict[str, Any]:
     plan = made.plan
     involved = {*made.moved, *made.places}
     parents = {rel.child: rel for rel in plan.relations if rel.supports}
-    regions = {obj.name for obj in scene.objects if obj.asset.region("in") is not None} if scene is not None else set()
+    assets = {obj.name: obj.asset for obj in scene.objects} if scene is not None else {}
+    regions = {name for name, asset in assets.items() if asset.region("in") is not None}
+    # A plate or a tray has an inside too, but things are on it first of all.
+    containers = {name for name in regions if assets[name].regions[0].kind == "in"}
 
     def height(name: str) -> int:
         relation = parents.get(name)
@@ -150,7 +153,7 @@ def _axes(made: Draft, scene: Scene | None) -> dict[str, Any]:
     return {
         "objects": len(plan.objects),
         "clutter": sum(obj.name not in involved for obj in plan.objects),
-        "container": any(name in regions for name in made.places),
+        "container": any(name in containers for name in made.places),
         "stack_height": max(height(obj.name) for obj in plan.objects if obj.name != GROUND),
         "friction": None if scene is None else min(scene[name].asset.material.friction for name in made.moved),
     }
