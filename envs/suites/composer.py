@@ -40,6 +40,8 @@ class Composer:
         self.places: list[str] = []
         self.avoid: tuple[str, ...] = ()
         """Colours that mean something in this scene, so that bystanders have others."""
+        self.container_colours: tuple[str, ...] | None = None
+        """Of containers that are no homes; None for any colour that means nothing."""
         self.coloured_only = False
 
     def item(
@@ -72,7 +74,8 @@ class Composer:
         """Add something that takes `room` items; returns its name and what it is."""
         fitting = [one for one in CONTAINERS if one.room >= room and kind in (None, one.kind)]
         chosen = fitting[int(self.rng.integers(len(fitting)))]
-        colours = (self._pick([c for c in COLOURS if c not in self.avoid]),) if chosen.coloured else ()
+        free = self.container_colours or tuple(name for name in COLOURS if name not in self.avoid)
+        colours = (self._pick(free),) if chosen.coloured else ()
         name = self._add(chosen.noun, colours, None, GROUND, "on")
         if place:
             self.places.append(name)

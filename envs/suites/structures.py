@@ -96,9 +96,10 @@ def _stack_from(kind: str) -> Callable[[Composer], str]:
 
 def _sort(first: int, second: int) -> Callable[[Composer], str]:
     def build(c: Composer) -> str:
-        # White and black would make homes of the wooden and steel things that are called so.
         colours = [COLOURS[place] for place in c.rng.permutation(6)[:2]]
-        c.avoid, c.coloured_only = tuple(colours), True
+        c.avoid, c.coloured_only = (*colours, "white"), True
+        # A bystander of a container's colour would have a home there: containers are white, and nothing else is.
+        c.container_colours = ("white",)
         for colour, count in zip(colours, (first, second), strict=True):
             c.home(colour)
             for _ in range(count):

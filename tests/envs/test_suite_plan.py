@@ -125,6 +125,18 @@ def test_tasks_name_objects_of_their_scene():
         assert set(made.moved) <= names
 
 
+def test_in_sorting_scenes_only_what_is_to_be_sorted_has_the_colour_of_a_container():
+    containers = {one.noun for one in CONTAINERS}
+    request = Request(tasks=("sort",))
+    for place in range(60):
+        made = draft(request, place, 0)
+        colours = {obj.colours for obj in made.plan.objects if obj.noun in containers and obj.colours}
+        # Fruit bowls and boards come in white and woods.
+        colours.add(("white",))
+        matching = {obj.name for obj in made.plan.objects if obj.noun not in containers and obj.colours in colours}
+        assert matching == set(made.moved)
+
+
 def test_everything_that_suites_use_is_in_the_catalogue():
     assert all(catalogue.find(one.noun) is not None for one in (*ITEMS, *CONTAINERS))
 
