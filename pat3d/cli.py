@@ -40,6 +40,11 @@ EXAMPLES = {
   pat3d catalogue mug                    one object, with a picture in mug.png
   pat3d catalogue --sheet catalogue.png  pictures of everything
 """,
+    "suite": """
+  pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+  pat3d suite check suites/tabletop
+  pat3d suite show suites/tabletop
+""",
     "doctor": """
   pat3d doctor
 """,
@@ -119,6 +124,11 @@ def parser() -> argparse.ArgumentParser:
     listing.add_argument("--sheet", metavar="PNG", help="write pictures of everything")
     listing.add_argument("--out", metavar="PNG", help="picture of NAME (default: ./NAME.png)")
     listing.add_argument("--seed", type=int, default=0, help="variation of what is drawn")
+
+    from pat3d.envs.suites.command import add_arguments
+
+    suites = command("suite", "scenes with tasks by the thousand, in splits, for training and testing policies")
+    add_arguments(suites, argparse.RawDescriptionHelpFormatter)
 
     command("doctor", "what works on this computer, and what would enable more")
     return main_parser

@@ -142,6 +142,13 @@ def catalogue(options: argparse.Namespace) -> int:
     return browse.everything(seed=options.seed, sheet=options.sheet)
 
 
+def suite(options: argparse.Namespace) -> int:
+    """`pat3d suite`."""
+    from pat3d.envs.suites import command
+
+    return command.run(options)
+
+
 def doctor(options: argparse.Namespace) -> int:
     """`pat3d doctor`."""
     from pat3d.doctor import examine
