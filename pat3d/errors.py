@@ -56,3 +56,7 @@ class UnsettledSceneError(Pat3dError):
 
 class TaskError(Pat3dError):
     """A task that its scene does not allow: done already, out of reach, or too wide for the gripper."""
+
+
+class EvaluationError(Pat3dError):
+    """An evaluation, a policy or a record of one that cannot be used."""
