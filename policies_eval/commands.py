@@ -21,7 +21,7 @@ def add_commands(command: Any) -> None:
     """Add the commands to a command line; `command` makes a parser from a name and a summary."""
     evaluating = command("evaluate", "let a policy do episodes, and report its success rate and failures")
     evaluating.add_argument("--policy", required=True, metavar="POLICY",
-                            help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt, lerobot:FOLDER")  # fmt: skip
+                            help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt")  # fmt: skip
     _add_episodes(evaluating)
     evaluating.add_argument("--out", required=True, metavar="FOLDER", help="records; an unfinished run goes on there")
     evaluating.add_argument("--workers", default="1", metavar="N", help="processes, or auto: one a core (1)")
@@ -43,14 +43,15 @@ def add_commands(command: Any) -> None:
     replaying.add_argument("folder", metavar="FOLDER", help="what evaluate wrote")
     replaying.add_argument("--episode", type=int, action="append", metavar="N", help="which one; all by default")
     replaying.add_argument("--video", metavar="FILE", help=".mp4, .gif, or a folder for PNG files")
-    replaying.add_argument("--camera", default="frontview", help="agentview, frontview or wrist (frontview)")
+    replaying.add_argument("--camera", default="agentview", help="agentview, frontview or wrist (agentview)")
     replaying.add_argument("--size", default="320x240", metavar="WxH", help="of the video [pixel] (320x240)")
 
     training = command("train", "train a small policy on demonstrations of the scripted one")
     _add_episodes(training)
     training.add_argument("--out", required=True, metavar="FILE.pt", help="checkpoint to write")
     training.add_argument("--epochs", type=int, default=200, help="passes over the demonstrations (200)")
-    training.add_argument("--demonstrations", metavar="FOLDER", help="export them too: .hdf5 in robomimic's format")
+    training.add_argument("--noise", type=float, default=0.3, help="of the hand while it demonstrates (0.3)")
+    training.add_argument("--demonstrations", metavar="FILE.hdf5", help="write them too, as robomimic reads them")
 
 
 def _add_episodes(to: argparse.ArgumentParser) -> None:
@@ -132,7 +133,6 @@ def evaluate(options: argparse.Namespace) -> int:
 def compare(options: argparse.Namespace) -> int:
     """`pat3d compare`."""
     from pat3d.policies_eval.compare import compare_evaluations, show_comparison
-
     from pat3d.policies_eval.records import read_evaluation
 
     found = compare_evaluations(read_evaluation(options.first), read_evaluation(options.second))
@@ -143,7 +143,6 @@ def compare(options: argparse.Namespace) -> int:
 def leaderboard(options: argparse.Namespace) -> int:
     """`pat3d leaderboard`."""
     from pat3d.policies_eval.compare import show_leaderboard
-
     from pat3d.policies_eval.records import read_evaluation
 
     show_leaderboard(console(), [read_evaluation(folder) for folder in options.folders])
@@ -152,9 +151,8 @@ def leaderboard(options: argparse.Namespace) -> int:
 
 def replay(options: argparse.Namespace) -> int:
     """`pat3d replay`: exit code 1 where a state differs from the recorded one."""
-    from pat3d.policies_eval.replay import replay_episodes
-
     from pat3d.policies_eval.records import read_evaluation
+    from pat3d.policies_eval.replay import replay_episodes
 
     return replay_episodes(
         read_evaluation(options.folder), options.episode, video=options.video, camera=options.camera,
@@ -167,8 +165,8 @@ def train(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.train import train as run
 
     episodes, _ = episodes_from(options)
-    run(episodes, options.out, epochs=options.epochs, seed=options.seed, demonstrations=options.demonstrations,
-        target=console())  # fmt: skip
+    run(episodes, options.out, epochs=options.epochs, seed=options.seed, noise=options.noise,
+        demonstrations=options.demonstrations, target=console())  # fmt: skip
     return 0
 
 

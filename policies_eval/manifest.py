@@ -18,8 +18,12 @@ from pat3d.versions import version_of
 PHYSICS = ("mujoco", "robosuite", "numpy", "gymnasium")
 """Packages that decide how an episode goes."""
 
-PARTS = ("policies_eval", "envs", "exporters")
-"""Packages of ours that do."""
+PARTS = {
+    "envs": ("**/*.py",),
+    "exporters": ("mjcf.py", "meshes.py"),
+    "policies_eval": ("episodes.py", "failures.py", "perturb.py", "policy.py", "rollout.py"),
+}
+"""Modules of ours that do."""
 
 
 def make_manifest(
@@ -47,9 +51,9 @@ def engine() -> dict[str, str]:
 def code_version() -> str:
     """SHA-256 over our own modules that decide how an episode goes, shortened."""
     digest = hashlib.sha256()
-    for part in PARTS:
+    for part, patterns in PARTS.items():
         root = Path(str(files(f"pat3d.{part}")))
-        for file in sorted(root.rglob("*.py")):
+        for file in sorted(file for pattern in patterns for file in root.glob(pattern)):
             digest.update(f"{part}/{file.relative_to(root).as_posix()}\0".encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -16,10 +16,7 @@ from numpy.typing import NDArray
 from pat3d.errors import EvaluationError, Pat3dError
 from pat3d.policies_eval.policy import EpisodeStart, Policy
 
-FORMS = (
-    "random, scripted, ws://HOST:PORT (an openpi policy server), package.module:callable, "
-    "FOLDER_OR_FILE.pt (pat3d train), lerobot:FOLDER"
-)
+FORMS = "random, scripted, ws://HOST:PORT (an openpi policy server), package.module:callable, FILE.pt (pat3d train)"
 
 _CALLABLE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
 
@@ -69,10 +66,6 @@ def make_policy(spec: str) -> Policy:
         from pat3d.policies_eval.server import ServerPolicy
 
         return ServerPolicy(spec)
-    if spec.startswith("lerobot:"):
-        from pat3d.policies_eval.lerobot_policy import LeRobotPolicy
-
-        return LeRobotPolicy(spec.removeprefix("lerobot:"))
     if spec.endswith(".pt"):
         from pat3d.policies_eval.cloning import ClonedPolicy
 

@@ -56,7 +56,7 @@ class Policy(Protocol):
         ...
 
 
-class PolicyFault(Exception):
+class PolicyError(Exception):
     """A policy did what no policy may; the episode is recorded as a policy error with this reason."""
 
     def __init__(self, kind: str, reason: str) -> None:
@@ -77,7 +77,7 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
         clip: clip whatever is out of range.
 
     Raises:
-        PolicyFault: not numbers, the wrong shape, not finite, or further out of range than OUT_OF_RANGE.
+        PolicyError: not numbers, the wrong shape, not finite, or further out of range than OUT_OF_RANGE.
     """
     if hasattr(answer, "detach"):
         answer = answer.detach().cpu().numpy()
@@ -87,17 +87,17 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
             raise TypeError(f"values of type {values.dtype}")
         values = values.astype(np.float64)
     except (TypeError, ValueError) as error:
-        raise PolicyFault("no numbers", f"an action is {size} numbers, not {_short(error)}") from None
+        raise PolicyError("no numbers", f"an action is {size} numbers, not {_short(error)}") from None
     if values.ndim == 1:
         values = values[None]
     if values.ndim != 2 or values.shape[1] != size or not 1 <= len(values) <= MAX_CHUNK:
-        raise PolicyFault("wrong shape", f"got shape {np.shape(answer)}, valid are ({size},) and (n, {size})")
+        raise PolicyError("wrong shape", f"got shape {np.shape(answer)}, valid are ({size},) and (n, {size})")
     if not np.isfinite(values).all():
         what = "NaN" if np.isnan(values).any() else "infinite values"
-        raise PolicyFault("not finite", f"an action holds {what}")
+        raise PolicyError("not finite", f"an action holds {what}")
     largest = float(np.abs(values).max())
     if largest > 1.0 + OUT_OF_RANGE and not clip:
-        raise PolicyFault("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
+        raise PolicyError("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
     return np.clip(values, -1.0, 1.0).astype(np.float32)
 
 

@@ -19,7 +19,7 @@ from pat3d.errors import Pat3dError
 from pat3d.policies_eval.episodes import Episode
 from pat3d.policies_eval.failures import Events, Watcher
 from pat3d.policies_eval.perturb import Perturber, reworded
-from pat3d.policies_eval.policy import EpisodeStart, Policy, PolicyFault, PolicyHang, checked
+from pat3d.policies_eval.policy import EpisodeStart, Policy, PolicyError, PolicyHang, checked
 from pat3d.policies_eval.settings import RolloutSettings
 
 NO_EVENTS = Events(
@@ -146,7 +146,7 @@ class Runner:
                 watcher.update(info)
                 if watch:
                     watch(env)
-        except PolicyFault as caught:
+        except PolicyError as caught:
             fault = caught
         return Result(
             episode=episode,
@@ -224,7 +224,7 @@ def _timed(clock: dict[str, float], name: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _guarded(what: str, seconds: float, deadline: Any = None) -> Iterator[None]:
-    """Turn whatever a policy raises into a PolicyFault, and interrupt it when it hangs."""
+    """Turn whatever a policy raises into a PolicyError, and interrupt it when it hangs."""
     alarm = threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer")
 
     def interrupt(*_: Any) -> None:
@@ -237,15 +237,15 @@ def _guarded(what: str, seconds: float, deadline: Any = None) -> Iterator[None]:
         if alarm:
             signal.setitimer(signal.ITIMER_REAL, seconds)
         yield
-    except PolicyFault:
+    except PolicyError:
         raise
     except PolicyHang:
-        raise PolicyFault("hang", f"{what} took longer than {seconds:g} s") from None
+        raise PolicyError("hang", f"{what} took longer than {seconds:g} s") from None
     except Pat3dError as error:
-        raise PolicyFault(type(error).__name__, str(error)) from error
+        raise PolicyError(type(error).__name__, str(error)) from error
     except (Exception, SystemExit) as error:
         text = str(error)
-        raise PolicyFault(type(error).__name__, (text if len(text) < 500 else text[:500] + "...") or what) from error
+        raise PolicyError(type(error).__name__, (text if len(text) < 500 else text[:500] + "...") or what) from error
     finally:
         if alarm:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
