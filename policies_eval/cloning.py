@@ -56,8 +56,8 @@ class ClonedPolicy:
     """
 
     def __init__(self, file: str | Path) -> None:
-        self._torch = _torch()
         self._network = load(file)
+        self._torch = _torch()
         # One small network for one observation: threads would only wait for one another.
         self._torch.set_num_threads(1)
 
@@ -126,12 +126,12 @@ def load(file: str | Path) -> Any:
     Raises:
         EvaluationError: no checkpoint of ours.
     """
-    torch: Any = _torch()
     path = Path(file)
     if not path.is_file():
         raise EvaluationError(f"{path}: no such checkpoint; pat3d train writes one.")
     if path.stat().st_size > MAX_CHECKPOINT:
         raise EvaluationError(f"{path}: larger than {MAX_CHECKPOINT} bytes.")
+    torch: Any = _torch()
     try:
         content = torch.load(path, map_location="cpu", weights_only=True)
     except Exception as error:
@@ -142,9 +142,11 @@ def load(file: str | Path) -> Any:
     if content.get("format") != FORMAT:
         raise EvaluationError(f"{path}: format {content.get('format')}, this version reads {FORMAT}.")
     config = content.get("config")
+    if not isinstance(config, dict):
+        raise EvaluationError(f"{path}: it says nothing of its network.")
     limits = {"action_size": (1, 64), "width": WIDTHS, "layers": LAYERS}
     for name, (low, high) in limits.items():
-        value = config.get(name) if isinstance(config, dict) else None
+        value = config.get(name)
         if not isinstance(value, int) or not low <= value <= high:
             raise EvaluationError(f"{path}: {name} is {value}; valid are {low} to {high}.")
     network = make_network(**{name: config[name] for name in limits})

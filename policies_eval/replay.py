@@ -26,13 +26,14 @@ class Replayer:
 
     def __init__(self, evaluation: Evaluation) -> None:
         # Pictures of the observations are not needed, and change nothing in the simulation.
-        known = {
+        known: dict[str, Any] = {
             name: value
             for name, value in evaluation.manifest["settings"].items()
             if name in RolloutSettings.__dataclass_fields__
         }
         try:
-            settings = RolloutSettings(**known | {"obs": "state"})
+            known["obs"] = "state"
+            settings = RolloutSettings(**known)
         except TypeError as error:
             raise EvaluationError(f"{evaluation.folder}: settings that are none: {error}") from error
         self._runner = Runner(settings)

@@ -13,7 +13,7 @@ import numpy as np
 
 from pat3d.envs.registration import ENV_ID
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.train import Demonstration
+from pat3d.policies_eval.demonstrations import Demonstration
 
 HELD_OUT = 10
 """One demonstration of this many is for validation."""

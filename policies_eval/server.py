@@ -42,6 +42,7 @@ class ServerPolicy:
     ) -> None:
         self._address, self._connect_seconds, self._answer_seconds = address, connect_seconds, answer_seconds
         self._socket: Any = None
+        self._open = contextlib.ExitStack()
         self._prompt = ""
         self.metadata: dict[Any, Any] = {}
         try:
@@ -59,8 +60,9 @@ class ServerPolicy:
         """The server's actions for an observation."""
         if self._socket is None:
             self._connect()
+        socket: Any = self._socket
         try:
-            self._socket.send(wire.pack(message_of(observation, self._prompt)))
+            socket.send(wire.pack(message_of(observation, self._prompt)))
             answer = self._receive(self._answer_seconds)
         except BaseException:
             # An answer that comes late would be taken for the next one.
@@ -85,10 +87,11 @@ class ServerPolicy:
         while True:
             try:
                 # Observations are pictures already; compressing them again costs more than it saves.
-                self._socket = client.connect(
+                connection = client.connect(
                     self._address, compression=None, max_size=wire.MAX_BYTES, proxy=None, open_timeout=OPEN_SECONDS,
                     close_timeout=1.0, ping_interval=None,
                 )  # fmt: skip
+                self._socket = self._open.enter_context(connection)
                 break
             except (OSError, TimeoutError, websockets.exceptions.InvalidHandshake) as error:
                 last = f"{type(error).__name__}: {error}"
@@ -125,10 +128,9 @@ class ServerPolicy:
             raise PolicyError("junk", str(error)) from None
 
     def _drop(self) -> None:
-        socket, self._socket = self._socket, None
-        if socket is not None:
-            with contextlib.suppress(Exception):
-                socket.close()
+        self._socket = None
+        with contextlib.suppress(Exception):
+            self._open.close()
 
 
 def message_of(observation: Mapping[str, Any], prompt: str) -> dict[str, Any]:

@@ -65,9 +65,10 @@ def _encode(value: Any) -> Any:
 def _decode(found: dict[Any, Any]) -> Any:
     if b"__ndarray__" in found:
         dtype, shape, data = _dtype(found.get(b"dtype")), found.get(b"shape"), found.get(b"data")
-        valid = isinstance(shape, list) and len(shape) <= MAX_DIMENSIONS
-        if not valid or not all(isinstance(size, int) and 0 <= size <= MAX_BYTES for size in shape):
-            raise WireError(f"an array of shape {shape}")
+        if not isinstance(shape, list) or len(shape) > MAX_DIMENSIONS:
+            raise WireError(f"an array of shape {shape!r:.80}")
+        if not all(isinstance(size, int) and 0 <= size <= MAX_BYTES for size in shape):
+            raise WireError(f"an array of shape {shape!r:.80}")
         if not isinstance(data, bytes) or len(data) != math.prod(shape) * dtype.itemsize:
             raise WireError(f"an array of shape {shape} whose bytes do not fit it")
         return np.frombuffer(data, dtype=dtype).reshape(shape).copy()
