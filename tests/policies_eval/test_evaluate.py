@@ -45,14 +45,14 @@ def test_records_come_back_as_they_were_written(done):
 
 
 def test_a_stopped_run_goes_on_where_it_stopped(done, tmp_path):
-    class Stop(Exception):
+    class StopError(Exception):
         pass
 
     def stop(result, finished, wanted):
         if finished == 2:
-            raise Stop
+            raise StopError
 
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         evaluate("random", EPISODES, tmp_path, settings=SHORT, workers=0, report=stop)
     assert len(read_evaluation(tmp_path).results) == 2
     seen = []

@@ -38,7 +38,7 @@ def test_what_is_not_there_is_named():
         settings_of([], ["pick:octopus"])
     with pytest.raises(EvaluationError, match="Axes: pose"):
         parse(["gravity=1"])
-    with pytest.raises(EvaluationError, match="0 to 0.3"):
+    with pytest.raises(EvaluationError, match=r"0 to 0\.3"):
         parse(["pose=nan"])
     with pytest.raises(EvaluationError, match="episodes"):
         episodes_of([MUG], 0)
