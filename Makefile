@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
 PROMPT ?= A fruit bowl with an apple, an orange and a pear, a stack of three books with a red mug on top, and next to it a pen holder holding two pencils and a ruler.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-dev demo format check test test-all bench clean
+.PHONY: help setup setup-dev engines demo format check test test-all bench transfer clean
 
 help:  ## list the targets
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -30,6 +30,12 @@ setup: $(VENV)/.setup  ## create .venv with the pinned packages and the pat3d co
 
 setup-dev: $(VENV)/.setup-dev  ## the same with the packages that the tests need
 
+engines: setup  ## virtual environments of MuJoCo, Newton, PyBullet, Drake and PhysX for pat3d check --engines
+	$(BIN)/python -m pat3d.check.engines.environments
+
+engine-%: setup
+	$(BIN)/python -m pat3d.check.engines.environments $*
+
 demo: setup  ## a sentence to a proven scene: scenes/demo
 	$(BIN)/pat3d generate "$(PROMPT)" --out scenes/demo --seed 0
 
@@ -50,6 +56,9 @@ test-all: check  ## every test, the slow ones too
 
 bench: setup-dev  ## the figures of the README
 	$(BIN)/python benchmarks/generate.py
+
+transfer: setup-dev  ## drift in every engine that is there
+	$(BIN)/python benchmarks/transfer.py --prompts benchmarks/prompts.txt --random 100 --out transfer.md
 
 clean:  ## remove the environment and the caches
 	rm -rf $(VENV) build *.egg-info .pytest_cache .ruff_cache .hypothesis

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ CREASE_DEGREES = 40.0
 MAX_FILE_BYTES = 256 * 2**20
 MAX_FACES = 2_000_000
 MAX_TEXTURE_SIDE = 16384
+
+_OBJ_TEXT: WeakKeyDictionary[VisualMesh, str] = WeakKeyDictionary()
+"""OBJ text of the meshes in use: several formats and the scene folder write the same."""
 
 _MAX_VALENCE = 512
 """Corners around one vertex up to which normals are smoothed; fans beyond it stay flat."""
@@ -89,11 +93,17 @@ def write_visual(mesh: VisualMesh, folder: Path, *, texture: str = "texture.png"
 
 def visual_obj(mesh: VisualMesh, *, material_library: str | None = None) -> str:
     """`mesh` as OBJ text with texture coordinates and corner normals."""
+    if mesh not in _OBJ_TEXT:
+        _OBJ_TEXT[mesh] = _obj_text(mesh)
+    head = "" if material_library is None else f"mtllib {material_library}\nusemtl surface\n"
+    return head + _OBJ_TEXT[mesh]
+
+
+def _obj_text(mesh: VisualMesh) -> str:
     uv, uv_index = np.unique(mesh.uv.reshape(-1, 2), axis=0, return_inverse=True)
     rounded = np.round(corner_normals(mesh.vertices, mesh.faces).reshape(-1, 3), 6) + 0.0
     normals, normal_index = np.unique(rounded, axis=0, return_inverse=True)
-    lines = [] if material_library is None else [f"mtllib {material_library}", "usemtl surface"]
-    lines += _rows("v", mesh.vertices) + _rows("vt", uv) + _rows("vn", normals)
+    lines = _rows("v", mesh.vertices) + _rows("vt", uv) + _rows("vn", normals)
     index = np.stack([mesh.faces.reshape(-1), uv_index.reshape(-1), normal_index.reshape(-1)], axis=1) + 1
     for a, b, c in index.reshape(-1, 3, 3).tolist():
         lines.append(f"f {a[0]}/{a[1]}/{a[2]} {b[0]}/{b[1]}/{b[2]} {c[0]}/{c[1]}/{c[2]}")
@@ -105,6 +115,11 @@ def hull_obj(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> str:
     lines = _rows("v", vertices)
     lines += [f"f {a} {b} {c}" for a, b, c in (np.asarray(faces) + 1).tolist()]
     return "\n".join(lines) + "\n"
+
+
+def part_file(number: int) -> str:
+    """File name of a convex part."""
+    return f"part_{number:03d}.obj"
 
 
 def write_texture(texture: NDArray[np.uint8], path: Path) -> None:

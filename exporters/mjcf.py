@@ -1,5 +1,9 @@
 """MJCF: a scene that MuJoCo holds as still as it was settled.
 
+    scene.xml             the scene, with the keyframe "home"
+    objects/<name>.xml    one object by itself, to load alone or to `<attach>` to a scene of one's own
+    meshes/ textures/     what both draw from
+
 What it takes, as measured with MuJoCo 3.9:
 
 - Stiff contacts of two time steps, the elliptic cone with impratio 10, implicitfast. With the default
@@ -21,11 +25,8 @@ MuJoCo gives a pair of geoms the larger of their friction coefficients and the s
 
 from __future__ import annotations
 
-import shutil
 import sys
-import tempfile
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,9 @@ import numpy as np
 from pat3d.assets.asset import Asset, MassProperties
 from pat3d.contacts import GROUND_INDEX, Contacts, find_contacts
 from pat3d.errors import ExportError
-from pat3d.exporters.meshes import hull_obj, visual_obj, write_texture
+from pat3d.exporters.folder import export_folder
+from pat3d.exporters.frames import text
+from pat3d.exporters.meshes import hull_obj, part_file, visual_obj, write_texture
 from pat3d.naming import unique_slugs
 from pat3d.scene import Pose, Scene
 
@@ -92,26 +95,16 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
         ExportError: `folder` is a file, or a folder that holds something else than an MJCF export.
     """
     folder = Path(folder)
-    if folder.exists() and not folder.is_dir():
-        raise ExportError(f"{folder} is a file; give a folder to write the MJCF into.")
-    if folder.exists() and any(folder.iterdir()) and not (folder / "scene.xml").is_file():
-        raise ExportError(f"{folder} is not empty and holds no scene.xml; give a new folder or an earlier export.")
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".mjcf-") as temporary:
-        fresh = Path(temporary) / "new"
-        fresh.mkdir()
-        root = _document(scene, fresh)
-        ET.indent(root)
-        ET.ElementTree(root).write(fresh / "scene.xml", encoding="utf-8", xml_declaration=False)
-        if folder.exists():
-            folder.rename(Path(temporary) / "old")
-        try:
-            fresh.rename(folder)
-        except OSError:
-            shutil.move(Path(temporary) / "old", folder)
-            raise
+    with export_folder(folder, marker="scene.xml", what="MJCF") as fresh:
+        (fresh / "objects").mkdir()
+        _save(_document(scene, fresh), fresh / "scene.xml")
     forget_cached_meshes()
     return folder / "scene.xml"
+
+
+def _save(root: ET.Element, path: Path) -> None:
+    ET.indent(root)
+    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=False)
 
 
 def forget_cached_meshes() -> None:
@@ -127,11 +120,9 @@ def forget_cached_meshes() -> None:
 
 def _document(scene: Scene, folder: Path) -> ET.Element:
     """The whole MJCF; meshes and textures are written into `folder` on the way."""
-    root = ET.Element("mujoco", model="pat3d scene")
-    ET.SubElement(root, "compiler", angle="radian", meshdir="meshes", texturedir="textures",
-                  inertiafromgeom="false", autolimits="true")  # fmt: skip
-    option = ET.SubElement(root, "option", timestep=_text(TIMESTEP), integrator="implicitfast",
-                           cone="elliptic", impratio="10", ccd_tolerance=_text(CCD_TOLERANCE))  # fmt: skip
+    root = _root("pat3d scene")
+    option = ET.SubElement(root, "option", timestep=text(TIMESTEP), integrator="implicitfast",
+                           cone="elliptic", impratio="10", ccd_tolerance=text(CCD_TOLERANCE))  # fmt: skip
     # On by default only since MuJoCo 3.9; without it a hull rests on a single point and falls over.
     ET.SubElement(option, "flag", multiccd="enable")
     _look(root, scene)
@@ -142,7 +133,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
     world = ET.SubElement(root, "worldbody")
     _ground_and_lights(assets, world, scene)
     contacts = find_contacts(scene, CONTACT_GAP)
-    margins, flush = _margins(scene, contacts), _flush_boxes(scene, contacts)
+    margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
     stored: dict[int, str] = {}
     state: list[float] = []
     for obj, margin in zip(scene.objects, margins, strict=True):
@@ -151,6 +142,7 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
         if id(obj.asset) not in stored:
             stored[id(obj.asset)] = name
             _write_asset(obj.asset, name, assets, folder, as_mesh=id(obj.asset) in flush)
+            _save(_object(obj.asset, name), folder / "objects" / f"{name}.xml")
         body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
         ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
         if not obj.fixed:
@@ -159,14 +151,41 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
         _geoms(body, name, obj.asset, stored[id(obj.asset)], margin=margin, as_mesh=id(obj.asset) in flush)
     _attachments(root, names, scene)
     if state:
-        ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="home", qpos=_text(*state))
+        ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="home", qpos=text(*state))
+    return root
+
+
+def _object(asset: Asset, name: str) -> ET.Element:
+    """One object by itself, at the origin; its files are those of the scene.
+
+    No margin and no options: those of the model that it is attached to hold.
+    """
+    root = _root(name, "../")
+    _defaults(root)
+    assets = ET.SubElement(root, "asset")
+    _declare_visual(asset, name, assets)
+    for number, part in enumerate(asset.parts):
+        if part.box is None:
+            _declare_part(name, number, assets)
+    body = ET.SubElement(ET.SubElement(root, "worldbody"), "body", name=name)
+    ET.SubElement(body, "inertial", _inertial(asset.mass_properties))
+    ET.SubElement(body, "freejoint", name=name)
+    _geoms(body, name, asset, name, margin=0.0, as_mesh=False)
+    return root
+
+
+def _root(model: str, above: str = "") -> ET.Element:
+    """An empty model whose meshes and textures lie in the folder `above`."""
+    root = ET.Element("mujoco", model=model)
+    ET.SubElement(root, "compiler", angle="radian", meshdir=f"{above}meshes", texturedir=f"{above}textures",
+                  inertiafromgeom="false", autolimits="true")  # fmt: skip
     return root
 
 
 def _look(root: ET.Element, scene: Scene) -> None:
     low, high = _bounds(scene)
-    ET.SubElement(root, "statistic", center=_text(*((low + high) / 2)),
-                  extent=_text(float(np.linalg.norm(high - low)) / 2))  # fmt: skip
+    ET.SubElement(root, "statistic", center=text(*((low + high) / 2)),
+                  extent=text(float(np.linalg.norm(high - low)) / 2))  # fmt: skip
     visual = ET.SubElement(root, "visual")
     ET.SubElement(visual, "global", offwidth="1920", offheight="1080", azimuth="90", elevation="-25")
     ET.SubElement(visual, "headlight", ambient="0.35 0.35 0.35", diffuse="0.35 0.35 0.35", specular="0.1 0.1 0.1")
@@ -197,18 +216,18 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
                   material="ground")  # fmt: skip
     side = max(5.0, 4.0 * reach)
     ET.SubElement(world, "geom", {"class": "collision"}, name="ground", type="box",
-                  pos=_text(0, 0, -GROUND_HALF_THICKNESS), size=_text(side, side, GROUND_HALF_THICKNESS),
-                  friction=_text(friction, TORSIONAL_FRICTION, ROLLING_FRICTION))  # fmt: skip
+                  pos=text(0, 0, -GROUND_HALF_THICKNESS), size=text(side, side, GROUND_HALF_THICKNESS),
+                  friction=text(friction, TORSIONAL_FRICTION, ROLLING_FRICTION))  # fmt: skip
     for name, offset, diffuse, shadow in (
         ("key", (-1.0, -1.2, 2.0), "0.65 0.63 0.6", "true"),
         ("fill", (1.5, -0.6, 1.5), "0.25 0.26 0.28", "false"),
     ):
         position = centre + 2.0 * reach * np.array(offset)
-        ET.SubElement(world, "light", name=name, directional="true", pos=_text(*position),
-                      dir=_text(*(centre - position)), diffuse=diffuse, castshadow=shadow)  # fmt: skip
+        ET.SubElement(world, "light", name=name, directional="true", pos=text(*position),
+                      dir=text(*(centre - position)), diffuse=diffuse, castshadow=shadow)  # fmt: skip
     # The viewer of the relations: from -y, a little above, looking at the middle of the scene.
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])
-    ET.SubElement(world, "camera", name="front", pos=_text(*eye), fovy="45", xyaxes="1 0 0 0 0.4472135955 0.894427191")
+    ET.SubElement(world, "camera", name="front", pos=text(*eye), fovy="45", xyaxes="1 0 0 0 0.4472135955 0.894427191")
 
 
 def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
@@ -224,7 +243,7 @@ def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
         child, parent = names[one.child], names[one.parent]
         for number, (point, _) in enumerate(one.anchors):
             ET.SubElement(equality, "connect", name=f"{child}/anchor_{number:02d}", body1=child, body2=parent,
-                          anchor=_text(*point), solref=SOLREF, solimp=SOLIMP)  # fmt: skip
+                          anchor=text(*point), solref=SOLREF, solimp=SOLIMP)  # fmt: skip
 
 
 def _write_asset(asset: Asset, name: str, assets: ET.Element, folder: Path, *, as_mesh: bool) -> None:
@@ -233,36 +252,43 @@ def _write_asset(asset: Asset, name: str, assets: ET.Element, folder: Path, *, a
     meshes.mkdir(parents=True)
     (meshes / "visual.obj").write_text(visual_obj(asset.visual), encoding="utf-8")
     write_texture(asset.visual.texture, folder / "textures" / f"{name}.png")
+    _declare_visual(asset, name, assets)
+    for number, part in enumerate(asset.parts):
+        if part.box is None or as_mesh:
+            (meshes / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
+            _declare_part(name, number, assets)
+
+
+def _declare_visual(asset: Asset, name: str, assets: ET.Element) -> None:
     ET.SubElement(assets, "texture", name=name, type="2d", file=f"{name}.png")
     ET.SubElement(assets, "material", name=name, texture=name, specular="0.2", shininess="0.3")
     ET.SubElement(assets, "mesh", VISUAL_MESH, name=f"{name}/visual", file=f"{name}/visual.obj")
-    for number, part in enumerate(asset.parts):
-        if part.box is None or as_mesh:
-            file = f"part_{number:03d}.obj"
-            (meshes / file).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
-            ET.SubElement(assets, "mesh", HULL_MESH, name=f"{name}/part_{number:03d}", file=f"{name}/{file}")
+
+
+def _declare_part(name: str, number: int, assets: ET.Element) -> None:
+    ET.SubElement(assets, "mesh", HULL_MESH, name=f"{name}/part_{number:03d}", file=f"{name}/{part_file(number)}")
 
 
 def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: float, as_mesh: bool) -> None:
     """The geoms of one body, drawn from the files of asset `stored`."""
     ET.SubElement(body, "geom", {"class": "visual"}, name=f"{name}/visual", mesh=f"{stored}/visual", material=stored)
-    friction = _text(asset.material.friction, TORSIONAL_FRICTION, ROLLING_FRICTION)
+    friction = text(asset.material.friction, TORSIONAL_FRICTION, ROLLING_FRICTION)
     for number, part in enumerate(asset.parts):
         geom = ET.SubElement(body, "geom", {"class": "collision"}, name=f"{name}/part_{number:03d}",
-                             friction=friction, margin=_text(margin))  # fmt: skip
+                             friction=friction, margin=text(margin))  # fmt: skip
         if part.box is None or as_mesh:
             geom.set("type", "mesh")
             geom.set("mesh", f"{stored}/part_{number:03d}")
         else:
             centre, half, quat = part.box
             geom.set("type", "box")
-            geom.set("pos", _text(*centre))
-            geom.set("size", _text(*half))
+            geom.set("pos", text(*centre))
+            geom.set("size", text(*half))
             if quat != (1.0, 0.0, 0.0, 0.0):
-                geom.set("quat", _text(*quat))
+                geom.set("quat", text(*quat))
 
 
-def _margins(scene: Scene, contacts: Contacts) -> list[float]:
+def contact_margins(scene: Scene, contacts: Contacts) -> list[float]:
     """Contact margin of every object [m]: the least that makes each pair's sum exceed its gap.
 
     The ground has none of its own. A fifth more than the gap, and at least a micrometre a pair, keeps the
@@ -294,7 +320,7 @@ def _margins(scene: Scene, contacts: Contacts) -> list[float]:
     return (np.clip(result.x, 0.0, 1.0) * unit).tolist()
 
 
-def _flush_boxes(scene: Scene, contacts: Contacts) -> set[int]:
+def flush_boxes(scene: Scene, contacts: Contacts) -> set[int]:
     """Identities of the assets with a box that touches another box whose sides lie in the same plane as its own."""
     found: set[int] = set()
     pairs = np.unique(np.concatenate([contacts.bodies, contacts.parts], axis=1), axis=0).tolist()
@@ -326,23 +352,18 @@ def _inertial(properties: MassProperties) -> dict[str, str]:
         axes[:, 0] *= -1
     quat = Rotation.from_matrix(axes).as_quat(scalar_first=True)
     return {
-        "pos": _text(*properties.centre_of_mass),
-        "quat": _text(*quat),
-        "mass": _text(properties.mass),
-        "diaginertia": _text(*moments),
+        "pos": text(*properties.centre_of_mass),
+        "quat": text(*quat),
+        "mass": text(properties.mass),
+        "diaginertia": text(*moments),
     }
 
 
 def _placement(pose: Pose) -> dict[str, str]:
-    return {"pos": _text(*pose.position), "quat": _text(*pose.quat_wxyz)}
+    return {"pos": text(*pose.position), "quat": text(*pose.quat_wxyz)}
 
 
 def _bounds(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """Corners of the box around every object's parts [m], shape (3,) each."""
     points = np.concatenate([obj.pose.apply(part.vertices) for obj in scene.objects for part in obj.asset.parts])
     return points.min(axis=0), points.max(axis=0)
-
-
-def _text(*values: float | Iterable[float]) -> str:
-    """Numbers as an attribute, each in the shortest form that reads back exactly."""
-    return " ".join(repr(float(value)) for value in values)  # type: ignore[arg-type]

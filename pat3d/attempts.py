@@ -1,4 +1,8 @@
-"""One attempt at a scene: laid out with a seed of its own, settled, proved."""
+"""Attempts at a scene, each laid out with a seed of its own, settled and proved; the best one is optimised if it fails.
+
+Another layout costs one settling and mends what chance broke. An optimisation costs ten or more and mends what every
+layout has in common (weight that is not over its support), so it comes last.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,7 @@ from pat3d.check.proof import Proof, broken, prove, relations_at_rest
 from pat3d.errors import LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf import write_mjcf
 from pat3d.gather import Ingredient, Order, derived_seed
+from pat3d.improve import OPTIMISATION, available, improve, lost
 from pat3d.kernels import prepare
 from pat3d.progress import Event, Progress
 from pat3d.report import Clock
@@ -22,6 +27,8 @@ from pat3d.workspace import Workspace
 
 CLEARANCE = 1e-5
 """Gap between a fixed object and the ground [m]."""
+STARTS, EPOCHS = 4, 20
+"""Layouts and gradient steps of an optimisation at most; `pat3d optimize` takes more."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,14 +75,22 @@ class Attempt:
         return lines
 
     @property
+    def lost(self) -> tuple[Relation, ...]:
+        """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
+        if self.scene is None or self.rest is None:
+            return ()
+        return lost(self.scene, self.checked.proof.relations if self.checked else relations_at_rest(self.scene))
+
+    @property
     def passed(self) -> bool:
         """Checked, with nothing wrong."""
         return self.checked is not None and not self.failures
 
     @property
-    def rank(self) -> tuple[bool, bool, int]:
+    def rank(self) -> tuple[bool, bool, int, int]:
         """The least is the best attempt."""
-        return self.error is not None, self.rest is None or not self.rest.at_rest, len(self.failures)
+        restless = self.rest is None or not self.rest.at_rest
+        return self.error is not None, restless, len(self.failures), len(self.lost)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
@@ -83,6 +98,7 @@ class Attempt:
         return {
             "attempt": self.number + 1, "layout_seed": self.layout_seed, "passed": self.passed,
             "checked": self.checked is not None, "failures": list(self.failures), "settling": settling,
+            "optimised": self.rest is not None and self.rest.optimisation is not None,
         }  # fmt: skip
 
 
@@ -132,10 +148,15 @@ class Attempts:
         if best.error is not None:
             raise best.error
         place = made.index(best)
-        made[place] = best = self._checked(best)
+        made[place] = best = self._checked(self._improved(best))
         if best.checked is None:
             raise SimulationError("; ".join(best.failures))
         return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
+
+    def first(self) -> Attempt:
+        """The first layout, settled, and checked where it came to rest; it may have failed."""
+        attempt = self._attempt(0)
+        return attempt if attempt.failures else self._checked(attempt)
 
     def _attempt(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
@@ -156,7 +177,9 @@ class Attempts:
         kept = self.workspace.layout(number, inputs["layout"])
         if kept is not None:
             scene = kept[0]
-            return replace(scene, settling_friction=self.friction, provenance=self._provenance(layout_seed)), kept[1]
+            own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
+            provenance = {**self._provenance(layout_seed), **own}
+            return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
         from pat3d.layout.layout import arrange
 
         if not self._made:
@@ -191,10 +214,48 @@ class Attempts:
         self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
         return rest
 
+    def _improved(self, attempt: Attempt) -> Attempt:
+        """`attempt` from a better initial layout, where it needs one and there is one."""
+        scene, rest = attempt.scene, attempt.rest
+        if scene is None or rest is None or rest.optimisation is not None or not available():
+            return attempt
+        if not attempt.failures and not attempt.lost:
+            return attempt
+        from pat3d.optimize.optimize import OptimizeOptions
+
+        with self.clock("kernels"):
+            device = prepare(self.device, self.progress)
+        # Other layouts have been tried by the attempts; what they share is left to balancing and gradients.
+        options = OptimizeOptions(
+            epochs=EPOCHS,
+            starts=STARTS,
+            refined=1,
+            relayout=False,
+            steady=True,
+            seed=attempt.layout_seed,
+            device=device,
+        )
+        with self.clock("optimising"):
+            try:
+                done = improve(scene, options=options, at_rest=rest.at_rest, progress=self.progress)
+            except SimulationError:
+                return attempt
+        # Recorded even where it changed nothing, so that it is not repeated when the run is resumed.
+        kept_scene, kept_rest = scene, replace(rest, optimisation=done.record(kept=False))
+        if done.rest is not None:
+            faults = broken(relations_at_rest(done.scene))
+            other = replace(attempt, scene=done.scene, rest=done.rest, broken=faults, checked=None)
+            other = self._checked(other) if not other.failures else other
+            if other.rank < attempt.rank:
+                attempt, kept_scene, kept_rest = other, done.scene, done.rest
+        self.workspace.save_rest(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept_rest)
+        checked = replace(attempt.checked, rest=kept_rest) if attempt.checked is not None else None
+        return replace(attempt, rest=kept_rest, checked=checked)
+
     def _checked(self, attempt: Attempt) -> Attempt:
         if attempt.checked is not None or attempt.scene is None or attempt.rest is None:
             return attempt
-        mjcf = self.scratch / f"mjcf_{attempt.number + 1}"
+        mjcf = self.scratch / f"mjcf_{attempt.number + 1}{'' if attempt.rest.optimisation is None else '_optimised'}"
         with self.clock("export"):
             path = write_mjcf(attempt.scene, mjcf)
         with self.clock("proof"):

@@ -15,6 +15,7 @@ from pat3d.assets.asset import Asset
 from pat3d.build_schema import BUILD_SCHEMA
 from pat3d.errors import AssetError, PromptError, SpecError
 from pat3d.gather import Ingredient, Order, derived_seed
+from pat3d.improve import GIVEN
 from pat3d.progress import Event, Progress
 from pat3d.scene import GROUND, Pose, Relation, check_tree
 from pat3d.yaml_source import Source, read_yaml
@@ -58,8 +59,11 @@ class Spec:
             gather=self.gather,
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
-            provenance={"source": "specification", "file": self.source.path.name},
-        )
+            provenance={
+                "source": "specification", "file": self.source.path.name,
+                **({GIVEN: sorted(self.poses)} if self.poses else {}),
+            },
+        )  # fmt: skip
 
     def gather(self, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
         """The assets, in the order of the specification."""

@@ -20,13 +20,30 @@ EXAMPLES = {
   pat3d build scene.yaml --out scenes/mine
   pat3d build --schema > scene.schema.json
 """,
+    "optimize": """
+  pat3d optimize scenes/tower                    mend the scene in its folder
+  pat3d optimize scenes/tower --out scenes/mend  write another folder, leave this one as it is
+  pat3d optimize scenes/tower --starts 1         gradient steps from the scene's own layout only
+""",
     "check": """
   pat3d check scenes/mug
+  pat3d check scenes/mug --engines mujoco,newton,pybullet,drake,physx
+""",
+    "export": """
+  pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
+  pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
+  pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
+  pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
 """,
     "catalogue": """
   pat3d catalogue                        list everything by family
   pat3d catalogue mug                    one object, with a picture in mug.png
   pat3d catalogue --sheet catalogue.png  pictures of everything
+""",
+    "suite": """
+  pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+  pat3d suite check suites/tabletop
+  pat3d suite show suites/tabletop
 """,
     "doctor": """
   pat3d doctor
@@ -80,14 +97,56 @@ def parser() -> argparse.ArgumentParser:
     building.add_argument("--schema", action="store_true", help="print the JSON schema of specifications and stop")
     _add_making(building, seed=None, friction=None)
 
+    mending = command(
+        "optimize", "find an initial layout that keeps the scene's relations while it settles, where its own does not"
+    )  # fmt: skip
+    mending.add_argument("folder", metavar="SCENE", help="scene folder that generate or build wrote")
+    mending.add_argument("--out", metavar="FOLDER", help="scene folder to write (default: SCENE is replaced)")
+    mending.add_argument("--epochs", type=int, default=50, help="gradient steps at most; 0 for none (50)")
+    mending.add_argument("--starts", type=int, default=6,
+                         help="layouts tried before gradients, the scene's own among them (6)")  # fmt: skip
+    mending.add_argument("--seed", type=int, help="of the layouts tried (the scene's)")
+    mending.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
+
     checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
     checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")
+    checking.add_argument("--engines", nargs="+", metavar="ENGINE",
+                          help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
+                          "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all")  # fmt: skip
+    checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
+
+    exporting = command(
+        "export", "write a scene, a mesh or a folder of meshes for other programs, and prove it the same"
+    )
+    exporting.add_argument("source", metavar="SOURCE", help="a scene folder, a mesh file, or a folder of meshes")
+    exporting.add_argument("--out", metavar="FOLDER", required=True, help="where to write; each format has its folder")
+    exporting.add_argument("--formats", nargs="+", metavar="FORMAT",
+                           help="mjcf, usd, urdf, sdf, with commas or spaces between (all)")  # fmt: skip
+    exporting.add_argument("--usda", action="store_true", help="USD as text, scene.usda")
+    exporting.add_argument("--usdz", action="store_true", help="USD also in one file, scene.usdz")
+    meshes = exporting.add_argument_group("meshes only")
+    weight = meshes.add_mutually_exclusive_group()
+    weight.add_argument("--mass", type=float, metavar="KG", help="mass of the object")
+    weight.add_argument("--density", type=float, metavar="KG/M3", help="density of the closed surface")
+    meshes.add_argument("--material", metavar="NAME", help="for density and friction (plastic)")
+    meshes.add_argument("--friction", type=float, metavar="MU", help="friction coefficient (the material's)")
+    meshes.add_argument("--units", metavar="UNIT", help="of the file: m, cm, mm, in (m)")
+    meshes.add_argument("--scale", type=float, help="factor on the file's coordinates")
+    meshes.add_argument("--size", type=float, metavar="M", help="longest side, instead of units and scale")
+    meshes.add_argument("--up", metavar="AXIS", help="the file's axis that points up: z, -y, ... (y for glTF, else z)")
+    meshes.add_argument("--parts", metavar="HOW", help="convex parts by coacd, hull or box (coacd)")
+    meshes.add_argument("--thickness", type=float, metavar="M", help="of the walls of an open shell")
 
     listing = command("catalogue", "what can be made, with pictures")
     listing.add_argument("name", metavar="NAME", nargs="?", help="noun or synonym")
     listing.add_argument("--sheet", metavar="PNG", help="write pictures of everything")
     listing.add_argument("--out", metavar="PNG", help="picture of NAME (default: ./NAME.png)")
     listing.add_argument("--seed", type=int, default=0, help="variation of what is drawn")
+
+    from pat3d.envs.suites.command import add_arguments
+
+    suites = command("suite", "scenes with tasks by the thousand, in splits, for training and testing policies")
+    add_arguments(suites, argparse.RawDescriptionHelpFormatter)
 
     command("doctor", "what works on this computer, and what would enable more")
     from pat3d.policies_eval.commands import add_commands
@@ -103,7 +162,8 @@ def _add_making(to: argparse.ArgumentParser, *, seed: int | None, friction: floa
     to.add_argument("--friction", type=float, default=friction,
                     help=f"friction coefficient while settling ({shown['friction']})")  # fmt: skip
     to.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
-    to.add_argument("--formats", nargs="+", default=["mjcf"], metavar="FORMAT", help="exchange formats (mjcf)")
+    to.add_argument("--formats", nargs="+", default=["mjcf"], metavar="FORMAT",
+                    help="mjcf, usd, urdf, sdf, with commas or spaces between (mjcf)")  # fmt: skip
     to.add_argument("--resume", action="store_true",
                     help="keep finished stages in FOLDER.partial, and go on from those of an earlier run")  # fmt: skip
 

@@ -8,7 +8,7 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from pat3d.console import console, show_proof, show_report, watch
+from pat3d.console import console, show_mended, show_proof, show_report, watch
 from pat3d.errors import SpecError
 
 
@@ -48,6 +48,23 @@ def build(options: argparse.Namespace) -> int:
     return _finished(outcome, options.out)
 
 
+def optimize(options: argparse.Namespace) -> int:
+    """`pat3d optimize`."""
+    from pat3d.improve import available, missing
+
+    if not available():
+        raise missing()
+    from pat3d.improve_folder import optimize_folder
+
+    with watch(console(stderr=True)) as progress:
+        outcome = optimize_folder(
+            options.folder, out=options.out, epochs=options.epochs, starts=options.starts, seed=options.seed,
+            device=options.device, progress=progress,
+        )  # fmt: skip
+    show_mended(console(), outcome)
+    return _verdict(outcome.failures)
+
+
 def _finished(outcome, out: str) -> int:
     show_report(console(), outcome.report, Path(out))
     return _verdict(outcome.report.failures)
@@ -61,11 +78,13 @@ def _verdict(failures: tuple[str, ...]) -> int:
 
 
 def check(options: argparse.Namespace) -> int:
-    """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder."""
-    from pat3d.check.parity import differences
+    """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder; with --engines, only those."""
+    if options.engines:
+        return _check_engines(options)
     from pat3d.check.proof import prove
     from pat3d.check.settle import settle_in_mujoco
     from pat3d.exporters.mjcf import write_mjcf
+    from pat3d.exporters.reload import differences
     from pat3d.scene_io import load_scene
 
     folder = Path(options.folder)
@@ -84,6 +103,34 @@ def check(options: argparse.Namespace) -> int:
     return _verdict(tuple(failures))
 
 
+def _check_engines(options: argparse.Namespace) -> int:
+    """`pat3d check --engines`: the drift table; absent engines are told, and fail only when none is here."""
+    from pat3d.check.engines.check import check_engines, failures
+    from pat3d.check.engines.protocol import Absent
+    from pat3d.check.engines.registry import chosen
+    from pat3d.console import show_engines
+    from pat3d.scene_io import load_scene
+
+    if not 0.0 < options.seconds <= 600.0:
+        raise SpecError(f"--seconds {options.seconds:g}: give a simulated time of more than 0 and at most 600 s.")
+    engines, folder = chosen(options.engines), Path(options.folder)
+    scene = load_scene(folder)
+    with watch(console(stderr=True)) as progress:
+        verdicts = check_engines(scene, engines, folder, seconds=options.seconds, progress=progress)
+    show_engines(console(), scene, verdicts)
+    lines = failures(verdicts)
+    if all(isinstance(verdict, Absent) for verdict in verdicts):
+        lines += ("none of these engines is installed; nothing was measured.",)
+    return _verdict(lines)
+
+
+def export(options: argparse.Namespace) -> int:
+    """`pat3d export`."""
+    from pat3d import export_command
+
+    return export_command.run(options)
+
+
 def catalogue(options: argparse.Namespace) -> int:
     """`pat3d catalogue`."""
     from pat3d import browse
@@ -93,6 +140,13 @@ def catalogue(options: argparse.Namespace) -> int:
     if options.out is not None:
         raise SpecError("--out is the picture of one object; name it, or use --sheet for pictures of everything.")
     return browse.everything(seed=options.seed, sheet=options.sheet)
+
+
+def suite(options: argparse.Namespace) -> int:
+    """`pat3d suite`."""
+    from pat3d.envs.suites import command
+
+    return command.run(options)
 
 
 def doctor(options: argparse.Namespace) -> int:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pat3d.progress import Event, Progress
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from pat3d.check.engines.check import Verdict
     from pat3d.check.proof import Proof
+    from pat3d.exporters.reload import ParityReport
+    from pat3d.improve_folder import Outcome
     from pat3d.report import Report
     from pat3d.scene import Scene
 
@@ -70,6 +73,8 @@ def _words(event: Event) -> str:
         text += f", step {event.step}"
     if event.motion is not None:
         text += f", moving {_length(event.motion)}"
+    if event.loss is not None:
+        text += f", loss {event.loss:.2g} m^2"
     return f"{text}: {event.detail}" if event.detail else text
 
 
@@ -135,17 +140,103 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         target.print(f"      not met: {line}", markup=False)
 
 
+def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
+    """One line for every format of a scene folder."""
+    for name, report in reports.items():
+        readers = ", ".join(reading.reader for reading in report.readings)
+        target.print("pass" if report.passed else "FAIL", style="green" if report.passed else "bold red", end="  ")
+        target.print(f"{name}: read back by {readers}; off by at most {report.largest:.0e}", markup=False)
+
+
+def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> None:
+    """The drift of every object in every engine, and the settings they ran with."""
+    from rich.table import Table
+
+    from pat3d.check.engines.protocol import Absent, Failed
+
+    runs = [verdict for verdict in verdicts if not isinstance(verdict, Absent | Failed)]
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("mm, degrees", overflow="fold")
+    for run in runs:
+        table.add_column(f"{run.engine} {run.version}", justify="right", overflow="fold")
+    drifts = [{obj.name: obj for obj in run.objects} for run in runs]
+    for obj in scene.objects:
+        cells = [drift.get(obj.name) for drift in drifts]
+        table.add_row(
+            obj.name,
+            *("fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
+              for cell in cells),
+        )  # fmt: skip
+    if runs:
+        target.print(table)
+        target.print()
+    for verdict in verdicts:
+        if isinstance(verdict, Absent):
+            target.print("none", style="yellow", end="  ")
+            target.print(f"{verdict.engine}: {verdict.reason}", markup=False)
+        elif isinstance(verdict, Failed):
+            target.print("FAIL", style="bold red", end="  ")
+            target.print(verdict.reason, markup=False)
+        else:
+            settings = ", ".join(f"{key} {value}" for key, value in verdict.settings.items())
+            style = "green" if verdict.passed else "bold red"
+            target.print("pass" if verdict.passed else "FAIL", style=style, end="  ")
+            target.print(
+                f"{verdict.engine} {verdict.version}, {verdict.seconds:g} s in {verdict.wall_seconds:.1f} s: at most "
+                f"{verdict.worst_mm:.3f} mm and {verdict.worst_degrees:.3f} degrees ({settings})",
+                markup=False,
+            )
+
+
 def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
+    from pat3d.improve import TORCH, available
+
     delivery = report.delivery
     best = delivery.best
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
+    show_optimisation(target, delivery.checked.rest.optimisation)
+    show_parity(target, report.exports)
     for note in (*report.order.get("notes", ()), *best.notes):
         target.print(f"note  {note}", markup=False)
+    if report.failures and delivery.checked.rest.optimisation is None and not available():
+        target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
     if len(delivery.tried) > 1:
         target.print(f"note  attempt {best.number + 1} of {len(delivery.tried)} was kept", markup=False)
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
-    for name in ("scene.json", "mjcf/scene.xml", "report.json", "preview.png"):
-        target.print(f"  {folder / name}", markup=False, soft_wrap=True)
+    mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
+    show_files(target, folder, mains)
+
+
+def show_mended(target: Console, outcome: Outcome) -> None:
+    """The summary that ends `pat3d optimize`."""
+    if outcome.skipped:
+        target.print("every relation holds already; the scene is left as it is", markup=False)
+        return
+    if outcome.proof is None:
+        show_optimisation(target, outcome.improved.record(kept=False))
+        target.print("the scene is left as it is", markup=False)
+        return
+    show_proof(target, outcome.scene, outcome.proof)
+    show_optimisation(target, outcome.improved.record(kept=True))
+    target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
+    show_files(target, outcome.folder)
+
+
+def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None:
+    """What an optimisation did, from its record; nothing where there was none."""
+    from pat3d.improve import in_words
+
+    if record is not None:
+        target.print(f"optimisation: {in_words(record)}", markup=False)
+
+
+def show_files(target: Console, folder: Path, exports: Sequence[str] = ("mjcf/scene.xml",)) -> None:
+    """The files of a scene folder that a person would open."""
+    from pat3d.improve import PICTURES
+
+    for name in ("scene.json", *exports, "report.json", "preview.png", *PICTURES):
+        if (folder / name).is_file():
+            target.print(f"  {folder / name}", markup=False, soft_wrap=True)

@@ -67,6 +67,7 @@ def examine(target: Console) -> int:
             row("ok", package, f"{found}: {what}")
         else:
             row("no", package, f"not installed; would enable {what}: {_extra(package)}")
+    _engines(row)
     from pat3d.assets.cache import cache_root
 
     row("ok", "mesh cache", _folder(cache_root()))
@@ -91,6 +92,17 @@ def _warp(row: Any) -> bool:
         row("FAULT", "simulator", f"Warp does not start: {type(error).__name__}: {error}")
         return False
     return True
+
+
+def _engines(row: Any) -> None:
+    """Report which engines `pat3d check --engines` can run."""
+    from pat3d.check.engines.environments import NAMES, engines_root, how_to_get, is_made
+
+    for name in NAMES:
+        if is_made(name):
+            row("ok", name, f"engine for pat3d check --engines, in {engines_root() / name}")
+        else:
+            row("no", name, f"would let pat3d check --engines run scenes there: {how_to_get(name)}")
 
 
 def _egl(row: Any) -> None:

@@ -17,9 +17,13 @@ from pat3d.progress import Event, Progress, silent
 MODULES = (
     "pat3d.sim.energies.inertia",
     "pat3d.sim.energies.orthogonality",
+    "pat3d.sim.solvers.linear",
     "pat3d.sim.solvers.newton",
     "pat3d.sim.potential",
+    "pat3d.sim.measures",
+    "pat3d.sim.settling",
     "pat3d.sim.contact.intersection",
+    "pat3d.sim.contact.boxes",
     "pat3d.sim.contact.broad_phase",
     "pat3d.sim.contact.ccd",
     "pat3d.sim.energies.contact",

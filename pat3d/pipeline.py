@@ -13,23 +13,25 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pat3d.attempts import Attempts
 from pat3d.errors import SpecError
+from pat3d.exporters.exporting import chosen, export
 from pat3d.gather import Order, order_of
 from pat3d.plan.scene_plan import Planner
 from pat3d.progress import Event, Progress, silent
 from pat3d.report import Clock, Report
 from pat3d.scene import Scene
-from pat3d.scene_folder import check_target, replacing, write_json, write_trajectory
+from pat3d.scene_folder import check_target, replacing, write_json, write_pictures, write_trajectory
 from pat3d.scene_io import save_scene
 from pat3d.workspace import Workspace
 
+if TYPE_CHECKING:
+    from pat3d.exporters.reload import ParityReport
+
 ATTEMPTS = 3
 """Layouts tried before the best one is delivered with its faults reported."""
-
-FORMATS = ("mjcf",)
-"""Exchange formats that a scene folder can hold."""
 
 MAX_SEED = 2**32 - 1
 
@@ -43,6 +45,7 @@ class Settings:
     """Coulomb coefficient [-] of every contact while settling."""
     device: str = "cpu"
     formats: tuple[str, ...] = ("mjcf",)
+    """Exchange formats to write; MJCF, in which the scene is proven, always is."""
     resume: bool = False
     """Keep finished stages beside the folder, and use those whose inputs have not changed."""
 
@@ -51,9 +54,7 @@ class Settings:
             raise SpecError(f"the seed must be a whole number from 0 to {MAX_SEED}, got {self.seed}.")
         if not (math.isfinite(self.friction) and 0.0 < self.friction <= 2.0):
             raise SpecError(f"friction must be more than 0 and at most 2, got {self.friction}.")
-        unknown = [name for name in self.formats if name not in FORMATS]
-        if unknown or not self.formats:
-            raise SpecError(f'unknown format "{", ".join(unknown)}". Valid: {", ".join(FORMATS)}.')
+        object.__setattr__(self, "formats", chosen(self.formats))
         if self.device not in ("cpu", "cuda"):
             raise SpecError(f'unknown device "{self.device}". Valid: cpu, cuda.')
 
@@ -214,12 +215,28 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
             delivery.checked.mjcf.rename(fresh / "mjcf")
             names = tuple(obj.name for obj in scene.objects)
             write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
+            write_pictures(rest.pictures, fresh)
+        with clock("formats"):
+            exports = _exports(scene, settings.formats, fresh, folder, progress)
         with clock("preview"):
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
         report = Report(
-            order=order.record, delivery=delivery, reused=tuple(workspace.reused), seconds=clock.seconds
+            order=order.record, delivery=delivery, reused=tuple(workspace.reused), seconds=clock.seconds,
+            exports=exports,
         )  # fmt: skip
         write_json(fresh / "report.json", report.as_dict())
     workspace.clear()
     return Outcome(scene=scene, report=report, folder=folder)
+
+
+def _exports(
+    scene: Scene, formats: Sequence[str], fresh: Path, folder: Path, progress: Progress
+) -> dict[str, ParityReport]:
+    """Write the formats beside the MJCF, which is there, into `fresh`, and read all of them back."""
+    from pat3d.exporters.reload import parity
+
+    more = [name for name in formats if name != "mjcf"]
+    paths = {"mjcf": fresh / "mjcf", **(export(scene, more, fresh, progress=progress) if more else {})}
+    progress(Event(stage="reading the formats back"))
+    return {name: parity(scene, path).moved(fresh, folder) for name, path in paths.items()}

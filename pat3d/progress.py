@@ -20,6 +20,8 @@ class Event:
     """Steps in all; None where nobody knows."""
     motion: float | None = None
     """Largest motion of any point in the step [m]."""
+    loss: float | None = None
+    """Semantic loss of an optimisation's step [m^2]."""
 
 
 Progress = Callable[[Event], None]

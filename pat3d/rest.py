@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,11 @@ class Rest:
     centres: NDArray[np.float64]
     """Centres of mass in the frames of the assets [m], shape (objects, 3)."""
     record: Mapping[str, Any]
-    """at_rest, residual, frames, polish_steps, newton_iterations, time_step; JSON-serialisable."""
+    """at_rest, status, unconverged_steps, residual, frames, polish_steps, newton_iterations, time_step."""
+    optimisation: Mapping[str, Any] | None = None
+    """Of the layout that settled, where there was one; JSON-serialisable."""
+    pictures: Mapping[str, bytes] = field(default_factory=dict)
+    """PNG files about the optimisation, by name."""
 
     @property
     def at_rest(self) -> bool:
@@ -44,7 +48,7 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
         SimulationError: objects intersect at the start, the state degenerates.
     """
     from pat3d.sim.model import ModelBuilder, poses_from_states
-    from pat3d.sim.settle import SettleOptions, settle
+    from pat3d.sim.settling import SettleOptions, settle
 
     builder = ModelBuilder()
     builder.add_scene(scene)
@@ -55,7 +59,7 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
         progress(Event(stage=phase, step=step, motion=motion))
 
     progress(Event(stage="settling", step=0))
-    found = settle(model, options, tell)
+    found = settle(model, options, tell, throw=False)
     poses = [
         obj.initial_pose if obj.fixed else pose
         for obj, pose in zip(scene.objects, poses_from_states(model, found.q), strict=True)
@@ -66,6 +70,8 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
         centres=model.centres,
         record={
             "at_rest": bool(found.at_rest.all()),
+            "status": found.status[0].value,
+            "unconverged_steps": int(found.unconverged.max()),
             "residual": float(found.residual.max()),
             "frames": found.frames,
             "polish_steps": found.polish_steps,

@@ -8,8 +8,8 @@ import os
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +18,14 @@ from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
 
-OWN = ("scene.json", "assets", "mjcf", "usd", "urdf", "report.json", "preview.png", "trajectory.npz")
+OWN = (
+    "scene.json", "assets", "mjcf", "usd", "urdf", "sdf", "report.json", "summary.json", "preview.png",
+    "trajectory.npz", "loss.png", "before_after.png",
+)  # fmt: skip
 """What a scene folder holds; anything else in it is the user's and is kept."""
 
 MAX_REPORT_BYTES = 16 * 2**20
+MAX_PICTURE_BYTES = 16 * 2**20
 
 
 def check_target(out: str | os.PathLike[str]) -> Path:
@@ -129,6 +133,25 @@ def finite(value: Any) -> Any:
     if isinstance(value, float | np.floating):
         return float(value) if np.isfinite(value) else None
     return value
+
+
+def write_pictures(pictures: Mapping[str, bytes], folder: Path) -> None:
+    """Write picture files by name."""
+    for name, data in pictures.items():
+        temporary = folder / f".{name}.part"
+        temporary.write_bytes(data)
+        os.replace(temporary, folder / name)
+
+
+def read_pictures(names: Sequence[str], folder: Path) -> dict[str, bytes]:
+    """Those of the named files that are there and of a sensible size."""
+    found = {}
+    for name in names:
+        path = folder / name
+        with suppress(OSError):
+            if path.stat().st_size <= MAX_PICTURE_BYTES:
+                found[name] = path.read_bytes()
+    return found
 
 
 def write_trajectory(

@@ -12,9 +12,17 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.errors import ExportError, SpecError
+from pat3d.improve import PICTURES, readable
 from pat3d.rest import Rest
 from pat3d.scene import Scene
-from pat3d.scene_folder import read_json, read_trajectory, write_json, write_trajectory
+from pat3d.scene_folder import (
+    read_json,
+    read_pictures,
+    read_trajectory,
+    write_json,
+    write_pictures,
+    write_trajectory,
+)
 from pat3d.scene_io import load_scene, save_scene
 
 _MARKER = "pat3d-partial.json"
@@ -68,12 +76,16 @@ class Workspace:
                 continue
             if [obj.name for obj in settled.objects] != [obj.name for obj in scene.objects]:
                 continue
+            optimisation = report.get("optimisation")
+            optimisation = optimisation if isinstance(optimisation, dict) and readable(optimisation) else None
             self.reused.append(f"settling {attempt + 1}")
             return Rest(
                 poses=tuple(obj.pose for obj in settled.objects),
                 states=trajectory["states"],
                 centres=trajectory["centres"],
                 record=record,
+                optimisation=optimisation,
+                pictures=read_pictures(PICTURES, folder) if optimisation else {},
             )
         return None
 
@@ -90,11 +102,14 @@ class Workspace:
             folder = self._save(attempt, scene, {})
             names = tuple(obj.name for obj in scene.objects)
             write_trajectory(folder / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
-            settling = dict(rest.record)
+            write_pictures(rest.pictures, folder)
             write_json(
                 folder / "report.json",
-                {"inputs": dict(inputs), "layout": {"notes": list(notes)}, "settling": settling},
-            )
+                {
+                    "inputs": dict(inputs), "layout": {"notes": list(notes)}, "settling": dict(rest.record),
+                    "optimisation": rest.optimisation,
+                },
+            )  # fmt: skip
 
     def clear(self) -> None:
         """Forget the unfinished work, now that the folder is complete."""

@@ -11,6 +11,7 @@ import trimesh
 import pat3d
 from pat3d.build_schema import BUILD_SCHEMA
 from pat3d.cli import main
+from pat3d.improve import given_poses
 from pat3d.yaml_source import read_yaml
 
 GOOD = """\
@@ -58,6 +59,8 @@ def test_a_specification_becomes_a_proven_scene(workplace):
     assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 0
     scene = pat3d.load_scene(workplace / "out")
     assert (scene.seed, scene.settling_friction, scene.prompt) == (3, 0.25, "")
+    # An optimisation leaves alone where the user put something.
+    assert given_poses(scene) == {"parcel"}
     can, mug, shelf, parcel = (scene[name] for name in ("can", "mug", "shelf", "parcel"))
     np.testing.assert_allclose(can.asset.size, [0.06, 0.06, 0.1], rtol=2e-2)
     assert can.asset.mass_properties.mass == pytest.approx(0.4)

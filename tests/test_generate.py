@@ -15,9 +15,9 @@ import pytest
 from PIL import Image
 
 import pat3d
-from pat3d.check.parity import differences
 from pat3d.cli import main
 from pat3d.errors import ExportError, PromptError
+from pat3d.exporters.reload import differences
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene import Relation
 from pat3d.scene_folder import read_trajectory

@@ -15,7 +15,7 @@ from pat3d.layout.predicates import check_relations
 from pat3d.plan.grammar import GrammarPlanner
 from pat3d.scene import Scene, SceneObject
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settle import settle
+from pat3d.sim.settling import settle
 
 
 def at_rest(prompt: str, seed: int) -> Scene:

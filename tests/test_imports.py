@@ -38,7 +38,7 @@ def test_help_appears_within_a_second_and_names_every_command():
         text = run("-m", "pat3d", "--help").stdout
         best = min(best, time.perf_counter() - start)
     assert best < 1.0
-    assert all(command in text for command in ("generate", "build", "check", "catalogue", "doctor"))
+    assert all(command in text for command in ("generate", "build", "optimize", "check", "catalogue", "doctor"))
 
 
 def test_the_version_is_the_distribution_s():

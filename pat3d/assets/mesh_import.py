@@ -64,7 +64,7 @@ NEARLY_CONVEX = 0.93
 MAX_DENT = 0.11
 """Depth below the convex hull as a fraction of the object's longest side; 0.02 for objects with a cavity."""
 
-_VERSION = 1
+_VERSION = 2
 
 
 def import_mesh(

@@ -35,6 +35,9 @@ _NEAR_LEVEL = 0.05
 _DEAR = 1e-4
 """Cost above which a short edge stays (unit size)."""
 
+_REACH = 0.3
+"""Farthest that a point may be from the corners of the faces around the edge that it replaces (unit size)."""
+
 _SWEEPS = 6
 
 _START_PLANES = 80
@@ -264,6 +267,9 @@ def _outer_point(
     close = [heights.min() - bounds[0] < _NEAR_LEVEL, bounds[1] - heights.max() < _NEAR_LEVEL]
     candidates = _feasible_corners(np.concatenate([free, level[close]]), fixed)
     candidates = candidates[(candidates[:, 2] >= bounds[0] - 1e-12) & (candidates[:, 2] <= bounds[1] + 1e-12)]
+    # Planes that are nearly parallel may meet far away, with hardly any volume and hardly any distance to them.
+    reach = np.linalg.norm(candidates[:, None] - triangles.reshape(1, -1, 3), axis=2).min(axis=1)
+    candidates = candidates[reach < _REACH]
     if not len(candidates):
         return np.inf, None
     gap = candidates @ planes[:, :3].T + planes[:, 3]

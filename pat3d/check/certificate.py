@@ -41,6 +41,12 @@ MAX_FRICTION = 2.0
 FRICTION_STEP = 0.005
 """Resolution of the smallest friction coefficient [-]."""
 
+MAX_TILT = 8.0
+TILT_STEP = 0.25
+"""Resolution of the steadiness [degrees]."""
+DIRECTIONS = 8
+"""Towards which the ground is tilted."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Certificate:
@@ -114,6 +120,21 @@ def certify(
 def smallest_friction(scene: Scene, activation: float = ACTIVATION) -> float:
     """The least uniform friction coefficient [-] at which the certificate holds, to 0.005; infinite if none up to 2."""
     return _Problem(scene, activation).smallest_friction()
+
+
+def steadiness(scene: Scene, friction: float | None = None, activation: float = ACTIVATION) -> float:
+    """How far the ground can be tilted, whichever way, before the certificate fails [degrees], to 0.25 and at most 8.
+
+    Objects stay where they are on it. What slides as well as what tips over fails; negative where it fails on level
+    ground already.
+
+    Args:
+        scene: at rest.
+        friction: coefficient [-] of every contact; None for the one the scene was settled with.
+        activation: surfaces closer than this touch [m].
+    """
+    friction = scene.settling_friction if friction is None else friction
+    return _Problem(scene, activation).steadiness(friction)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -190,11 +211,37 @@ class _Problem:
             least = high
         return least
 
-    def _balance(self, bodies: list[int], contacts: Contacts, anchors: _Anchors, friction: float) -> list[float]:
-        """Residuals of a group's bodies under the best forces at contacts and anchors."""
+    def steadiness(self, friction: float) -> float:
+        """Bisection on the tilt of each group; the worst group's [degrees]."""
+        angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+        most = MAX_TILT
+        for bodies, contacts, anchors in self.groups:
+
+            def holds(tilt: float, bodies=bodies, contacts=contacts, anchors=anchors) -> bool:
+                s, c = math.sin(math.radians(tilt)), math.cos(math.radians(tilt))
+                downs = [(s * math.cos(a), s * math.sin(a), -c) for a in angles] if tilt else [(0.0, 0.0, -1.0)]
+                return all(max(self._balance(bodies, contacts, anchors, friction, down)) <= TOLERANCE for down in downs)
+
+            if holds(most):
+                continue
+            if not holds(0.0):
+                return -TILT_STEP
+            low, high = 0.0, most
+            while high - low > TILT_STEP:
+                middle = (low + high) / 2
+                low, high = (middle, high) if holds(middle) else (low, middle)
+            most = low
+            if most == 0.0:
+                break
+        return most
+
+    def _balance(
+        self, bodies: list[int], contacts: Contacts, anchors: _Anchors, friction: float,
+        down: tuple[float, float, float] = (0.0, 0.0, -1.0),
+    ) -> list[float]:  # fmt: skip
+        """Residuals of a group's bodies under the best forces at contacts and anchors, with gravity along `down`."""
         rows = {body: 6 * k for k, body in enumerate(bodies)}
-        gravity = np.zeros(6 * len(bodies))
-        gravity[2::6] = -1.0
+        gravity = np.tile([*down, 0.0, 0.0, 0.0], len(bodies))
         if not len(contacts) + len(anchors.bodies):
             return [1.0] * len(bodies)
         frames = np.concatenate([_frames(contacts.normals), np.tile(np.eye(3), (len(anchors.bodies), 1, 1))])

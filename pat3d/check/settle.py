@@ -45,8 +45,8 @@ class SettleReport:
     """Time step, cone, solver and the other options the run used."""
     warnings: tuple[str, ...]
     """What the engine complained about while loading or stepping; none for a good scene."""
-    contacts: int
-    """Contact points at the end of the run."""
+    contacts: int | None
+    """Contact points at the end of the run, where the engine tells."""
 
     @property
     def worst_mm(self) -> float:

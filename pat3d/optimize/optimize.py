@@ -7,7 +7,8 @@
 First the layout as given is settled; if every relation holds, that is the answer. If not, a batch of other layouts
 (pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
 through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
-loss, then the most robust certificate.
+loss; among scenes in which everything holds, those that can be tilted furthest before their certificate fails come
+before those of less loss. If even the best endures little, loads are centred on their supports (pat3d.optimize.steady).
 """
 
 from __future__ import annotations
@@ -19,18 +20,19 @@ import numpy as np
 
 from pat3d.assets.asset import Asset
 from pat3d.errors import SimulationError, SpecError
-from pat3d.layout.predicates import RelationResult, check_relations
+from pat3d.layout.predicates import check_relations
 from pat3d.optimize.loss import SemanticLoss, states
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.refine import Epoch, refine
 from pat3d.optimize.starts import Start, make_starts
-from pat3d.scene import Pose, Relation, Scene, SceneObject, check_tree
+from pat3d.optimize.steady import recentred
+from pat3d.optimize.trial import Optimized, Trial
+from pat3d.scene import Attachment, Pose, Relation, Scene, check_tree
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settle import SettleOptions, settle
+from pat3d.sim.settling import SettleOptions, settle
 
-MARGIN_OF = 3
-"""Among equally good scenes, how many are compared by their certificates."""
-
+STEADYING = 4
+"""Times that loads are centred at most."""
 Progress = Callable[[str, int, float], None]
 """Called with the phase ("settling", "settling starts", "epoch"), a step number, and its motion [m] or loss [m^2]."""
 
@@ -56,6 +58,8 @@ class OptimizeOptions:
     """How many of them gradients refine."""
     relayout: bool = True
     """Whether layouts with other seeds may be among the starts."""
+    steady: bool = False
+    """Whether a layout in which everything holds, but hardly, is improved too."""
     seed: int = 0
     """Of the random starts."""
     settle: SettleOptions = field(default_factory=SettleOptions)
@@ -70,88 +74,6 @@ class OptimizeOptions:
             raise SpecError(f"learning_rate must be positive, got {self.learning_rate}.")
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Trial:
-    """One layout and what it settles into."""
-
-    source: str
-    """"layout", "balanced", "shifted", "arranged anew" or "gradient"."""
-    poses0: Mapping[str, Pose]
-    """Intersection-free layout."""
-    poses: Mapping[str, Pose]
-    """At rest."""
-    at_rest: bool
-    """Whether the simulator met its tolerances."""
-    loss: float
-    """Semantic loss at rest [m^2]."""
-    results: tuple[RelationResult, ...]
-    """Every relation at rest."""
-
-    @property
-    def broken(self) -> tuple[RelationResult, ...]:
-        """Relations that do not hold."""
-        return tuple(result for result in self.results if not result.holds)
-
-    @property
-    def satisfied(self) -> bool:
-        """Everything holds, at rest."""
-        return self.at_rest and not self.broken
-
-    @property
-    def rank(self) -> tuple[int, bool, float]:
-        """The least is best."""
-        return len(self.broken), not self.at_rest, self.loss
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Optimized:
-    """The best layout found and how it was found."""
-
-    best: Trial
-    first: Trial
-    """The layout as given."""
-    skipped: bool
-    """Whether the layout as given satisfied everything already."""
-    trials: tuple[Trial, ...]
-    """Everything that was settled, the layout as given first."""
-    history: tuple[Epoch, ...]
-    """Gradient steps in order."""
-
-    @property
-    def poses0(self) -> Mapping[str, Pose]:
-        """The best initial layout."""
-        return self.best.poses0
-
-    @property
-    def poses(self) -> Mapping[str, Pose]:
-        """The best scene at rest."""
-        return self.best.poses
-
-    @property
-    def satisfied(self) -> bool:
-        """Whether every relation holds in the best scene."""
-        return self.best.satisfied
-
-    def as_dict(self) -> dict:
-        """Plain data for report.json."""
-        return {
-            "skipped": self.skipped,
-            "satisfied": self.satisfied,
-            "source": self.best.source,
-            "loss_before": self.first.loss,
-            "loss_after": self.best.loss,
-            "broken": [str(result.relation) for result in self.best.broken],
-            "trials": [
-                {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest}
-                for one in self.trials
-            ],
-            "history": [
-                {"start": one.start, "epoch": one.epoch, "loss": one.loss, "broken": one.broken}
-                for one in self.history
-            ],
-        }  # fmt: skip
-
-
 def optimize(
     assets: Mapping[str, Asset],
     relations: tuple[Relation, ...],
@@ -159,6 +81,9 @@ def optimize(
     *,
     options: OptimizeOptions | None = None,
     fixed: Collection[str] = (),
+    pinned: Collection[str] = (),
+    attachments: tuple[Attachment, ...] = (),
+    settled: tuple[Mapping[str, Pose], bool] | None = None,
     progress: Progress = lambda *_: None,
 ) -> Optimized:
     """Find an initial layout near `poses0` (or another one) that settles into what `relations` say.
@@ -169,6 +94,9 @@ def optimize(
         poses0: intersection-free layout of every object.
         options: settings.
         fixed: objects that never move.
+        pinned: objects that settle like others but always start where they are.
+        attachments: by which things hang; what hangs moves with its carrier.
+        settled: what `poses0` settles into and whether that is at rest, where it is known already.
         progress: told what is going on.
 
     Returns:
@@ -180,46 +108,79 @@ def optimize(
     """
     options = options or OptimizeOptions()
     check_tree(list(assets), relations)
-    missing = [name for name in (*assets, *fixed) if name not in poses0]
+    missing = [name for name in (*assets, *fixed, *pinned) if name not in poses0]
     if missing:
         raise SpecError(f'"{missing[0]}" has no initial pose. Poses given: {", ".join(poses0)}.')
-    search = _Search(assets, relations, poses0, options, frozenset(fixed), progress)
-    first = search.settled([Start(source="layout", poses=search.placement.poses, balance=0.0)], "settling")[0]
-    if first.satisfied or not search.placement.movable.any():
-        return Optimized(best=first, first=first, skipped=first.satisfied, trials=(first,), history=())
+    placement = Placement(assets, relations, poses0, fixed=fixed, pinned=pinned, attachments=attachments)
+    search = _Search(placement, options, progress)
+    start = Start(source="layout", poses=placement.poses, balance=0.0, attachments=attachments)
+    first = search.trial(start, *settled) if settled else search.settled([start], "settling")[0]
+    if options.steady:
+        first = search.judged(first)
+    done = first.steady if options.steady else first.satisfied
+    if done or not placement.movable.any():
+        return Optimized(best=first, first=first, skipped=done, trials=(first,), history=())
     return search.run(first)
 
 
-def scene_after(scene: Scene, found: Optimized) -> Scene:
-    """`scene` with the layout and the poses at rest that were found."""
-    objects = tuple(
-        replace(obj, initial_pose=found.poses0[obj.name], pose=found.poses[obj.name]) for obj in scene.objects
+def optimize_scene(
+    scene: Scene,
+    *,
+    options: OptimizeOptions | None = None,
+    pinned: Collection[str] = (),
+    at_rest: bool | None = None,
+    progress: Progress = lambda *_: None,
+) -> Optimized:
+    """`optimize` from the initial poses of `scene`, which settles with its own friction.
+
+    Args:
+        scene: laid out.
+        options: settings.
+        pinned: as for `optimize`.
+        at_rest: whether the objects' poses are at rest; None where they are not what the layout settles into.
+        progress: told what is going on.
+    """
+    options = options or OptimizeOptions()
+    return optimize(
+        {obj.name: obj.asset for obj in scene.objects},
+        scene.relations,
+        {obj.name: obj.initial_pose for obj in scene.objects},
+        options=replace(options, settle=replace(options.settle, friction=scene.settling_friction)),
+        fixed={obj.name for obj in scene.objects if obj.fixed},
+        pinned=pinned,
+        attachments=scene.attachments,
+        settled=None if at_rest is None else ({obj.name: obj.pose for obj in scene.objects}, at_rest),
+        progress=progress,
     )
-    return replace(scene, objects=objects)
+
+
+def scene_after(scene: Scene, trial: Trial) -> Scene:
+    """`scene` with the layout and the poses at rest of `trial`."""
+    objects = tuple(
+        replace(obj, initial_pose=trial.poses0[obj.name], pose=trial.poses[obj.name]) for obj in scene.objects
+    )
+    return replace(scene, objects=objects, attachments=trial.attachments)
+
+
+def _result(trials: list[Trial], history: list[Epoch]) -> Optimized:
+    best = min(trials, key=lambda trial: trial.rank)
+    return Optimized(best=best, first=trials[0], skipped=False, trials=tuple(trials), history=tuple(history))
 
 
 class _Search:
-    def __init__(
-        self,
-        assets: Mapping[str, Asset],
-        relations: tuple[Relation, ...],
-        poses0: Mapping[str, Pose],
-        options: OptimizeOptions,
-        fixed: frozenset[str],
-        progress: Progress,
-    ) -> None:
-        self.assets, self.relations, self.options, self.fixed = assets, relations, options, fixed
-        self.progress = progress
-        self.placement = Placement(assets, relations, poses0, fixed=fixed)
+    def __init__(self, placement: Placement, options: OptimizeOptions, progress: Progress) -> None:
+        self.placement, self.options, self.progress = placement, options, progress
 
     def run(self, first: Trial) -> Optimized:
         """Other starts, then gradients where no start holds."""
-        options = self.options
-        trials = [first]
+        options, placement = self.options, self.placement
+        trials = [first, *self._steadied(first)]
+        if trials[-1].steady:
+            return _result(trials, [])
         starts = make_starts(
-            self.placement, self.relations, count=options.starts, seed=options.seed, relayout=options.relayout
+            placement, placement.relations, count=options.starts, seed=options.seed, relayout=options.relayout
         )
-        trials += self.settled(starts[1:], "settling starts")
+        trials += [self.judged(trial) for trial in self.settled(starts[1:], "settling starts")]
         history: list[Epoch] = []
         if options.epochs and not any(trial.satisfied for trial in trials):
             for trial in sorted(trials, key=lambda trial: trial.rank)[: options.refined]:
@@ -227,9 +188,8 @@ class _Search:
                 trials += polished
                 if any(one.satisfied for one in polished):
                     break
-        return Optimized(
-            best=self._best(trials), first=first, skipped=False, trials=tuple(trials), history=tuple(history)
-        )
+        trials += self._steadied(min(trials, key=lambda trial: trial.rank))
+        return _result(trials, history)
 
     def settled(self, starts: list[Start], phase: str) -> list[Trial]:
         """What every start settles into; starts that cannot be simulated are left out, unless there is but one."""
@@ -238,8 +198,7 @@ class _Search:
         builder = ModelBuilder()
         for start in starts:
             builder.new_world()
-            for name, asset in self.assets.items():
-                builder.add_asset(asset, start.poses[name], fixed=name in self.fixed, label=name)
+            builder.add_scene(self.placement.scene(start.poses, start.attachments))
         model = builder.finalize(self.options.device)
         try:
             found = settle(model, self.options.settle, lambda _, step, motion: self.progress(phase, step, motion))
@@ -247,10 +206,11 @@ class _Search:
             if len(starts) == 1:
                 raise
             return [trial for start in starts for trial in self._alone(start, phase)]
-        count = len(self.assets)
+        count = len(self.placement.names)
         poses = poses_from_states(model, found.q)
+        names = self.placement.names
         return [
-            self._trial(start, poses[w * count : (w + 1) * count], bool(found.at_rest[w]))
+            self.trial(start, dict(zip(names, poses[w * count : (w + 1) * count], strict=True)), bool(found.at_rest[w]))
             for w, start in enumerate(starts)
         ]
 
@@ -260,57 +220,73 @@ class _Search:
         except SimulationError:
             return []
 
-    def _trial(self, start: Start, settled: list[Pose], at_rest: bool) -> Trial:
-        poses = {
-            name: start.poses[name] if name in self.fixed else pose
-            for name, pose in zip(self.assets, settled, strict=True)
-        }
-        loss = SemanticLoss(self.assets, self.relations, start.poses)
+    def trial(self, start: Start, settled: Mapping[str, Pose], at_rest: bool) -> Trial:
+        """`start` with what it settled into."""
+        assets, relations = self.placement.assets, self.placement.relations
+        poses = {name: (start.poses if name in self.placement.fixed else settled)[name] for name in assets}
+        loss = SemanticLoss(assets, relations, start.poses)
         return Trial(
             source=start.source,
             poses0=start.poses,
             poses=poses,
             at_rest=at_rest,
-            loss=float(loss(states(self.assets, poses))),
-            results=check_relations(self.relations, self.assets, poses),
+            loss=float(loss(states(assets, poses))),
+            results=check_relations(relations, assets, poses, attachments=start.attachments),
+            attachments=start.attachments,
         )
+
+    def judged(self, trial: Trial) -> Trial:
+        """`trial` with its steadiness, where everything holds in it."""
+        if not trial.satisfied:
+            return trial
+        from pat3d.check.certificate import steadiness
+
+        return replace(trial, steadiness=steadiness(self._scene(trial)))
 
     def _refined(self, trial: Trial, number: int, history: list[Epoch]) -> list[Trial]:
         """Gradient steps from one trial's layout; what its promising iterates settle into."""
-        placement = Placement(self.assets, self.relations, trial.poses0, fixed=self.fixed)
+        placement = self._at(trial)
         found: list[Trial] = []
 
         def confirm(poses: Mapping[str, Pose]) -> bool:
-            start = Start(source="gradient", poses=poses, balance=0.0)
-            found.extend(self._alone(start, "settling"))
+            start = Start(source="gradient", poses=poses, balance=0.0, attachments=trial.attachments)
+            found.extend(self.judged(one) for one in self._alone(start, "settling"))
             return bool(found) and found[-1].satisfied
 
         options = self.options
         best = refine(
-            placement, self.relations, confirm=confirm, start=number, history=history, progress=self.progress,
+            placement, placement.relations, confirm=confirm, start=number, history=history, progress=self.progress,
             epochs=options.epochs, learning_rate=options.learning_rate, every=options.every, patience=options.patience,
             frames=min(options.frames, options.settle.max_frames), settings=options.settle, device=options.device,
         )  # fmt: skip
-        if not (found and found[-1].satisfied):
+        if not any(one.satisfied for one in found):
             confirm(best)
         return found
 
-    def _best(self, trials: list[Trial]) -> Trial:
-        """The best trial; ties are decided by how little friction suffices to hold the scene."""
-        ranked = sorted(trials, key=lambda trial: trial.rank)
-        tied = [trial for trial in ranked if trial.satisfied and trial.loss <= ranked[0].loss + 1e-9][:MARGIN_OF]
-        if len(tied) < 2:
-            return ranked[0]
-        from pat3d.check.certificate import smallest_friction
+    def _steadied(self, trial: Trial) -> list[Trial]:
+        """What `trial` becomes when its loads are centred on their supports, for as long as that helps."""
+        found: list[Trial] = []
+        while trial.satisfied and not trial.steady and len(found) < STEADYING:
+            placement = self._at(trial)
+            poses0 = recentred(placement, self._scene(trial))
+            if poses0 is None:
+                break
+            start = Start(source="recentred", poses=poses0, balance=0.0, attachments=trial.attachments)
+            tried = [self.judged(one) for one in self._alone(start, "settling")]
+            found += tried
+            if not tried or tried[0].rank >= trial.rank:
+                break
+            trial = tried[0]
+        return found
 
-        return min(tied, key=lambda trial: smallest_friction(self._scene(trial)))
+    def _at(self, trial: Trial) -> Placement:
+        """The placement with the layout of `trial`."""
+        now = self.placement
+        return Placement(
+            now.assets, now.relations, trial.poses0, fixed=now.fixed, pinned=now.held, attachments=trial.attachments
+        )
 
     def _scene(self, trial: Trial) -> Scene:
-        objects = tuple(
-            SceneObject(
-                name=name, asset=asset, pose=trial.poses[name], initial_pose=trial.poses0[name],
-                fixed=name in self.fixed,
-            )
-            for name, asset in self.assets.items()
-        )  # fmt: skip
-        return Scene(objects=objects, relations=self.relations, settling_friction=self.options.settle.friction)
+        return self.placement.scene(
+            trial.poses0, trial.attachments, poses=trial.poses, friction=self.options.settle.friction
+        )

@@ -20,7 +20,7 @@ from pat3d.layout.containers import lower
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.proof import prove
 from pat3d.optimize.loss import states
-from pat3d.scene import GROUND, Pose, Relation, parent_of
+from pat3d.scene import GROUND, Attachment, Pose, Relation, Scene, SceneObject, parent_of
 
 GAP = 0.002
 """Distance kept from what will carry an object [m], as in the layout."""
@@ -38,15 +38,29 @@ class Placement:
         poses: Mapping[str, Pose],
         *,
         fixed: Collection[str] = (),
+        pinned: Collection[str] = (),
+        attachments: tuple[Attachment, ...] = (),
     ) -> None:
+        """Prepare the variables.
+
+        Args:
+            assets: by object name.
+            relations: the scene tree and the lateral relations.
+            poses: intersection-free layout of every object.
+            fixed: objects that never move.
+            pinned: objects that settle like others but start where they are.
+            attachments: by which things hang; what hangs moves with its carrier.
+        """
         self.assets, self.poses, self.fixed = dict(assets), {name: poses[name] for name in assets}, frozenset(fixed)
+        self.relations, self.attachments = relations, attachments
+        self.held = self.fixed | frozenset(pinned)
         self.names = list(assets)
         self.parent = {name: parent_of(name, relations) for name in assets}
         self.kind = {rel.child: rel.kind for rel in relations if rel.supports}
         lateral = {rel.child for rel in relations if not rel.supports and rel.parent != GROUND}
         self.movable = np.array(
             [
-                name not in self.fixed
+                name not in self.held
                 and self.kind.get(name) != "hangs_from"
                 and (self.parent[name] != GROUND or name in lateral)
                 for name in assets
@@ -67,7 +81,7 @@ class Placement:
         index = {name: k for k, name in enumerate(self.names)}
         for name in self.order:
             k = index[name]
-            if name in self.fixed:
+            if name in self.held:
                 continue
             if self.movable[k]:
                 angle = variables[k, 2] / self.radius[k]
@@ -104,7 +118,7 @@ class Placement:
         lift: dict[str, float] = {}
         for name in self.order:
             body, above = wanted[name], self.parent[name]
-            if name in self.fixed or (above == GROUND and not self.movable[self.names.index(name)]):
+            if name in self.held or (above == GROUND and not self.movable[self.names.index(name)]):
                 done[name], lift[name] = body, 0.0
                 continue
             carried = body.shifted(np.array([0.0, 0.0, lift.get(above, 0.0)]))
@@ -124,8 +138,28 @@ class Placement:
                 raise LayoutError(f'"{name}" would stand on another object.')
         prove([done[name] for name in self.names])
         return {
-            name: self.poses[name] if name in self.fixed else done[name].pose for name in self.names
+            name: self.poses[name] if name in self.held else done[name].pose for name in self.names
         }  # fmt: skip
+
+    def scene(
+        self,
+        poses0: Mapping[str, Pose],
+        attachments: tuple[Attachment, ...],
+        *,
+        poses: Mapping[str, Pose] | None = None,
+        friction: float = 0.2,
+    ) -> Scene:
+        """The objects as a scene laid out at `poses0`, and at rest at `poses`, settled with `friction` [-]."""
+        objects = tuple(
+            SceneObject(
+                name=name, asset=asset, initial_pose=poses0[name], pose=(poses or poses0)[name],
+                fixed=name in self.fixed,
+            )
+            for name, asset in self.assets.items()
+        )  # fmt: skip
+        return Scene(
+            objects=objects, relations=self.relations, attachments=attachments, settling_friction=friction
+        )  # fmt: skip
 
     def groups(self, poses: Mapping[str, Pose]) -> dict[str, Group]:
         """Every object with everything that it carries, at `poses`."""
@@ -157,7 +191,7 @@ class Placement:
         waiting = list(self.names)
         while waiting:
             ready = [name for name in waiting if self.parent[name] == GROUND or self.parent[name] in order]
-            chosen = min(ready, key=lambda name: (name not in self.fixed, float(self._start[name].low[2])))
+            chosen = min(ready, key=lambda name: (name not in self.held, float(self._start[name].low[2])))
             order.append(chosen)
             waiting.remove(chosen)
         return order

@@ -19,8 +19,8 @@ from pat3d.optimize.loss import SemanticLoss
 from pat3d.optimize.placement import Placement
 from pat3d.scene import Pose, Relation
 from pat3d.sim.model import Model, ModelBuilder, poses_from_states
-from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions
 
 HALVINGS = 5
 """How often a step that cannot be made is halved."""
@@ -159,8 +159,7 @@ def _projected(placement: Placement, variables: torch.Tensor, before: torch.Tens
 
 def _model(placement: Placement, device: str) -> Model:
     builder = ModelBuilder()
-    for name, asset in placement.assets.items():
-        builder.add_asset(asset, placement.poses[name], fixed=name in placement.fixed, label=name)
+    builder.add_scene(placement.scene(placement.poses, placement.attachments))
     return builder.finalize(device)
 
 
@@ -168,5 +167,7 @@ def _broken(model: Model, placement: Placement, relations: tuple[Relation, ...],
     """How many relations do not hold at states `q`, shape (bodies, 12)."""
     poses = dict(zip(placement.names, poses_from_states(model, q.reshape(-1, 4, 3)), strict=True))
     # Bodies still float within the barrier's reach while they drop.
-    results = check_relations(relations, placement.assets, poses, touch=2e-3)
+    results = check_relations(
+        relations, placement.assets, poses, touch=2e-3, attachments=placement.attachments
+    )  # fmt: skip
     return sum(not result.holds for result in results)

@@ -19,7 +19,7 @@ from pat3d.layout.containers import lower
 from pat3d.layout.group import Group
 from pat3d.layout.layout import arrange
 from pat3d.optimize.placement import GAP, Placement
-from pat3d.scene import GROUND, Pose, Relation
+from pat3d.scene import GROUND, Attachment, Pose, Relation
 
 ENOUGH = 0.1
 """Support margin, as a share of an object's width, beyond which more is not better."""
@@ -36,6 +36,8 @@ class Start:
     poses: Mapping[str, Pose]
     balance: float
     """How far the worst-standing object is from tipping, as a share of its width, at most ENOUGH; negative tips."""
+    attachments: tuple[Attachment, ...] = ()
+    """What holds the things that hang."""
 
 
 def make_starts(
@@ -56,13 +58,18 @@ def make_starts(
         relayout: whether layouts with other seeds may be among them.
     """
     rng = np.random.default_rng(seed)
-    start = Start(source="layout", poses=placement.poses, balance=balance(placement, placement.poses))
+    held = placement.attachments
+    start = Start(
+        source="layout", poses=placement.poses, balance=balance(placement, placement.poses), attachments=held
+    )  # fmt: skip
     if count <= 1:
         return [start]
     found: list[Start] = []
 
-    def add(source: str, poses: Mapping[str, Pose]) -> None:
-        found.append(Start(source=source, poses=poses, balance=balance(placement, poses)))
+    def add(source: str, poses: Mapping[str, Pose], attachments: tuple[Attachment, ...] = held) -> None:
+        found.append(
+            Start(source=source, poses=poses, balance=balance(placement, poses), attachments=attachments)
+        )  # fmt: skip
 
     best = balanced(placement)
     for source, variables in [
@@ -81,10 +88,11 @@ def make_starts(
         names = list(placement.names)
         if k % 2:
             rng.shuffle(names)
-        given = {name: placement.poses[name] for name in placement.fixed}
+        given = {name: placement.poses[name] for name in placement.held}
         shuffled = {name: placement.assets[name] for name in names}
         try:
-            add("arranged anew", arrange(shuffled, relations, seed=seed + k + 1, fixed_poses=given).poses)
+            layout = arrange(shuffled, relations, seed=seed + k + 1, fixed_poses=given)
+            add("arranged anew", layout.poses, layout.attachments)
         except LayoutError:
             continue
     found.sort(key=lambda one: -one.balance)

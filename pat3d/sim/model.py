@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 import warp as wp
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import SimulationError
 from pat3d.scene import Pose, Scene
+from pat3d.sim.contact.clusters import ClusteredPart, cluster
 
 GRAVITY = 9.81
 """[m/s^2], along -z."""
@@ -56,7 +58,14 @@ class Model:
     part_body: wp.array
     """shape (parts,), int."""
     part_ranges: wp.array
-    """First and past-last vertex, edge and triangle of every part, shape (parts, 6), int."""
+    """First and past-last vertex, edge, triangle and cluster of every part, shape (parts, 8), int."""
+    cluster_ranges: wp.array
+    """First and past-last vertex, edge, triangle and entry of `halo` of every cluster, shape (clusters, 8), int.
+
+    Detailed parts consist of several clusters, others are one.
+    """
+    halo: wp.array
+    """Vertices of other clusters that a cluster's edges and triangles reach, shape (reached,), int."""
     part_pairs: wp.array
     """Parts that can ever touch: same world, different bodies, not both fixed; shape (pairs,), vec2i."""
     anchor_bodies: wp.array
@@ -100,12 +109,19 @@ class ModelBuilder:
     Example:
         builder = ModelBuilder()
         builder.add_asset(asset, pose)
-        model = builder.finalize(device="cpu")
+        model = builder.finalize(device="cuda", worlds=256)
     """
 
     _bodies: list[dict] = field(default_factory=list)
     _anchors: list[tuple[int, NDArray[np.float64], int, NDArray[np.float64]]] = field(default_factory=list)
     _world: int = 0
+
+    @classmethod
+    def from_scene(cls, scene: Scene) -> ModelBuilder:
+        """A builder that holds the objects of `scene` at their initial poses, and its attachments."""
+        builder = cls()
+        builder.add_scene(scene)
+        return builder
 
     def new_world(self) -> None:
         """Bodies added from here on belong to the next world."""
@@ -219,84 +235,107 @@ class ModelBuilder:
             raise SimulationError(f"the attachment of {labels} needs points of 3 finite numbers.")
         self._anchors.append((body_a, points[0] - first["centre"], body_b, points[1] - second["centre"]))
 
-    def finalize(self, device: str = "cpu") -> Model:
+    def finalize(self, device: str = "cpu", worlds: int | None = None) -> Model:
         """The model on `device` ("cpu" or "cuda").
 
+        Args:
+            device: Warp's name of the device.
+            worlds: number of copies of the one world that was built; as built where None.
+
         Raises:
-            SimulationError: no bodies were added.
+            SimulationError: no bodies were added, or copies of more than one world are asked for.
         """
-        if not self._bodies:
-            raise SimulationError("a model needs at least one body.")
         bodies = self._bodies
-        worlds = bodies[-1]["world"] + 1
-        free_count = np.zeros(worlds, dtype=np.int64)
-        weight = np.zeros(worlds)
+        if not bodies:
+            raise SimulationError("a model needs at least one body.")
+        built = bodies[-1]["world"] + 1
+        copies = 1 if worlds is None else worlds
+        if copies < 1 or (worlds is not None and built > 1):
+            raise SimulationError(
+                f"only one world can be copied, at least once; got {built} worlds and {worlds} copies."
+            )
+        fixed = np.array([body["fixed"] for body in bodies])
+        mass = np.array([body["mass"] for body in bodies])
+        body_world = np.array([body["world"] for body in bodies], dtype=np.int32)
+        free_count = np.bincount(body_world[~fixed], minlength=built)
+        weight = np.zeros(built)
+        np.maximum.at(weight, body_world[~fixed], mass[~fixed] * GRAVITY)
         dof = np.full(len(bodies), -1, dtype=np.int32)
+        # Worlds are contiguous, so a free body's index is its rank among all free ones less those of earlier worlds.
+        earlier = np.cumsum(free_count) - free_count
+        dof[~fixed] = np.arange(free_count.sum()) - earlier[body_world[~fixed]]
         vertices, vertex_body, edges, triangles = [], [], [], []
-        part_body, ranges = [], []
-        base = edge_base = triangle_base = 0
+        part_body, ranges, cluster_ranges, halo = [], [], [], []
+        clustered: dict[int, ClusteredPart] = {}
+        # Vertices, edges, triangles, entries of the halo and clusters so far.
+        bases = np.zeros(5, dtype=np.int64)
         radius = np.zeros(len(bodies))
         q0 = np.zeros((len(bodies), 4, 3))
         for b, body in enumerate(bodies):
-            if not body["fixed"]:
-                dof[b] = free_count[body["world"]]
-                free_count[body["world"]] += 1
-                weight[body["world"]] = max(weight[body["world"]], body["mass"] * GRAVITY)
             pose: Pose = body["pose"]
             q0[b, 0] = pose.apply(body["centre"][None])[0]
             q0[b, 1:] = pose.rotation.T
             for part in body["parts"]:
-                rest = part.vertices - body["centre"]
+                if id(part) not in clustered:
+                    clustered[id(part)] = cluster(part.vertices, sharp_edges(part), part.faces)
+                found = clustered[id(part)]
+                rest = found.vertices - body["centre"]
                 radius[b] = max(radius[b], np.linalg.norm(rest, axis=1).max())
-                sharp = _sharp_edges(part)
+                counts = [len(x) for x in (rest, found.edges, found.triangles, found.halo, found.ranges)]
                 vertices.append(rest)
                 vertex_body.append(np.full(len(rest), b, dtype=np.int32))
-                edges.append(sharp + base)
-                triangles.append(part.faces + base)
+                edges.append(found.edges + bases[0])
+                triangles.append(found.triangles + bases[0])
+                halo.append(found.halo + bases[0])
                 part_body.append(b)
-                ranges.append(
-                    [
-                        base, base + len(rest), edge_base, edge_base + len(sharp),
-                        triangle_base, triangle_base + len(part.faces),
-                    ]
-                )  # fmt: skip
-                base += len(rest)
-                edge_base += len(sharp)
-                triangle_base += len(part.faces)
+                ranges.append(np.stack([bases, bases + counts], axis=1)[[0, 1, 2, 4]].ravel())
+                cluster_ranges.append(found.ranges + np.repeat(bases[:4], 2))
+                bases += counts
         anchors = self._anchors
         bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in anchors]
         owner = np.array(part_body, dtype=np.int32)
-        body_world = np.array([body["world"] for body in bodies], dtype=np.int32)
+        part_pairs = _part_pairs(owner, body_world, dof)
+        if copies * max(*bases, len(part_pairs)) > np.iinfo(np.int32).max:
+            raise SimulationError(f"{copies} copies of this world have more pairs of parts than can be counted.")
 
-        def array(values, dtype) -> wp.array:
-            return wp.array(np.ascontiguousarray(values), dtype=dtype, device=device)
+        def array(values, dtype, shift: int | np.integer | NDArray[np.int64] = 0) -> wp.array:
+            """One row of `values` for each of every copy, the indices in it raised by `shift` a copy."""
+            values = np.asarray(values)
+            rise = np.arange(copies).reshape(-1, *[1] * values.ndim) * np.asarray(shift, dtype=values.dtype)
+            repeated = np.broadcast_to(values, (copies, *values.shape)) + rise.astype(values.dtype)
+            return wp.array(repeated.reshape(-1, *values.shape[1:]), dtype=dtype, device=device)
+
+        def whole(rows, width: int) -> NDArray[np.int32]:
+            return np.array(rows, dtype=np.int32).reshape(-1, width)
 
         return Model(
             device=device,
-            worlds=worlds,
-            body_world=array(body_world, int),
+            worlds=built * copies,
+            body_world=array(body_world, int, 1),
             body_dof=array(dof, int),
-            body_mass=array([body["mass"] for body in bodies], wp.float64),
+            body_mass=array(mass, wp.float64),
             body_moment=array(np.stack([body["moment"] for body in bodies]), wp.mat33d),
             body_volume=array([body["volume"] for body in bodies], wp.float64),
             vertex_rest=array(np.concatenate(vertices), wp.vec3d),
-            vertex_body=array(np.concatenate(vertex_body), int),
-            edges=array(np.concatenate(edges).astype(np.int32), wp.vec2i),
-            triangles=array(np.concatenate(triangles).astype(np.int32), wp.vec3i),
-            part_body=array(owner, int),
-            part_ranges=wp.array(np.array(ranges, dtype=np.int32), dtype=int, device=device),
-            part_pairs=array(_part_pairs(owner, body_world, dof), wp.vec2i),
-            anchor_bodies=array(np.array([(one[0], one[2]) for one in anchors], np.int32).reshape(-1, 2), wp.vec2i),
+            vertex_body=array(np.concatenate(vertex_body), int, len(bodies)),
+            edges=array(whole(np.concatenate(edges), 2), wp.vec2i, bases[0]),
+            triangles=array(whole(np.concatenate(triangles), 3), wp.vec3i, bases[0]),
+            part_body=array(owner, int, len(bodies)),
+            part_ranges=array(whole(ranges, 8), int, np.repeat(bases[[0, 1, 2, 4]], 2)),
+            cluster_ranges=array(whole(np.concatenate(cluster_ranges), 8), int, np.repeat(bases[:4], 2)),
+            halo=array(np.concatenate(halo), int, bases[0]),
+            part_pairs=array(part_pairs, wp.vec2i, len(owner)),
+            anchor_bodies=array(whole([(one[0], one[2]) for one in anchors], 2), wp.vec2i, len(bodies)),
             anchor_rest=array(np.array([(one[1], one[3]) for one in anchors]).reshape(-1, 2, 3), wp.vec3d),
             anchor_stiffness=array(np.array(bearing) * (GRAVITY / ATTACHMENT_STRETCH), wp.float64),
-            free_bodies=free_count,
-            world_of=body_world.astype(np.int64),
-            is_free=dof >= 0,
-            weight=weight,
-            body_radius=radius,
-            q0=q0,
-            labels=tuple(body["label"] for body in bodies),
-            centres=np.stack([body["centre"] for body in bodies]),
+            free_bodies=np.tile(free_count, copies),
+            world_of=(body_world.astype(np.int64) + np.arange(copies)[:, None]).reshape(-1),
+            is_free=np.tile(dof >= 0, copies),
+            weight=np.tile(weight, copies),
+            body_radius=np.tile(radius, copies),
+            q0=np.tile(q0, (copies, 1, 1)),
+            labels=tuple(body["label"] for body in bodies) * copies,
+            centres=np.tile(np.stack([body["centre"] for body in bodies]), (copies, 1)),
         )
 
 
@@ -310,7 +349,7 @@ def poses_from_states(model: Model, q: NDArray[np.float64]) -> list[Pose]:
     return poses
 
 
-def _sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
+def sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
     """Edges of a part whose faces are not coplanar, shape (edges, 2)."""
     corners = part.vertices[part.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -332,11 +371,10 @@ def _sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
 def _part_pairs(owner: NDArray[np.int32], world: NDArray[np.int32], dof: NDArray[np.int32]) -> NDArray[np.int32]:
     """All pairs of parts of different bodies of one world, not both fixed, shape (pairs, 2)."""
     pairs = []
-    part_world = world[owner]
-    for w in range(int(world.max()) + 1):
-        parts = np.flatnonzero(part_world == w)
-        first, second = np.triu_indices(len(parts), 1)
-        first, second = parts[first], parts[second]
+    bounds = np.searchsorted(world[owner], np.arange(int(world.max()) + 2))
+    for begin, end in pairwise(bounds):
+        first, second = np.triu_indices(end - begin, 1)
+        first, second = first + begin, second + begin
         keep = (owner[first] != owner[second]) & ((dof[owner[first]] >= 0) | (dof[owner[second]] >= 0))
         pairs.append(np.stack([first[keep], second[keep]], axis=1))
     return np.concatenate(pairs).astype(np.int32).reshape(-1, 2)

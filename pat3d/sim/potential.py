@@ -9,18 +9,20 @@ E(q) = inertia and gravity + affine stiffness + attachments + barrier contact + 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.sim.contact.broad_phase import Candidates
-from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.energies.attachment import PointAttachment
 from pat3d.sim.energies.contact import BarrierContact
 from pat3d.sim.energies.friction import Friction
 from pat3d.sim.energies.inertia import Inertia
 from pat3d.sim.energies.orthogonality import Orthogonality
 from pat3d.sim.model import GRAVITY, Model
+from pat3d.sim.program import Mirror, Program
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
@@ -33,7 +35,10 @@ millionth of anything lighter."""
 
 
 class Potential:
-    """Value, gradient and Hessian of the incremental potential of all worlds, and safe steps along it."""
+    """Value, gradient and Hessian of the incremental potential of all worlds, and the pairs that it covers.
+
+    Methods that return nothing only launch kernels and can be part of a `Program`.
+    """
 
     def __init__(self, model: Model):
         self.model = model
@@ -44,6 +49,8 @@ class Potential:
         self.attachment = PointAttachment(model)
         self.contact = BarrierContact(model, self.candidates)
         self.friction = Friction(model)
+        self.everywhere = wp.full(model.worlds, 1, dtype=int, device=device)
+        """Selects all worlds, shape (worlds,), int."""
         self._energy = wp.zeros(model.worlds, dtype=wp.float64, device=device)
         self._gradient = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=device)
         self._hessian = wp.zeros((model.worlds, model.unknowns, model.unknowns), dtype=wp.float64, device=device)
@@ -51,11 +58,14 @@ class Potential:
         self._start = wp.zeros_like(self._position)
         self._end = wp.zeros_like(self._position)
         self._per_world = wp.zeros(model.worlds, dtype=wp.float64, device=device)
-        self._free, self._world = model.is_free, model.world_of
-        mass = model.body_mass.numpy()
-        weight = np.where(self._free, mass * GRAVITY, 1.0)
-        weight = np.maximum(weight, LIGHTEST * model.weight[model.world_of])
-        self._force_scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
+        self._no_inertia = wp.zeros(model.worlds, dtype=wp.float64, device=device)
+        self._counts = Mirror(wp.zeros(2, dtype=int, device=device))
+        self._recorded: Any = None
+        self._record = Program(device, self._launch_record)
+        free, world = model.is_free, model.world_of
+        weight = np.maximum(model.body_mass.numpy() * GRAVITY, LIGHTEST * model.weight[world])
+        scale = np.stack([weight, *[weight * model.body_radius] * 3], axis=1)
+        self._force_scale = wp.array(np.where(free[:, None], scale, np.inf), dtype=wp.float64, device=device)
 
     @property
     def vertex_positions(self) -> wp.array:
@@ -77,83 +87,121 @@ class Potential:
         self.candidates.cover(position, position, self.contact.d_hat, SKIN)
 
     def record_friction(self, q: wp.array) -> None:
-        """Lag the friction's normal forces and directions at state q."""
-        self.cover(q)
-        self.friction.record(self.candidates, self._position, self.contact.d_hat, self.contact.stiffness)
+        """Lag the friction's normal forces and directions at state q; afterwards the candidates cover it."""
+        if q is not self._recorded:
+            self._recorded = q
+            self._record = Program(self.model.device, self._launch_record)
+        while True:
+            self._record.run((self.candidates.capacity, self.friction.capacity))
+            outside, size = self._counts.read()
+            if outside or not self.candidates.built:
+                self.candidates.rebuild(self._position, self._position, self.contact.d_hat, SKIN)
+            elif self.friction.fits(int(size)):
+                return
+
+    def _launch_record(self) -> None:
+        position = self.positions(self._recorded, self._position)
+        self._counts.array.zero_()
+        self.candidates.flag_outside(position, position, self._counts.array)
+        self.friction.launch_record(self.candidates, position, self.contact.reach, self.contact.stiffness)
+        wp.copy(self._counts.array, self.friction.size, dest_offset=1, count=1)
+        self._counts.fetch()
+
+    def evaluate(
+        self, q: wp.array, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array
+    ) -> None:  # fmt: skip
+        """E [J], shape (worlds,), and dE/dq [N, N m], shape (bodies, 4), vec3d; candidates must cover q.
+
+        Args:
+            q: state, shape (bodies, 4), vec3d.
+            position: vertex positions at q [m], shape (vertices,), vec3d.
+            worlds: nonzero for those to evaluate, shape (worlds,), int.
+            energy: overwritten.
+            gradient: overwritten.
+        """
+        energy.zero_()
+        gradient.zero_()
+        self.inertia.add_value(q, worlds, energy, gradient)
+        self.orthogonality.add_value(q, worlds, energy, gradient)
+        self.attachment.add_value(q, worlds, energy, gradient)
+        self.contact.add_value(position, worlds, energy, gradient)
+        self.friction.add_value(q, worlds, energy, gradient)
+
+    def evaluate_everywhere(self, q: wp.array, position: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """`evaluate` in all worlds."""
+        self.evaluate(q, position, self.everywhere, energy, gradient)
+
+    def evaluate_at_rest(self, q: wp.array, position: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """`evaluate` in all worlds without the pull of inertia."""
+        sigma, self.inertia.sigma = self.inertia.sigma, self._no_inertia
+        self.evaluate_everywhere(q, position, energy, gradient)
+        self.inertia.sigma = sigma
+
+    def assemble(
+        self, q: wp.array, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array
+    ) -> None:  # fmt: skip
+        """d2E/dq2, or a positive semidefinite stand-in, shape (worlds, unknowns, unknowns).
+
+        Args:
+            q: state, shape (bodies, 4), vec3d.
+            position: vertex positions at q [m], shape (vertices,), vec3d.
+            exact: nonzero for worlds that get the derivative itself, shape (worlds,), int.
+            worlds: nonzero for those to assemble, shape (worlds,), int.
+            hessian: overwritten.
+        """
+        hessian.zero_()
+        self.inertia.add_hessian(worlds, hessian)
+        self.orthogonality.add_hessian(q, exact, worlds, hessian)
+        self.attachment.add_hessian(worlds, hessian)
+        self.contact.add_hessian(position, exact, worlds, hessian)
+        self.friction.add_hessian(q, worlds, hessian)
+
+    def measure_residual(self, gradient: wp.array, residual: wp.array) -> None:
+        """Largest unbalanced force or moment of any free body over its weight (times its radius), shape (worlds,)."""
+        residual.zero_()
+        wp.launch(
+            _residual, dim=self.model.bodies, device=self.model.device,
+            inputs=[self.model.body_world, self._force_scale, gradient], outputs=[residual],
+        )  # fmt: skip
+
+    def measure_motion(self, start: wp.array, end: wp.array, motion: wp.array) -> None:
+        """Largest distance between two positions [m] of any vertex, shape (worlds,)."""
+        motion.zero_()
+        wp.launch(
+            _motion, dim=len(self.model.vertex_rest), device=self.model.device,
+            inputs=[self.model.vertex_body, self.model.body_world, start, end], outputs=[motion],
+        )  # fmt: skip
 
     def value(self, q: wp.array) -> NDArray[np.float64]:
         """E [J], shape (worlds,); candidates must cover q."""
-        self._energy.zero_()
-        position = self.positions(q, self._position)
-        self.inertia.add_value(q, self._energy)
-        self.orthogonality.add_value(q, self._energy)
-        self.attachment.add_value(q, self._energy)
-        self.contact.add_value(position, self._energy)
-        self.friction.add_value(q, self._energy)
+        self.evaluate_everywhere(q, self.positions(q, self._position), self._energy, self._gradient)
         return self._energy.numpy().copy()
 
     def gradient(self, q: wp.array, inertia: bool = True) -> wp.array:
         """dE/dq [N, N m], shape (bodies, 4), vec3d; without inertia it is the unbalanced force at rest."""
-        self._gradient.zero_()
-        position = self.positions(q, self._position)
-        sigma = self.inertia.sigma
-        if not inertia:
-            self.inertia.sigma = wp.zeros_like(sigma)
-        self.inertia.add_gradient(q, self._gradient)
-        self.inertia.sigma = sigma
-        self.orthogonality.add_gradient(q, self._gradient)
-        self.attachment.add_gradient(q, self._gradient)
-        self.contact.add_gradient(position, self._gradient)
-        self.friction.add_gradient(q, self._gradient)
+        evaluate = self.evaluate_everywhere if inertia else self.evaluate_at_rest
+        evaluate(q, self.positions(q, self._position), self._energy, self._gradient)
         return self._gradient
 
     def hessian(self, q: wp.array, exact: bool) -> wp.array:
         """d2E/dq2 or a positive semidefinite stand-in, shape (worlds, unknowns, unknowns)."""
-        self._hessian.zero_()
-        position = self.positions(q, self._position)
-        self.inertia.add_hessian(self._hessian)
-        self.orthogonality.add_hessian(q, self._hessian, exact)
-        self.attachment.add_hessian(self._hessian)
-        self.contact.add_hessian(position, self._hessian, exact)
-        self.friction.add_hessian(q, self._hessian)
+        how = wp.full(self.model.worlds, int(exact), dtype=int, device=self.model.device)
+        self.assemble(q, self.positions(q, self._position), how, self.everywhere, self._hessian)
         return self._hessian
 
     def residual(self, gradient: wp.array) -> NDArray[np.float64]:
-        """Largest unbalanced force or moment of any free body over its weight (times its radius), shape (worlds,)."""
-        size = np.linalg.norm(gradient.numpy().reshape(-1, 4, 3), axis=2) / self._force_scale
-        result = np.zeros(self.model.worlds)
-        np.maximum.at(result, self._world[self._free], size[self._free].max(axis=1))
-        return result
+        """`measure_residual` on the host, shape (worlds,)."""
+        self.measure_residual(gradient, self._per_world)
+        return self._per_world.numpy().copy()
 
     def per_world(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of values of bodies, shape (bodies,), over every world, shape (worlds,)."""
-        return np.bincount(self._world, weights=values, minlength=self.model.worlds).astype(np.float64)
+        return np.bincount(self.model.world_of, weights=values, minlength=self.model.worlds).astype(np.float64)
 
     def motion(self, q: wp.array, q_end: wp.array) -> NDArray[np.float64]:
         """Largest distance of any vertex between two states [m], shape (worlds,)."""
-        model = self.model
-        start = self.positions(q, self._start)
-        end = self.positions(q_end, self._end)
-        self._per_world.zero_()
-        wp.launch(
-            _motion, dim=len(model.vertex_rest), device=model.device,
-            inputs=[model.vertex_body, model.body_world, start, end], outputs=[self._per_world],
-        )  # fmt: skip
+        self.measure_motion(self.positions(q, self._start), self.positions(q_end, self._end), self._per_world)
         return self._per_world.numpy().copy()
-
-    def safe_fraction(self, q: wp.array, q_end: wp.array) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """How far every world can go from q to q_end without touching, and its largest vertex motion.
-
-        Afterwards the candidates cover the whole motion.
-
-        Returns:
-            Fraction in [0, 1], shape (worlds,), and motion [m], shape (worlds,).
-        """
-        motion = self.motion(q, q_end)
-        self.candidates.cover(self._start, self._end, self.contact.d_hat, SKIN)
-        self._per_world.fill_(1.0)
-        safe_step(self.model, self.candidates, self._start, self._end, self._per_world)
-        return self._per_world.numpy().copy(), motion
 
 
 @wp.kernel
@@ -185,3 +233,18 @@ def _motion(
 ):
     v = wp.tid()
     wp.atomic_max(motion, body_world[vertex_body[v]], wp.length(end[v] - start[v]))
+
+
+@wp.kernel
+def _residual(
+    # Model
+    body_world: wp.array(dtype=int),
+    force_scale: wp.array2d(dtype=wp.float64),
+    # State in
+    gradient: wp.array2d(dtype=wp.vec3d),
+    # Out
+    residual: wp.array(dtype=wp.float64),
+):
+    body = wp.tid()
+    for i in range(4):
+        wp.atomic_max(residual, body_world[body], wp.length(gradient[body, i]) / force_scale[body, i])

@@ -7,10 +7,21 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box, cylinder, vessel
-from pat3d.check.certificate import FRICTION_STEP, TOLERANCE, certify, smallest_friction
+from pat3d.check.certificate import (
+    FRICTION_STEP,
+    MAX_TILT,
+    TILT_STEP,
+    TOLERANCE,
+    certify,
+    smallest_friction,
+    steadiness,
+)
 from pat3d.errors import CheckError
 from pat3d.scene import Attachment, Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
+
+SLACK = math.degrees(TOLERANCE) + 0.01
+"""A thousandth of the weight may be unbalanced [degrees]."""
 
 
 def _on_slope(degrees: float):
@@ -45,6 +56,28 @@ def test_the_residual_below_the_slope_is_the_force_that_is_missing():
 def test_a_tower_needs_no_friction():
     assert smallest_friction(tower(8)) == 0.0
     assert certify(tower(8), friction=0.0).worst < 1e-6
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_tower_endures_a_tilt_until_its_weight_leaves_its_base(count):
+    """A tower of height H on a base of width w tips at atan(w / H)."""
+    width, height = 0.02, 0.24 / count
+    scene = tower(count, (width, width, height))
+    expected = math.degrees(math.atan(width / (count * height)))
+    assert expected - TILT_STEP - SLACK <= steadiness(scene) <= expected + SLACK
+
+
+@pytest.mark.parametrize("friction", [0.03, 0.1])
+def test_a_flat_block_endures_a_tilt_until_it_slides(friction):
+    scene = scene_of(placed("slab", asset_of(box(0.2, 0.2, 0.01)), (0, 0, GAP)))
+    expected = math.degrees(math.atan(friction))
+    assert expected - TILT_STEP - SLACK <= steadiness(scene, friction) <= expected + SLACK
+    assert steadiness(scene, 1.0) == MAX_TILT
+
+
+def test_what_is_not_balanced_on_level_ground_has_no_steadiness():
+    scene = scene_of(placed("block", asset_of(box(0.1, 0.1, 0.1)), (0, 0, 0.05)))
+    assert steadiness(scene) < 0.0
 
 
 @pytest.mark.parametrize(("factor", "stands"), [(0.99, True), (1.02, False)])

@@ -7,33 +7,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pat3d.assets.catalogue import make
-from pat3d.assets.shapes import box, cylinder, ellipsoid, join, vessel
+from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
 from pat3d.exporters.mjcf import body_names, write_mjcf
-from pat3d.scene import Attachment, Pose
+from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
-
-
-def _lopsided():
-    """A pencil-like asset of 2 g whose principal axes are none of the frame's."""
-    pencil = join(cylinder(0.0035, 0.17), box(0.02, 0.004, 0.01)).turned("y", 70).turned("z", 20).moved(z=0.05)
-    return asset_of(pencil)
 
 
 @pytest.fixture
 def scene():
-    rng = np.random.default_rng(1)
-    quat = tuple(Rotation.random(random_state=rng).as_quat(scalar_first=True))
-    mug = asset_of(vessel([(0.03, 0), (0.04, 0.09)], [(0.026, 0.006), (0.036, 0.09)]))
-    return scene_of(
-        placed("wooden table", asset_of(box(0.8, 0.5, 0.04)), (0, 0, GAP), fixed=True),
-        placed("red mug 1", mug, (0.1, 0, 0.04 + 2 * GAP)),
-        placed("red mug 2", mug, (-0.1, 0.1, 0.04 + 2 * GAP)),
-        placed("pencil & <co>", _lopsided(), pose=Pose(position=(0.3, 0.2, 0.4), quat_wxyz=quat)),  # type: ignore[arg-type]
-        placed("ball", make("ball"), (0, -0.2, 0.3)),
-    )
+    return mixed_scene()
 
 
 @pytest.fixture
@@ -202,19 +186,8 @@ def test_a_mesh_written_again_within_the_second_is_not_taken_for_the_old_one(tmp
     assert counts == [16, 24]
 
 
-def _hung_bar(**settings):
-    """A bar 1 m up, hung by two points from a beam that stands on nothing because it is fixed."""
-    anchors = tuple(((x, 0.0, 0.04), (x, 0.0, -0.002)) for x in (-0.1, 0.1))
-    return scene_of(
-        placed("the beam", asset_of(box(0.5, 0.1, 0.1)), (0, 0, 1), fixed=True),
-        placed("a bar", asset_of(box(0.3, 0.04, 0.04)), (0, 0, 0.958)),
-        attachments=(Attachment(child="a bar", parent="the beam", anchors=anchors),),
-        **settings,
-    )
-
-
 def test_attachments_are_connect_constraints_that_hold_still(tmp_path):
-    path = write_mjcf(_hung_bar(), tmp_path / "mjcf")
+    path = write_mjcf(hung_bar(), tmp_path / "mjcf")
     model = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -229,7 +202,7 @@ def test_attachments_are_connect_constraints_that_hold_still(tmp_path):
 
 def test_a_hung_bar_swings_about_the_line_of_its_anchors(tmp_path):
     """Small oscillations of a bar hung at its upper edge: period 2 pi sqrt(I / (m g l)) of the physical pendulum."""
-    scene = _hung_bar()
+    scene = hung_bar()
     model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "mjcf")))
     data = mujoco.MjData(model)
     data.qvel[3] = 0.1
@@ -248,7 +221,35 @@ def test_a_hung_bar_swings_about_the_line_of_its_anchors(tmp_path):
 
 
 def test_attachments_of_fixed_objects_are_left_out(tmp_path):
-    scene = _hung_bar()
+    scene = hung_bar()
     fixed = tuple(replace(obj, fixed=True) for obj in scene.objects)
     path = write_mjcf(replace(scene, objects=fixed), tmp_path / "mjcf")
     assert mujoco.MjModel.from_xml_path(str(path)).neq == 0
+
+
+def test_every_object_loads_alone_and_attaches_with_its_mass_and_parts(scene, tmp_path):
+    folder = write_mjcf(scene, tmp_path / "mjcf").parent
+    said: list[str] = []
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(said.append)
+    try:
+        files = sorted((folder / "objects").iterdir())
+        assert [file.stem for file in files] == ["ball", "pencil_co", "red_mug_1", "wooden_table"]
+        models = [f'<model name="{file.stem}" file="{file}"/>' for file in files]
+        frames = [f'<frame pos="{k} 0 0"><attach model="{file.stem}" prefix="my_"/></frame>'
+                  for k, file in enumerate(files)]  # fmt: skip
+        world = "".join(frames)
+        alone = [mujoco.MjModel.from_xml_path(str(file)) for file in files]
+        together = mujoco.MjModel.from_xml_string(
+            f"<mujoco><asset>{''.join(models)}</asset><worldbody>{world}</worldbody></mujoco>"
+        )
+    finally:
+        mujoco.set_mju_user_warning(before)
+    assert said == []
+    names = body_names(scene)
+    for file, model in zip(files, alone, strict=True):
+        asset = next(obj.asset for obj in scene.objects if names[obj.name] == file.stem)
+        assert model.nv == 6
+        for body in (model.body(file.stem), together.body(f"my_{file.stem}")):
+            assert body.mass[0] == pytest.approx(asset.mass_properties.mass, rel=1e-12)
+            assert body.geomnum[0] == len(asset.parts) + 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ from pat3d.check.settle import SettleReport, settle_in_mujoco
 from pat3d.exporters.mjcf import write_mjcf
 from pat3d.layout.bodies import place
 from pat3d.layout.drop import fall
-from pat3d.optimize.optimize import Trial
+from pat3d.layout.layout import arrange
+from pat3d.optimize.placement import Placement
 from pat3d.plan.grammar import GrammarPlanner
 from pat3d.scene import Pose, Relation, Scene, SceneObject
 
@@ -50,11 +52,25 @@ def askew(assets: dict[str, Asset], share: float = 0.4, gap: float = 0.003) -> d
     return {body.body.name: body.pose for body in placed}
 
 
+def sofa_with_a_bear_over_the_edge() -> tuple[dict[str, Asset], tuple[Relation, ...], dict[str, Pose]]:
+    """The crowded sofa, laid out with one of the two large bears half a metre too far to the front."""
+    assets, relations = ingredients(SOFA)
+    placement = Placement(assets, relations, arrange(assets, relations, seed=0).poses)
+    variables = np.zeros((len(assets), 3))
+    variables[list(assets).index("large teddy bear 2"), 1] = -0.5
+    return assets, relations, placement.project(variables)
+
+
 def in_mujoco(
-    assets: dict[str, Asset], relations: tuple[Relation, ...], trial: Trial, folder: Path, seconds: float = 3.0
+    assets: Mapping[str, Asset],
+    relations: tuple[Relation, ...],
+    poses: Mapping[str, Pose],
+    folder: Path,
+    seconds: float = 5.0,
 ) -> SettleReport:
+    """How MuJoCo moves the objects from `poses`."""
     objects = tuple(
-        SceneObject(name=name, asset=asset, pose=trial.poses[name], initial_pose=trial.poses0[name])
+        SceneObject(name=name, asset=asset, pose=poses[name], initial_pose=poses[name])
         for name, asset in assets.items()
     )
     return settle_in_mujoco(write_mjcf(Scene(objects=objects, relations=relations), folder), seconds)

@@ -5,8 +5,11 @@ import json
 import numpy as np
 import pytest
 import torch
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from PIL import Image
 
+from pat3d.assets import shapes
 from pat3d.errors import LayoutError, SpecError
 from pat3d.layout.layout import arrange
 from pat3d.optimize.loss import states
@@ -14,24 +17,15 @@ from pat3d.optimize.optimize import Optimized, OptimizeOptions, optimize
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
+from pat3d.optimize.steady import deepest
 from pat3d.scene import Pose, Relation
-from tests.layout.things import ball, block, gap_by_manifold, pen, table, vessel
-from tests.optimize.published import HATS, SOFA, askew, in_mujoco, ingredients
+from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
+from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
+from tests.optimize.scenes import on, overhanging
 from tests.optimize.stacks import stack
 
 GRADIENTS_ONLY = OptimizeOptions(starts=1, refined=1)
 GLOBAL_ONLY = OptimizeOptions(starts=2, epochs=0)
-
-
-def on(child: str, parent: str, kind: str = "on") -> Relation:
-    return Relation(child=child, kind=kind, parent=parent)  # type: ignore[arg-type]
-
-
-def overhanging() -> tuple[dict, tuple[Relation, ...], dict[str, Pose]]:
-    """A plank on a block, its middle 15 mm beyond the edge."""
-    assets = {"block": block(0.08, 0.08, 0.06), "plank": block(0.1, 0.06, 0.02)}
-    poses = {"block": Pose(position=(0, 0, 0.002)), "plank": Pose(position=(0.055, 0, 0.065))}
-    return assets, (on("plank", "block"),), poses
 
 
 def bowl_on_table() -> tuple[dict, tuple[Relation, ...], dict[str, Pose]]:
@@ -66,7 +60,7 @@ def test_the_record_of_an_optimisation_is_plain_data(rescued):
 
 def test_the_plank_that_was_moved_stays_in_mujoco(rescued, tmp_path):
     assets, relations, _ = overhanging()
-    assert in_mujoco(assets, relations, rescued.best, tmp_path / "after", 1.0).worst_mm < 0.5
+    assert in_mujoco(assets, relations, rescued.poses, tmp_path / "after", 1.0).worst_mm < 0.5
 
 
 def test_the_loss_curve_is_a_picture_with_a_falling_line(rescued, tmp_path):
@@ -179,18 +173,103 @@ def test_options_and_poses_are_checked():
         optimize(assets, relations, {"block": poses["block"]})
 
 
+@given(angle=st.floats(0.0, 6.3), x=st.floats(-0.4, 0.4), y=st.floats(-0.2, 0.2))
+@settings(max_examples=50, deadline=None)
+def test_the_deepest_point_of_a_rectangle_is_half_its_shorter_side_inside(angle, x, y):
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    corners = np.array([[-0.5, -0.25], [0.5, -0.25], [0.5, 0.25], [-0.5, 0.25], [0.1, 0.2]]) @ turn.T
+    middle, depth = deepest(corners, turn @ np.array([x, y]))
+    assert deepest(corners, middle)[1] == pytest.approx(0.25, abs=1e-6)
+    assert depth == pytest.approx(min(0.5 - abs(x), 0.25 - abs(y)), abs=1e-9)
+
+
+def test_a_load_on_the_edge_is_moved_over_the_middle_of_its_support():
+    """A plank whose middle is 0.2 mm inside the edge of its block endures about a degree."""
+    assets, relations, poses = overhanging()
+    poses["plank"] = Pose(position=(0.0398, 0, 0.065))
+    found = optimize(assets, relations, poses, options=OptimizeOptions(steady=True, starts=1, epochs=0))
+    assert not found.skipped
+    assert found.best.source == "recentred"
+    assert found.poses0["plank"].position[:2] == pytest.approx((0.0, 0.0), abs=0.025)
+    assert found.first.steadiness is not None
+    assert found.best.steadiness is not None
+    assert found.first.steadiness < 2.0 < found.best.steadiness
+
+
+def test_pinned_objects_settle_but_always_start_where_they_are():
+    assets, relations, poses = overhanging()
+    found = optimize(assets, relations, poses, options=GLOBAL_ONLY, pinned={"block"})
+    assert found.satisfied
+    assert found.poses0["block"] == poses["block"]
+    assert found.poses["block"].position[2] < poses["block"].position[2]
+    stuck = optimize(assets, relations, poses, options=GLOBAL_ONLY, pinned={"block", "plank"})
+    assert not stuck.satisfied
+    assert not stuck.improved
+
+
+def lamp_on_a_gallows() -> tuple[dict, tuple[Relation, ...]]:
+    """A weight that hangs from the arm of a post on a table."""
+    post = shapes.join(
+        shapes.box(0.2, 0.2, 0.1), shapes.box(0.04, 0.04, 0.5), shapes.box(0.3, 0.04, 0.04).moved(x=0.13, z=0.46),
+    )  # fmt: skip
+    assets = {"table": table(), "gallows": asset("gallows", post), "weight": block(0.05, 0.05, 0.05), "cup": block()}
+    return assets, (
+        on("gallows", "table"), on("weight", "gallows", "hangs_from"), on("cup", "table"),
+        on("cup", "gallows", "left_of"),
+    )  # fmt: skip
+
+
+def apart(found, poses) -> float:
+    """Largest distance between the ends of any anchor [m]."""
+    ends = (one.ends(poses[one.child], poses[one.parent]) for one in found)
+    return max(float(np.linalg.norm(first - second, axis=1).max()) for first, second in ends)
+
+
+def test_what_hangs_moves_with_what_it_hangs_from():
+    assets, relations = lamp_on_a_gallows()
+    layout = arrange(assets, relations, seed=0)
+    assert len(layout.attachments) == 1
+    placement = Placement(assets, relations, layout.poses, attachments=layout.attachments)
+    variables = np.zeros((4, 3))
+    variables[1] = [0.1, -0.05, 0.1]
+    moved = placement.project(variables)
+    before, after = layout.poses["weight"].position, moved["weight"].position
+    assert np.linalg.norm(np.subtract(before, after)) > 0.05
+    rest = apart(layout.attachments, layout.poses)
+    assert apart(layout.attachments, moved) == pytest.approx(rest, abs=1e-9)
+    for start in make_starts(placement, relations, count=6, seed=0, relayout=True):
+        assert apart(start.attachments, start.poses) == pytest.approx(rest, abs=0.03)
+        assert start.attachments[0].child == "weight"
+
+
+def test_a_scene_with_something_hanging_is_optimised_with_its_attachment():
+    """The post stands half on a box and falls; another layout keeps it up, with the weight still on its arm."""
+    assets, relations = lamp_on_a_gallows()
+    del assets["cup"], assets["table"]
+    relations = (on("gallows", "box"), relations[1])
+    assets = {"box": block(0.3, 0.3, 0.1), **assets}
+    layout = arrange(assets, relations, seed=0)
+    placement = Placement(assets, relations, layout.poses, attachments=layout.attachments)
+    over_the_edge = placement.project(np.array([[0, 0, 0], [0.2, 0, 0], [0, 0, 0]]))
+    found = optimize(assets, relations, over_the_edge, options=GLOBAL_ONLY, attachments=layout.attachments)
+    assert found.first.broken
+    assert found.satisfied
+    assert apart(found.best.attachments, found.poses) < 1e-4
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("options", [GRADIENTS_ONLY, OptimizeOptions()], ids=["gradients", "all"])
 def test_a_stack_of_six_irregular_blocks_stands_after_optimisation_and_collapses_without(seed, options, tmp_path):
+    """The published failure: weights that are not in the middle, one on another; MuJoCo judges both layouts."""
     assets, relations, poses = stack(seed, 6)
     found = optimize(assets, relations, poses, options=options)
     assert len(found.first.broken) >= 2
+    assert in_mujoco(assets, relations, poses, tmp_path / "before").worst_mm > 20.0
     assert found.satisfied
-    if options is not GRADIENTS_ONLY:
-        # Gradients alone stop at the first layout that stands, which may be a hair from falling (seed 4 falls in
-        # MuJoCo); among several starts, the one that needs least friction is chosen.
-        assert in_mujoco(assets, relations, found.best, tmp_path).worst_mm < 1.0
+    assert found.best.steadiness is not None
+    assert found.best.steadiness >= 2.0
+    assert in_mujoco(assets, relations, found.poses, tmp_path / "after").worst_mm < 1.0
 
 
 @pytest.mark.slow
@@ -204,19 +283,16 @@ def test_five_hats_stay_on_the_dogs_head(tmp_path):
     assert len(rescued.first.broken) == 5
     assert rescued.satisfied
     for k, found in enumerate((good, rescued)):
-        assert in_mujoco(assets, relations, found.best, tmp_path / str(k)).worst_mm < 0.5
+        assert in_mujoco(assets, relations, found.poses, tmp_path / str(k)).worst_mm < 0.5
 
 
 @pytest.mark.slow
 def test_two_large_bears_and_everything_else_stay_on_the_sofa(tmp_path):
     """From a layout with a bear beyond the front edge of the sofa, from which it falls onto the floor."""
-    assets, relations = ingredients(SOFA)
-    poses = arrange(assets, relations, seed=0).poses
-    placement = Placement(assets, relations, poses)
-    variables = np.zeros((len(assets), 3))
-    variables[list(assets).index("large teddy bear 2"), 1] = -0.5
-    shifted = placement.project(variables)
+    assets, relations, shifted = sofa_with_a_bear_over_the_edge()
     found = optimize(assets, relations, shifted, options=OptimizeOptions(starts=4))
-    assert not found.first.satisfied
+    assert any(result.relation.child == "large teddy bear 2" for result in found.first.broken)
     assert found.satisfied
-    assert in_mujoco(assets, relations, found.best, tmp_path).worst_mm < 0.5
+    toys = [rel.child for rel in relations if rel.parent == "brown leather sofa" and rel.supports]
+    assert len(toys) == 7
+    assert in_mujoco(assets, relations, found.poses, tmp_path).worst_mm < 0.5

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.sim.model import Model
-from pat3d.sim.settle import Settled
+from pat3d.sim.settling import Settled
 
 
 class IntersectionOracle:

@@ -7,8 +7,8 @@ import torch
 from pat3d.errors import SimulationError
 from pat3d.scene import Pose
 from pat3d.sim.model import ATTACHMENT_STRETCH, Model, ModelBuilder, poses_from_states
-from pat3d.sim.rollout import rollout
-from pat3d.sim.settle import SettleOptions, settle
+from pat3d.sim.rollouts import rollout
+from pat3d.sim.settling import SettleOptions, settle
 from tests.sim.builders import add_hull, box_points, random_hull
 
 HOOK = np.array([0.0, 0.0, 1.0])

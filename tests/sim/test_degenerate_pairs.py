@@ -36,7 +36,8 @@ def energies(kind: str, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     candidates = SimpleNamespace(
         kind=array(np.full(n, int(POINT_TRIANGLE if kind == "pt" else EDGE_EDGE), dtype=np.int32)),
         primitives=array(np.arange(4 * n, dtype=np.int32).reshape(-1, 4), wp.vec4i),
-        count=n,
+        size=array([n]),
+        capacity=n,
     )
     contact = BarrierContact(model, candidates)  # pyright: ignore[reportArgumentType]
     contact.d_hat = D_HAT
@@ -46,9 +47,9 @@ def energies(kind: str, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     value = wp.zeros(n, dtype=wp.float64, device="cpu")
     gradient = wp.zeros((2 * n, 4), dtype=wp.vec3d, device="cpu")
     hessian = wp.zeros((n, 24, 24), dtype=wp.float64, device="cpu")
-    contact.add_value(position, value)
-    contact.add_gradient(position, gradient)
-    contact.add_hessian(position, hessian, exact=True)
+    everywhere = wp.full(n, 1, dtype=int, device="cpu")
+    contact.add_value(position, everywhere, value, gradient)
+    contact.add_hessian(position, everywhere, everywhere, hessian)
     return value.numpy(), gradient.numpy().reshape(n, 24), hessian.numpy()
 
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from pat3d.sim.settle import SettleOptions, settle
+from pat3d.sim.settling import SettleOptions, settle
 from tests.sim.drops import KINDS, random_scene
 from tests.sim.oracles import intersections
 

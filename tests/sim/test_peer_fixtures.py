@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import warp as wp
 
+from pat3d.sim.contact.broad_phase import Candidates
+from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.potential import Potential
-from pat3d.sim.settle import Settled, SettleOptions, barrier_stiffness, settle
+from pat3d.sim.settling import Settled, SettleOptions, barrier_stiffness, settle
 from pat3d.sim.solvers.newton import Newton
 from tests.sim.fixtures import VARIABLE, Fixture, fixture_folder, fixture_names, read_fixture
 from tests.sim.oracles import IntersectionOracle, intersections
@@ -79,11 +81,12 @@ def test_fast_bodies_do_not_tunnel(name):
 def test_a_cube_flung_at_a_wall_stays_on_its_side():
     fixture = read_fixture("unit-tests/tunneling")
     model = fixture.model()
-    potential = Potential(model)
-    target = wp.array(fixture.launched(model, 0.03), dtype=wp.vec3d, device="cpu")
-    fraction, _ = potential.safe_fraction(wp.array(model.q0, dtype=wp.vec3d, device="cpu"), target)
-    oracle = IntersectionOracle(model)
-    x = oracle.positions(model.q0 + fraction[0] * (target.numpy().reshape(-1, 4, 3) - model.q0))
+    oracle, target = IntersectionOracle(model), fixture.launched(model, 0.03)
+    start, end = (wp.array(oracle.positions(q), dtype=wp.vec3d, device="cpu") for q in (model.q0, target))
+    candidates, fraction = Candidates(model), wp.full(1, 1.0, dtype=wp.float64, device="cpu")
+    candidates.cover(start, end, 1e-3, 1e-4)
+    safe_step(model, candidates, start, end, fraction)
+    x = oracle.positions(model.q0 + fraction.numpy()[0] * (target - model.q0))
     wall, cube = (x[oracle.body == b][:, 0] for b in (0, 1))
     # Conservative advancement stops where a tenth of the distance at the start, 0.42 m, is left.
     assert cube.max() < wall.min()

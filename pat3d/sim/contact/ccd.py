@@ -11,7 +11,9 @@ Codimensional IPC, section 5.4). Motions are straight because bodies move affine
 
 from __future__ import annotations
 
+import numpy as np
 import warp as wp
+from numpy.typing import NDArray
 
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.distance import POINT_GROUND, POINT_TRIANGLE, closest_on_edges, closest_on_triangle
@@ -34,13 +36,32 @@ def safe_step(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
         candidates: pairs that cover the motion.
         start: vertex positions [m], shape (vertices,), vec3d, without intersection.
         end: vertex positions [m] at step 1, shape (vertices,), vec3d.
-        step: fraction of the motion, lowered in place, shape (worlds,), float64.
+        step: fraction of the motion, lowered in place, shape (worlds,), float64; worlds at 0 are left out.
     """
     wp.launch(
-        _advance, dim=candidates.count, device=model.device,
-        inputs=[candidates.kind, candidates.primitives, model.vertex_body, model.body_world, start, end],
+        _advance, dim=candidates.capacity, device=model.device,
+        inputs=[
+            candidates.size, candidates.kind, candidates.primitives, model.vertex_body, model.body_world, start, end,
+        ],
         outputs=[step],
     )  # fmt: skip
+
+
+def fractions(model: Model, candidates: Candidates, start: wp.array, end: wp.array) -> NDArray[np.float64]:
+    """Fraction of the motion that every pair of `candidates` allows, shape (candidates.count,).
+
+    Args:
+        model: the worlds.
+        candidates: pairs.
+        start: vertex positions [m], shape (vertices,), vec3d.
+        end: vertex positions [m] at step 1, shape (vertices,), vec3d.
+    """
+    found = wp.zeros(candidates.count, dtype=wp.float64, device=model.device)
+    wp.launch(
+        _fractions, dim=candidates.count, device=model.device,
+        inputs=[candidates.kind, candidates.primitives, start, end], outputs=[found],
+    )  # fmt: skip
+    return found.numpy()
 
 
 @wp.func
@@ -52,33 +73,23 @@ def _distance(kind: int, a: wp.vec3d, b: wp.vec3d, c: wp.vec3d, d: wp.vec3d) -> 
     return wp.length(a + s * (b - a) - (c + t * (d - c)))
 
 
-@wp.kernel
-def _advance(
-    # Pairs
-    kinds: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
-    # Model
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
+@wp.func
+def _allowed(
+    kind: int,
+    index: wp.vec4i,
     start: wp.array(dtype=wp.vec3d),
     end: wp.array(dtype=wp.vec3d),
-    # Out
-    step: wp.array(dtype=wp.float64),
-):
-    pair = wp.tid()
-    kind = kinds[pair]
-    index = primitives[pair]
+    limit: wp.float64,
+) -> wp.float64:
+    """Fraction of the motion that a pair allows; `limit` or more where it allows that."""
     i = index[0]
-    world = body_world[vertex_body[i]]
     one = wp.float64(1.0)
-    limit = step[world]
     if kind == POINT_GROUND:
         height = start[i][2]
         fall = height - end[i][2]
         if fall * limit > (one - REMAINING) * height:
-            wp.atomic_min(step, world, (one - REMAINING) * height / fall)
-        return
+            return (one - REMAINING) * height / fall
+        return limit
     a = start[i]
     b = start[index[1]]
     c = start[index[2]]
@@ -101,15 +112,57 @@ def _advance(
     distance = _distance(kind, a, b, c, d)
     keep = REMAINING * distance
     if approach * limit <= distance - keep:
-        return
+        return limit
     time = wp.float64(0.0)
     for _ in range(ITERATIONS):
         advance = (distance - keep) / approach
         if time + advance >= limit:
-            return
+            return limit
         time += advance
         distance = _distance(kind, a + time * da, b + time * db, c + time * dc, d + time * dd)
         # Within ten per cent of the kept distance more advances gain nothing.
         if distance <= wp.float64(1.1) * keep:
             break
-    wp.atomic_min(step, world, time)
+    return time
+
+
+@wp.kernel
+def _advance(
+    # Pairs
+    size: wp.array(dtype=int),
+    kinds: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    # Model
+    vertex_body: wp.array(dtype=int),
+    body_world: wp.array(dtype=int),
+    # State in
+    start: wp.array(dtype=wp.vec3d),
+    end: wp.array(dtype=wp.vec3d),
+    # Out
+    step: wp.array(dtype=wp.float64),
+):
+    pair = wp.tid()
+    if pair >= size[0]:
+        return
+    world = body_world[vertex_body[primitives[pair][0]]]
+    limit = step[world]
+    if limit == wp.float64(0.0):
+        return
+    allowed = _allowed(kinds[pair], primitives[pair], start, end, limit)
+    if allowed != limit:
+        wp.atomic_min(step, world, allowed)
+
+
+@wp.kernel
+def _fractions(
+    # Pairs
+    kinds: wp.array(dtype=int),
+    primitives: wp.array(dtype=wp.vec4i),
+    # State in
+    start: wp.array(dtype=wp.vec3d),
+    end: wp.array(dtype=wp.vec3d),
+    # Out
+    fraction: wp.array(dtype=wp.float64),
+):
+    pair = wp.tid()
+    fraction[pair] = _allowed(kinds[pair], primitives[pair], start, end, wp.float64(1.0))

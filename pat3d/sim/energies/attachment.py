@@ -26,31 +26,24 @@ class PointAttachment:
     def __init__(self, model: Model):
         self.model = model
 
-    def _inputs(self) -> list:
+    def _inputs(self, worlds: wp.array) -> list:
         model = self.model
-        return [model.anchor_bodies, model.anchor_rest, model.anchor_stiffness]
+        return [
+            model.body_world, model.body_dof, worlds, model.anchor_bodies, model.anchor_rest, model.anchor_stiffness,
+        ]  # fmt: skip
 
-    def add_value(self, q: wp.array, energy: wp.array) -> None:
-        """Add P [J] of every world to `energy`, shape (worlds,)."""
-        model = self.model
+    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """Add P [J] to `energy`, shape (worlds,), and dP/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=len(model.anchor_bodies), device=model.device,
-            inputs=[model.body_world, *self._inputs(), q, energy],
+            _value, dim=len(self.model.anchor_bodies), device=self.model.device,
+            inputs=[*self._inputs(worlds), q], outputs=[energy, gradient],
         )  # fmt: skip
 
-    def add_gradient(self, q: wp.array, gradient: wp.array) -> None:
-        """Add dP/dq to `gradient`, shape (bodies, 4), vec3d."""
-        model = self.model
-        wp.launch(
-            _gradient, dim=len(model.anchor_bodies), device=model.device, inputs=[*self._inputs(), q, gradient]
-        )  # fmt: skip
-
-    def add_hessian(self, hessian: wp.array) -> None:
+    def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2P/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
-        model = self.model
         wp.launch(
-            _hessian, dim=len(model.anchor_bodies), device=model.device,
-            inputs=[model.body_world, model.body_dof, *self._inputs(), hessian],
+            _hessian, dim=len(self.model.anchor_bodies), device=self.model.device,
+            inputs=self._inputs(worlds), outputs=[hessian],
         )  # fmt: skip
 
 
@@ -81,6 +74,8 @@ def _offset(
 def _value(
     # Model
     body_world: wp.array(dtype=int),
+    body_dof: wp.array(dtype=int),
+    worlds: wp.array(dtype=int),
     anchor_bodies: wp.array(dtype=wp.vec2i),
     anchor_rest: wp.array2d(dtype=wp.vec3d),
     stiffness: wp.array(dtype=wp.float64),
@@ -88,31 +83,20 @@ def _value(
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
-):
-    i = wp.tid()
-    offset = _offset(anchor_bodies[i], anchor_rest[i, 0], anchor_rest[i, 1], q)
-    wp.atomic_add(energy, body_world[anchor_bodies[i][0]], wp.float64(0.5) * stiffness[i] * wp.dot(offset, offset))
-
-
-@wp.kernel
-def _gradient(
-    # Model
-    anchor_bodies: wp.array(dtype=wp.vec2i),
-    anchor_rest: wp.array2d(dtype=wp.vec3d),
-    stiffness: wp.array(dtype=wp.float64),
-    # State in
-    q: wp.array2d(dtype=wp.vec3d),
-    # Out
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     i = wp.tid()
     bodies = anchor_bodies[i]
+    world = body_world[bodies[0]]
+    if worlds[world] == 0:
+        return
     rest_a = anchor_rest[i, 0]
     rest_b = anchor_rest[i, 1]
-    force = stiffness[i] * _offset(bodies, rest_a, rest_b, q)
+    offset = _offset(bodies, rest_a, rest_b, q)
+    wp.atomic_add(energy, world, wp.float64(0.5) * stiffness[i] * wp.dot(offset, offset))
     for k in range(4):
-        wp.atomic_add(gradient, bodies[0], k, _coefficient(k, rest_a, rest_b) * force)
-        wp.atomic_add(gradient, bodies[1], k, _coefficient(4 + k, rest_a, rest_b) * force)
+        wp.atomic_add(gradient, bodies[0], k, _coefficient(k, rest_a, rest_b) * stiffness[i] * offset)
+        wp.atomic_add(gradient, bodies[1], k, _coefficient(4 + k, rest_a, rest_b) * stiffness[i] * offset)
 
 
 @wp.kernel
@@ -120,6 +104,7 @@ def _hessian(
     # Model
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
+    worlds: wp.array(dtype=int),
     anchor_bodies: wp.array(dtype=wp.vec2i),
     anchor_rest: wp.array2d(dtype=wp.vec3d),
     stiffness: wp.array(dtype=wp.float64),
@@ -129,6 +114,8 @@ def _hessian(
     a = wp.tid()
     bodies = anchor_bodies[a]
     world = body_world[bodies[0]]
+    if worlds[world] == 0:
+        return
     base_a = first_unknown(bodies[0], body_dof)
     base_b = first_unknown(bodies[1], body_dof)
     rest_a = anchor_rest[a, 0]

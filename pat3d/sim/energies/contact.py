@@ -27,36 +27,46 @@ class BarrierContact:
     def __init__(self, model: Model, candidates: Candidates):
         self.model = model
         self.candidates = candidates
-        self.d_hat = 1.0e-3
-        """Activation distance [m]."""
         self.stiffness = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
         """kappa [N], shape (worlds,)."""
+        self.reach = wp.zeros(1, dtype=wp.float64, device=model.device)
+        """d_hat on the device [m], shape (1,)."""
+        self._d_hat = 0.0
+        self.d_hat = 1.0e-3
 
-    def _inputs(self, position: wp.array) -> list:
+    @property
+    def d_hat(self) -> float:
+        """Activation distance [m]."""
+        return self._d_hat
+
+    @d_hat.setter
+    def d_hat(self, value: float) -> None:
+        if value == self._d_hat:
+            return
+        self._d_hat = value
+        self.reach.fill_(value)
+
+    def _inputs(self, position: wp.array, worlds: wp.array) -> list:
         model, candidates = self.model, self.candidates
         return [
-            model.body_world, model.body_dof, model.vertex_rest, model.vertex_body, self.stiffness, self.d_hat,
-            candidates.kind, candidates.primitives, position,
+            model.body_world, model.body_dof, model.vertex_rest, model.vertex_body, self.stiffness, self.reach,
+            worlds, candidates.size, candidates.kind, candidates.primitives, position,
         ]  # fmt: skip
 
-    def add_value(self, position: wp.array, energy: wp.array) -> None:
-        """Add B [J] of every world at vertex positions [m] to `energy`, shape (worlds,)."""
+    def add_value(self, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """Add B [J] to `energy`, shape (worlds,), and dB/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=self.candidates.count, device=self.model.device, inputs=[*self._inputs(position), energy]
+            _value, dim=self.candidates.capacity, device=self.model.device,
+            inputs=self._inputs(position, worlds), outputs=[energy, gradient],
         )  # fmt: skip
 
-    def add_gradient(self, position: wp.array, gradient: wp.array) -> None:
-        """Add dB/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _gradient, dim=self.candidates.count, device=self.model.device, inputs=[*self._inputs(position), gradient]
-        )  # fmt: skip
-
-    def add_hessian(self, position: wp.array, hessian: wp.array, exact: bool) -> None:
+    def add_hessian(self, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2B/dq2, or its Gauss-Newton part, to `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(
-            _exact_hessian if exact else _hessian, dim=self.candidates.count, device=self.model.device,
-            inputs=[*self._inputs(position), hessian],
-        )  # fmt: skip
+        for kernel in (_hessian, _exact_hessian):
+            wp.launch(
+                kernel, dim=self.candidates.capacity, device=self.model.device,
+                inputs=[*self._inputs(position, worlds), exact], outputs=[hessian],
+            )  # fmt: skip
 
 
 @wp.func
@@ -119,43 +129,29 @@ def _value(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    reach: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
-):
-    pair = wp.tid()
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
-    if contact.distance >= d_hat:
-        return
-    world = body_world[contact.body_a]
-    wp.atomic_add(energy, world, contact.mollifier * barrier_value(contact.distance, d_hat, stiffness[world]))
-
-
-@wp.kernel
-def _gradient(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
-    # State in
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
-    position: wp.array(dtype=wp.vec3d),
-    # Out
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    world = body_world[vertex_body[primitives[pair][0]]]
+    if worlds[world] == 0:
+        return
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    d_hat = reach[0]
     if contact.distance >= d_hat:
         return
-    world = body_world[contact.body_a]
+    value = barrier_value(contact.distance, d_hat, stiffness[world])
+    wp.atomic_add(energy, world, contact.mollifier * value)
     force = contact.mollifier * barrier_slope(contact.distance, d_hat, stiffness[world]) * contact.normal
     for k in range(4):
         wp.atomic_add(gradient, contact.body_a, k, contact.coefficients[k] * force)
@@ -163,9 +159,8 @@ def _gradient(
             wp.atomic_add(gradient, contact.body_b, k, contact.coefficients[4 + k] * force)
     slope = mollifier_slope(contact)
     if slope != wp.float64(0.0):
-        factor = slope * barrier_value(contact.distance, d_hat, stiffness[world])
-        gu = factor * cross_gradient_u(contact)
-        gv = factor * cross_gradient_v(contact)
+        gu = slope * value * cross_gradient_u(contact)
+        gv = slope * value * cross_gradient_v(contact)
         for k in range(3):
             wp.atomic_add(gradient, contact.body_a, 1 + k, contact.rest_u[k] * gu)
             wp.atomic_add(gradient, contact.body_b, 1 + k, contact.rest_v[k] * gv)
@@ -179,19 +174,27 @@ def _hessian(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    reach: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
+    exact: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    world = body_world[vertex_body[primitives[pair][0]]]
+    if worlds[world] == 0 or exact[world] != 0:
+        return
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    d_hat = reach[0]
     if contact.distance >= d_hat:
         return
-    world = body_world[contact.body_a]
     curvature = contact.mollifier * barrier_curvature(contact.distance, d_hat, stiffness[world])
     base_a = first_unknown(contact.body_a, body_dof)
     base_b = first_unknown(contact.body_b, body_dof)
@@ -216,19 +219,27 @@ def _exact_hessian(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    reach: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
+    exact: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    world = body_world[vertex_body[primitives[pair][0]]]
+    if worlds[world] == 0 or exact[world] == 0:
+        return
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    d_hat = reach[0]
     if contact.distance >= d_hat:
         return
-    world = body_world[contact.body_a]
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
     two = wp.float64(2.0)

@@ -31,15 +31,36 @@ class Friction:
 
     def __init__(self, model: Model):
         self.model = model
+        self.scale = wp.zeros(1, dtype=wp.float64, device=model.device)
+        """epsilon on the device [m], shape (1,)."""
+        self._epsilon = 0.0
         self.epsilon = 1.0e-5
-        """Displacement at which friction is fully mobilised [m]."""
         self.reference = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
         """State from which displacements count, shape (bodies, 4), vec3d."""
         self.coefficient = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
         """mu [-], shape (worlds,)."""
+        self.size = wp.zeros(1, dtype=int, device=model.device)
+        """Number of contacts, shape (1,), int; kernels over `capacity` threads end at it."""
         self.count = 0
-        self._counter = wp.zeros(1, dtype=int, device=model.device)
-        self._reserve(1024)
+        """`size` on the host."""
+        self._reserve(64)
+
+    @property
+    def epsilon(self) -> float:
+        """Displacement at which friction is fully mobilised [m]."""
+        return self._epsilon
+
+    @epsilon.setter
+    def epsilon(self, value: float) -> None:
+        if value == self._epsilon:
+            return
+        self._epsilon = value
+        self.scale.fill_(value)
+
+    @property
+    def capacity(self) -> int:
+        """Number of contacts there is room for; programs that launch on them must be recorded anew when it changes."""
+        return len(self._bodies)
 
     def _reserve(self, capacity: int) -> None:
         device = self.model.device
@@ -48,46 +69,53 @@ class Friction:
         self._normal = wp.zeros(capacity, dtype=wp.vec3d, device=device)
         self._force = wp.zeros(capacity, dtype=wp.float64, device=device)
 
-    def record(self, candidates: Candidates, position: wp.array, d_hat: float, stiffness: wp.array) -> None:
-        """Record normals, closest points and normal forces of the contacts at vertex positions [m]."""
-        model = self.model
-        while True:
-            self._counter.zero_()
-            wp.launch(
-                _record, dim=candidates.count, device=model.device,
-                inputs=[
-                    model.body_world, model.vertex_rest, model.vertex_body, stiffness, d_hat,
-                    candidates.kind, candidates.primitives, position,
-                ],
-                outputs=[self._counter, self._bodies, self._coefficients, self._normal, self._force],
-            )  # fmt: skip
-            self.count = int(self._counter.numpy()[0])
-            if self.count <= len(self._bodies):
-                return
-            self._reserve(2 * self.count)
+    def launch_record(self, candidates: Candidates, position: wp.array, reach: wp.array, stiffness: wp.array) -> None:
+        """Record normals, closest points and normal forces of the contacts at vertex positions [m]; part of a program.
 
-    def _inputs(self, q: wp.array) -> list:
+        Where `size` exceeds `capacity` afterwards, not all of them were.
+        """
+        model = self.model
+        self.size.zero_()
+        wp.launch(
+            _record, dim=candidates.capacity, device=model.device,
+            inputs=[
+                model.body_world, model.vertex_rest, model.vertex_body, stiffness, reach,
+                candidates.size, candidates.kind, candidates.primitives, position,
+            ],
+            outputs=[self.size, self._bodies, self._coefficients, self._normal, self._force],
+        )  # fmt: skip
+
+    def fits(self, size: int) -> bool:
+        """Take note that `size` contacts were found; without room for them, make it and return False."""
+        self.count = size
+        if size <= self.capacity:
+            return True
+        self._reserve(2 * size)
+        return False
+
+    def _inputs(self, q: wp.array, worlds: wp.array) -> list:
         model = self.model
         return [
-            model.body_world, model.body_dof, self.coefficient, self.epsilon,
-            self._bodies, self._coefficients, self._normal, self._force, self.reference, q,
+            model.body_world, model.body_dof, self.coefficient, self.scale, worlds,
+            self.size, self._bodies, self._coefficients, self._normal, self._force, self.reference, q,
         ]  # fmt: skip
 
-    def add_value(self, q: wp.array, energy: wp.array) -> None:
-        """Add D [J] of every world to `energy`, shape (worlds,)."""
-        wp.launch(_value, dim=self.count, device=self.model.device, inputs=[*self._inputs(q), energy])
+    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """Add D [J] to `energy`, shape (worlds,), and dD/dq to `gradient`, shape (bodies, 4), vec3d."""
+        wp.launch(
+            _value, dim=self.capacity, device=self.model.device,
+            inputs=self._inputs(q, worlds), outputs=[energy, gradient],
+        )  # fmt: skip
 
-    def add_gradient(self, q: wp.array, gradient: wp.array) -> None:
-        """Add dD/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(_gradient, dim=self.count, device=self.model.device, inputs=[*self._inputs(q), gradient])
-
-    def add_hessian(self, q: wp.array, hessian: wp.array) -> None:
+    def add_hessian(self, q: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2D/dq2, which is positive semidefinite, to `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(_hessian, dim=self.count, device=self.model.device, inputs=[*self._inputs(q), hessian])
+        wp.launch(
+            _hessian, dim=self.capacity, device=self.model.device, inputs=self._inputs(q, worlds), outputs=[hessian]
+        )  # fmt: skip
 
-    def largest_slip(self, q: wp.array, slip: wp.array) -> None:
+    def largest_slip(self, q: wp.array, worlds: wp.array, slip: wp.array) -> None:
         """Raise `slip` [m], shape (worlds,), to the largest |u| of the contacts that carry force."""
-        wp.launch(_slip, dim=self.count, device=self.model.device, inputs=[*self._inputs(q), slip])
+        wp.launch(_slip, dim=self.capacity, device=self.model.device, inputs=self._inputs(q, worlds), outputs=[slip])
 
 
 @wp.kernel
@@ -97,23 +125,27 @@ def _record(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    reach: wp.array(dtype=wp.float64),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
     # Out
-    counter: wp.array(dtype=int),
+    recorded: wp.array(dtype=int),
     bodies: wp.array(dtype=wp.vec2i),
     coefficients: wp.array(dtype=vec8d),
     normal: wp.array(dtype=wp.vec3d),
     force: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    d_hat = reach[0]
     if contact.distance >= d_hat:
         return
-    slot = wp.atomic_add(counter, 0, 1)
+    slot = wp.atomic_add(recorded, 0, 1)
     if slot < bodies.shape[0]:
         bodies[slot] = wp.vec2i(contact.body_a, contact.body_b)
         coefficients[slot] = contact.coefficients
@@ -143,8 +175,10 @@ def _value(
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
     coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
+    scale: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     bodies: wp.array(dtype=wp.vec2i),
     coefficients: wp.array(dtype=vec8d),
     normal: wp.array(dtype=wp.vec3d),
@@ -153,42 +187,27 @@ def _value(
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
-):
-    i = wp.tid()
-    world = body_world[bodies[i][0]]
-    y = wp.length(_displacement(bodies[i], coefficients[i], normal[i], reference, q))
-    value = y
-    if y < epsilon:
-        value = y * y / epsilon - y * y * y / (wp.float64(3.0) * epsilon * epsilon) + epsilon / wp.float64(3.0)
-    wp.atomic_add(energy, world, coefficient[world] * force[i] * value)
-
-
-@wp.kernel
-def _gradient(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
-    # State in
-    bodies: wp.array(dtype=wp.vec2i),
-    coefficients: wp.array(dtype=vec8d),
-    normal: wp.array(dtype=wp.vec3d),
-    force: wp.array(dtype=wp.float64),
-    reference: wp.array2d(dtype=wp.vec3d),
-    q: wp.array2d(dtype=wp.vec3d),
-    # Out
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     i = wp.tid()
+    if i >= size[0]:
+        return
     pair = bodies[i]
+    world = body_world[pair[0]]
+    if worlds[world] == 0:
+        return
+    epsilon = scale[0]
     u = _displacement(pair, coefficients[i], normal[i], reference, q)
     y = wp.length(u)
+    strength = coefficient[world] * force[i]
+    value = y
     # f0'(y) / y
     ratio = wp.float64(1.0) / wp.max(y, epsilon)
     if y < epsilon:
+        value = y * y / epsilon - y * y * y / (wp.float64(3.0) * epsilon * epsilon) + epsilon / wp.float64(3.0)
         ratio = wp.float64(2.0) / epsilon - y / (epsilon * epsilon)
-    drag = coefficient[body_world[pair[0]]] * force[i] * ratio * u
+    wp.atomic_add(energy, world, strength * value)
+    drag = strength * ratio * u
     for k in range(4):
         wp.atomic_add(gradient, pair[0], k, coefficients[i][k] * drag)
         if pair[1] >= 0:
@@ -201,8 +220,10 @@ def _hessian(
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
     coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
+    scale: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     bodies: wp.array(dtype=wp.vec2i),
     coefficients: wp.array(dtype=vec8d),
     normal: wp.array(dtype=wp.vec3d),
@@ -213,8 +234,13 @@ def _hessian(
     hessian: wp.array3d(dtype=wp.float64),
 ):
     k = wp.tid()
+    if k >= size[0]:
+        return
     pair = bodies[k]
     world = body_world[pair[0]]
+    if worlds[world] == 0:
+        return
+    epsilon = scale[0]
     n = normal[k]
     c = coefficients[k]
     u = _displacement(pair, c, n, reference, q)
@@ -248,8 +274,10 @@ def _slip(
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
     coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
+    scale: wp.array(dtype=wp.float64),
+    worlds: wp.array(dtype=int),
     # State in
+    size: wp.array(dtype=int),
     bodies: wp.array(dtype=wp.vec2i),
     coefficients: wp.array(dtype=vec8d),
     normal: wp.array(dtype=wp.vec3d),
@@ -260,5 +288,7 @@ def _slip(
     slip: wp.array(dtype=wp.float64),
 ):
     i = wp.tid()
+    if i >= size[0]:
+        return
     y = wp.length(_displacement(bodies[i], coefficients[i], normal[i], reference, q))
     wp.atomic_max(slip, body_world[bodies[i][0]], y)

@@ -34,12 +34,13 @@ def pull_back_lag(
     friction: Friction,
     candidates: Candidates,
     position: wp.array,
-    d_hat: float,
+    record_reach: wp.array,
     stiffness: wp.array,
     q: wp.array,
     adjoint: wp.array,
     recorded: wp.array,
     reference: wp.array,
+    reach: wp.array,
 ) -> None:
     """Pull an adjoint of the friction force at state q back to the state it was recorded at.
 
@@ -48,20 +49,22 @@ def pull_back_lag(
         friction: coefficient, epsilon and reference state of the step.
         candidates: pairs that cover the recorded state.
         position: vertex positions of the recorded state [m], shape (vertices,), vec3d.
-        d_hat: barrier activation distance at the record [m].
+        record_reach: barrier activation distance at the record [m], shape (1,).
         stiffness: barrier stiffness [N], shape (worlds,).
         q: state at the end of the step, shape (bodies, 4), vec3d.
         adjoint: w, shape (bodies, 4), vec3d.
         recorded: increased by d(w . F)/dq_n through lambda, n and c, shape (bodies, 4), vec3d.
         reference: increased by d(w . F)/dq_ref, shape (bodies, 4), vec3d.
+        reach: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
     """
     wp.launch(
-        _pull_back, dim=candidates.count, device=model.device,
+        _pull_back, dim=candidates.capacity, device=model.device,
         inputs=[
-            model.body_world, model.vertex_rest, model.vertex_body, stiffness, d_hat, friction.coefficient,
-            friction.epsilon, candidates.kind, candidates.primitives, position, friction.reference, q, adjoint,
+            model.body_world, model.vertex_rest, model.vertex_body, stiffness, record_reach, friction.coefficient,
+            friction.scale, candidates.size, candidates.kind, candidates.primitives,
+            position, friction.reference, q, adjoint,
         ],
-        outputs=[recorded, reference],
+        outputs=[recorded, reference, reach],
     )  # fmt: skip
 
 
@@ -89,10 +92,11 @@ def _pull_back(
     vertex_rest: wp.array(dtype=wp.vec3d),
     vertex_body: wp.array(dtype=int),
     stiffness: wp.array(dtype=wp.float64),
-    d_hat: wp.float64,
+    activation: wp.array(dtype=wp.float64),
     coefficient: wp.array(dtype=wp.float64),
-    epsilon: wp.float64,
+    scale: wp.array(dtype=wp.float64),
     # State in
+    size: wp.array(dtype=int),
     kind: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
@@ -102,8 +106,13 @@ def _pull_back(
     # Out
     recorded: wp.array2d(dtype=wp.vec3d),
     reference: wp.array2d(dtype=wp.vec3d),
+    reach: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
+    if pair >= size[0]:
+        return
+    d_hat = activation[0]
+    epsilon = scale[0]
     contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
     d = contact.distance
     if d >= d_hat:
@@ -167,6 +176,8 @@ def _pull_back(
             solved1 = beta1 / e11
 
     bar_distance = -bar_force * contact.mollifier * barrier_curvature(d, d_hat, stiffness[world])
+    # The slope depends on d / d_hat alone.
+    wp.atomic_add(reach, world, -bar_distance * d / d_hat)
     bar_cross = -bar_force * slope * mollifier_slope(contact)
     gu = wp.vec3d()
     gv = wp.vec3d()

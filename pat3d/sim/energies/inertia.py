@@ -37,21 +37,24 @@ class Inertia:
             model.body_world, model.body_dof, model.body_mass, model.body_moment, self.sigma, self.start,
         ]  # fmt: skip
 
-    def add_value(self, q: wp.array, energy: wp.array) -> None:
-        """Add E [J] of every world to `energy`, shape (worlds,)."""
-        wp.launch(_value, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, energy])
+    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """Add E [J] to `energy`, shape (worlds,), and dE/dq to `gradient`, shape (bodies, 4), vec3d."""
+        wp.launch(
+            _value, dim=self.model.bodies, device=self.model.device,
+            inputs=[*self._inputs(), worlds, q], outputs=[energy, gradient],
+        )  # fmt: skip
 
-    def add_gradient(self, q: wp.array, gradient: wp.array) -> None:
-        """Add dE/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(_gradient, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, gradient])
-
-    def add_hessian(self, hessian: wp.array) -> None:
+    def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2E/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(_hessian, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), hessian])
+        wp.launch(
+            _hessian, dim=self.model.bodies, device=self.model.device,
+            inputs=[*self._inputs(), worlds], outputs=[hessian],
+        )  # fmt: skip
 
 
 @wp.func
-def _mass_matrix(i: int, j: int, mass: wp.float64, moment: wp.mat33d) -> wp.float64:
+def mass_matrix(i: int, j: int, mass: wp.float64, moment: wp.mat33d) -> wp.float64:
+    """Entry of diag(m, S) [kg, kg m^2]."""
     if i == 0 or j == 0:
         if i == j:
             return mass
@@ -69,54 +72,28 @@ def _value(
     # State in
     sigma: wp.array(dtype=wp.float64),
     start: wp.array2d(dtype=wp.vec3d),
+    worlds: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
-):
-    body = wp.tid()
-    if body_dof[body] < 0:
-        return
-    world = body_world[body]
-    mass = body_mass[body]
-    total = mass * _G * (q[body, 0][2] - start[body, 0][2])
-    for i in range(4):
-        for j in range(4):
-            weight = _mass_matrix(i, j, mass, body_moment[body])
-            total += (
-                wp.float64(0.5)
-                * sigma[world]
-                * weight
-                * wp.dot(q[body, i] - start[body, i], q[body, j] - start[body, j])
-            )
-    wp.atomic_add(energy, world, total)
-
-
-@wp.kernel
-def _gradient(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_mass: wp.array(dtype=wp.float64),
-    body_moment: wp.array(dtype=wp.mat33d),
-    # State in
-    sigma: wp.array(dtype=wp.float64),
-    start: wp.array2d(dtype=wp.vec3d),
-    q: wp.array2d(dtype=wp.vec3d),
-    # Out
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
-    if body_dof[body] < 0:
+    world = body_world[body]
+    if body_dof[body] < 0 or worlds[world] == 0:
         return
-    s = sigma[body_world[body]]
+    s = sigma[world]
     mass = body_mass[body]
+    total = mass * _G * (q[body, 0][2] - start[body, 0][2])
     for i in range(4):
-        force = wp.vec3d()
+        pull = wp.vec3d()
         for j in range(4):
-            force += s * _mass_matrix(i, j, mass, body_moment[body]) * (q[body, j] - start[body, j])
+            pull += s * mass_matrix(i, j, mass, body_moment[body]) * (q[body, j] - start[body, j])
+        total += wp.float64(0.5) * wp.dot(q[body, i] - start[body, i], pull)
         if i == 0:
-            force += wp.vec3d(wp.float64(0.0), wp.float64(0.0), mass * _G)
-        gradient[body, i] = gradient[body, i] + force
+            pull += wp.vec3d(wp.float64(0.0), wp.float64(0.0), mass * _G)
+        gradient[body, i] = gradient[body, i] + pull
+    wp.atomic_add(energy, world, total)
 
 
 @wp.kernel
@@ -129,16 +106,17 @@ def _hessian(
     # State in
     sigma: wp.array(dtype=wp.float64),
     start: wp.array2d(dtype=wp.vec3d),
+    worlds: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     body = wp.tid()
-    if body_dof[body] < 0:
-        return
     world = body_world[body]
+    if body_dof[body] < 0 or worlds[world] == 0:
+        return
     base = 12 * body_dof[body]
     for i in range(4):
         for j in range(4):
-            weight = sigma[world] * _mass_matrix(i, j, body_mass[body], body_moment[body])
+            weight = sigma[world] * mass_matrix(i, j, body_mass[body], body_moment[body])
             for k in range(3):
                 hessian[world, base + 3 * i + k, base + 3 * j + k] += weight

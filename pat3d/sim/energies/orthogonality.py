@@ -32,19 +32,18 @@ class Orthogonality:
         model = self.model
         return [model.body_world, model.body_dof, model.body_volume, self.stiffness]
 
-    def add_value(self, q: wp.array, energy: wp.array) -> None:
-        """Add Psi [J] of every world to `energy`, shape (worlds,)."""
-        wp.launch(_value, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, energy])
+    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
+        """Add Psi [J] to `energy`, shape (worlds,), and dPsi/dq to `gradient`, shape (bodies, 4), vec3d."""
+        wp.launch(
+            _value, dim=self.model.bodies, device=self.model.device,
+            inputs=[*self._inputs(), worlds, q], outputs=[energy, gradient],
+        )  # fmt: skip
 
-    def add_gradient(self, q: wp.array, gradient: wp.array) -> None:
-        """Add dPsi/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(_gradient, dim=self.model.bodies, device=self.model.device, inputs=[*self._inputs(), q, gradient])
-
-    def add_hessian(self, q: wp.array, hessian: wp.array, exact: bool) -> None:
+    def add_hessian(self, q: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2Psi/dq2, or its positive semidefinite part, to `hessian`, shape (worlds, unknowns, unknowns)."""
         wp.launch(
             _hessian, dim=self.model.bodies, device=self.model.device,
-            inputs=[*self._inputs(), int(exact), q, hessian],
+            inputs=[*self._inputs(), worlds, exact, q], outputs=[hessian],
         )  # fmt: skip
 
 
@@ -63,43 +62,27 @@ def _value(
     body_dof: wp.array(dtype=int),
     body_volume: wp.array(dtype=wp.float64),
     stiffness: wp.float64,
+    worlds: wp.array(dtype=int),
     # State in
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
-):
-    body = wp.tid()
-    if body_dof[body] < 0:
-        return
-    total = wp.float64(0.0)
-    for i in range(3):
-        for j in range(3):
-            strain = _strain(q, body, i, j)
-            total += strain * strain
-    wp.atomic_add(energy, body_world[body], stiffness * body_volume[body] * total)
-
-
-@wp.kernel
-def _gradient(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_volume: wp.array(dtype=wp.float64),
-    stiffness: wp.float64,
-    # State in
-    q: wp.array2d(dtype=wp.vec3d),
-    # Out
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
-    if body_dof[body] < 0:
+    world = body_world[body]
+    if body_dof[body] < 0 or worlds[world] == 0:
         return
-    factor = wp.float64(4.0) * stiffness * body_volume[body]
+    factor = stiffness * body_volume[body]
+    total = wp.float64(0.0)
     for j in range(3):
         force = wp.vec3d()
         for i in range(3):
-            force += factor * _strain(q, body, i, j) * q[body, 1 + i]
+            strain = _strain(q, body, i, j)
+            total += strain * strain
+            force += wp.float64(4.0) * factor * strain * q[body, 1 + i]
         gradient[body, 1 + j] = gradient[body, 1 + j] + force
+    wp.atomic_add(energy, world, factor * total)
 
 
 @wp.kernel
@@ -109,16 +92,17 @@ def _hessian(
     body_dof: wp.array(dtype=int),
     body_volume: wp.array(dtype=wp.float64),
     stiffness: wp.float64,
-    exact: int,
+    worlds: wp.array(dtype=int),
+    exact: wp.array(dtype=int),
     # State in
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     body = wp.tid()
-    if body_dof[body] < 0:
-        return
     world = body_world[body]
+    if body_dof[body] < 0 or worlds[world] == 0:
+        return
     base = 12 * body_dof[body] + 3
     factor = wp.float64(4.0) * stiffness * body_volume[body]
     spread = wp.mat33d()
@@ -129,7 +113,7 @@ def _hessian(
             block = wp.outer(q[body, 1 + m], q[body, 1 + j])
             if j == m:
                 block += spread
-            if exact != 0:
+            if exact[world] != 0:
                 block += _strain(q, body, j, m) * wp.identity(n=3, dtype=wp.float64)
             for r in range(3):
                 for s in range(3):

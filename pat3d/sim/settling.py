@@ -1,3 +1,7 @@
+# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
+
 """From an intersection-free layout to rest.
 
 Three phases (DESIGN section 5a): bodies drop through artificial time steps until they stop; the barrier shrinks until
@@ -18,9 +22,13 @@ from threadpoolctl import threadpool_limits
 
 from pat3d.errors import SimulationError
 from pat3d.sim.contact.intersection import intersecting_bodies
+from pat3d.sim.failure import Status, diagnose, dump, explain
+from pat3d.sim.measures import StepMeasures
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
-from pat3d.sim.solvers.newton import Newton
+from pat3d.sim.solvers.newton import Newton, NewtonResult
+
+wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 
 STILL_FRAMES = 3
 """Consecutive steps without motion that end the drop."""
@@ -89,8 +97,8 @@ class StepRecord:
 class Tape:
     """All states of a run and the steps between them, for the backward pass."""
 
-    states: list[NDArray[np.float64]] = field(default_factory=list)
-    """Shape (bodies, 4, 3) each; one more than steps."""
+    states: list[wp.array] = field(default_factory=list)
+    """Shape (bodies, 4), vec3d each, on the device; one more than steps."""
     steps: list[StepRecord] = field(default_factory=list)
 
 
@@ -111,6 +119,22 @@ class Settled:
     polish_steps: int
     newton_iterations: int
     """Of all steps; of the slowest world in each."""
+    status: tuple[Status, ...]
+    """How every world ended."""
+    unconverged: NDArray[np.int64]
+    """Steps of every world that ended before they met their tolerances, shape (worlds,); each ends at a safe state from
+    which the next goes on."""
+
+
+class UnsettledError(SimulationError):
+    """Not every world came to rest."""
+
+    def __init__(self, message: str, settled: Settled, path: str):
+        super().__init__(message)
+        self.settled = settled
+        """Its `q` is free of intersections."""
+        self.path = path
+        """An .npz archive of the state."""
 
 
 Progress = Callable[[str, int, float], None]
@@ -137,22 +161,39 @@ class Run:
         tape: Tape | None = None,
     ):
         self.model, self.options, self.progress, self.tape = model, options, progress, tape
-        start = model.q0 if q0 is None else q0
-        self.q = wp.array(np.ascontiguousarray(start, dtype=np.float64), dtype=wp.vec3d, device=model.device)
+        self.potential = Potential(model)
+        self.newton = Newton(self.potential)
+        self.q = self.newton.q
+        self.q.assign(np.ascontiguousarray(model.q0 if q0 is None else q0, dtype=np.float64))
         self.reference = np.zeros(model.worlds, dtype=np.int64)
         self.lag_d_hat = options.d_hat
         if tape is not None:
-            tape.states.append(self.state())
-        self.potential = Potential(model)
-        self.newton = Newton(self.potential)
+            tape.states.append(wp.clone(self.q))
         self.frames = self.polish_steps = self.iterations = self.steps = 0
-        self.trajectory = [start.astype(np.float32)]
+        self.throw = True
+        """Whether a world that can never move on raises, or stays where it is."""
+        self.halted: dict[int, Status] = {}
+        """Worlds that can never move on."""
+        self.unconverged = np.zeros(model.worlds, dtype=np.int64)
+        """Steps that ended before they met their tolerances, shape (worlds,)."""
+        self._frames = [wp.clone(self.q)]
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
-        self._slip = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
+        self._sigma: NDArray[np.float64] | None = None
+        self._anchored = wp.zeros(model.worlds, dtype=int, device=model.device)
+        self._last_anchored: NDArray[np.bool_] | None = None
+        self._measures = StepMeasures(self.potential, self.q)
+
+    @property
+    def trajectory(self) -> NDArray[np.float32]:
+        """The states kept so far, shape (frames, bodies, 4, 3)."""
+        return np.stack([frame.numpy().astype(np.float32) for frame in self._frames])
 
     def refuse_intersections(self) -> None:
-        """Raise SimulationError unless the present state is free of intersections."""
+        """Raise SimulationError unless the present state is finite and free of intersections."""
+        wrong = ~np.all(np.isfinite(self.state()), axis=(1, 2))
+        if wrong.any():
+            raise SimulationError(f'the state of "{self.model.labels[int(np.argmax(wrong))]}" is not finite.')
         pairs = intersecting_bodies(self.model, self.potential.positions(self.q, self.potential._start))
         if len(pairs):
             names = [*self.model.labels, "the ground"]
@@ -170,38 +211,57 @@ class Run:
     def set_reach(self, d_hat: float) -> None:
         """Change the barrier activation distance [m]."""
         self.potential.contact.d_hat = d_hat
-        self.potential.candidates.invalidate()
+        self.potential.candidates.require(d_hat)
 
-    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NDArray[np.float64]:
-        """One time step with inertia scaled by `weight`, shape (worlds,); returns the largest vertex motions [m]."""
+    def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NewtonResult:
+        """One time step with inertia scaled by `weight`, shape (worlds,), from a state whose friction is recorded."""
         potential = self.potential
-        potential.inertia.start.assign(self.q)
-        potential.inertia.sigma.assign(weight / self.options.time_step**2)
-        result = self.newton.minimise(self.q, active, **tolerances)
+        wp.copy(potential.inertia.start, self.q)
+        sigma = weight / self.options.time_step**2
+        if self._sigma is None or not np.array_equal(sigma, self._sigma):
+            self._sigma = sigma
+            potential.inertia.sigma.assign(sigma)
+        result = self.newton.minimise(self.q, active, covered=potential.candidates.built, **tolerances)
         self.iterations += int(result.iterations.max(initial=0))
         self.steps += 1
+        self.unconverged += active & ~result.converged
+        self._halt(diagnose(self.newton, active, result))
         if self.tape is not None:
-            self.tape.states.append(self.state())
+            self.tape.states.append(wp.clone(self.q))
             self.tape.steps.append(
                 StepRecord(
-                    active=active.copy(), sigma=weight / self.options.time_step**2, d_hat=potential.contact.d_hat,
+                    active=active.copy(), sigma=sigma, d_hat=potential.contact.d_hat,
                     lag_d_hat=self.lag_d_hat, epsilon=potential.friction.epsilon, reference=self.reference.copy(),
                 )
             )  # fmt: skip
-        return potential.motion(potential.inertia.start, self.q)
+        return result
+
+    def _halt(self, found: dict[int, Status]) -> None:
+        """Stop worlds that can never move on, or raise SimulationError."""
+        self.halted |= found
+        if not found or not self.throw:
+            return
+        world, status = next(iter(found.items()))
+        step = self.options.time_step
+        raise SimulationError(
+            f"world {world} cannot go on at step {self.steps} ({self.steps * step:.3f} s): "
+            f"{explain(self.newton, world, status)}. "
+            f"The last safe state is in {dump(self.model, self.state(), self.steps, step)}."
+        )
+
+    def running(self) -> NDArray[np.bool_]:
+        """Worlds that can move on, shape (worlds,)."""
+        running = np.ones(self.model.worlds, dtype=bool)
+        running[list(self.halted)] = False
+        return running
 
     def anchor(self, worlds: NDArray[np.bool_]) -> None:
         """Let the friction displacements of `worlds` count from the present state."""
         self.reference[worlds] = self.steps
-        reference = self.potential.friction.reference.numpy().reshape(-1, 4, 3)
-        moved = worlds[self.model.world_of]
-        self.potential.friction.reference.assign(np.where(moved[:, None, None], self.state(), reference))
-
-    def slip(self) -> NDArray[np.float64]:
-        """Largest friction displacement of any contact [m], shape (worlds,)."""
-        self._slip.zero_()
-        self.potential.friction.largest_slip(self.q, self._slip)
-        return self._slip.numpy().copy()
+        if self._last_anchored is None or not np.array_equal(worlds, self._last_anchored):
+            self._last_anchored = worlds.copy()
+            self._anchored.assign(worlds.astype(np.int32))
+        copy_worlds(self.model, self._anchored, self.q, self.potential.friction.reference)
 
     def record_friction(self) -> None:
         """Lag friction at the present state."""
@@ -212,29 +272,23 @@ class Run:
         """Artificial time steps until nothing moves but slowly, or exactly `frames` of them."""
         options, potential = self.options, self.potential
         potential.friction.epsilon = options.friction_speed * options.time_step
-        still = np.zeros(self.model.worlds, dtype=np.int64)
+        still, one = np.zeros(self.model.worlds, dtype=np.int64), np.ones(self.model.worlds)
         while self.frames < (options.max_frames if frames is None else frames):
-            active = (still < STILL_FRAMES) if frames is None else np.ones(self.model.worlds, dtype=bool)
+            active = (still < STILL_FRAMES) & self.running() if frames is None else self.running()
             if not active.any():
                 return
             self.anchor(active)
             self.record_friction()
-            move = self.step(
-                active, np.ones(self.model.worlds), move_tolerance=0.1 * options.d_hat,
+            self.step(
+                active, one, move_tolerance=0.1 * options.d_hat,
                 residual_tolerance=options.drop_residual, exact_below=EXACT_BELOW, max_iterations=100,
             )  # fmt: skip
+            move = self._measures.motion()
             self.frames += 1
-            self.trajectory.append(self.state().astype(np.float32))
+            self._frames.append(wp.clone(self.q))
             # What still slides goes on with longer steps in the search for equilibrium.
             still = np.where(move < 0.3 * options.d_hat, still + 1, 0)
             self.progress("settling", self.frames, float(move.max()))
-
-    def reverses(self, change: NDArray[np.float64], last: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Whether steps of two states, shape (bodies, 4, 3), undo most of one another, shape (worlds,)."""
-        scale = np.ones((self.model.bodies, 4, 1))
-        scale[:, 1:] = self.model.body_radius[:, None, None]
-        both, before = (self.potential.per_world(np.sum(scale**2 * last * x, axis=(1, 2))) for x in (change, last))
-        return both < -0.5 * before
 
     def relax(
         self, d_hat: float, residual_tolerance: float, move_tolerance: float, slow: float, fast: float
@@ -249,35 +303,33 @@ class Run:
         self.set_reach(d_hat)
         potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, d_hat)
         weight = np.ones(worlds)
-        active, anchored = np.ones(worlds, dtype=bool), np.zeros(worlds, dtype=bool)
+        active, anchored = self.running(), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
-        start, last = self.state(), np.zeros_like(self.model.q0)
+        self._measures.forget_last()
         limit = self.polish_steps + options.max_polish_steps
         while self.polish_steps < limit and active.any():
             self.anchor(active & ~anchored)
-            move = self.step(
+            self.step(
                 active, weight, move_tolerance=np.inf, residual_tolerance=0.1 * residual_tolerance,
                 exact_below=EXACT_BELOW, max_iterations=60,
             )  # fmt: skip
             self.polish_steps += 1
+            active &= self.running()
             # The next step's friction acts with the normal forces of this state, so rest is judged with them.
             self.record_friction()
-            now = potential.residual(potential.gradient(self.q, inertia=False))
+            move, now, slip, reverses = self._measures.all()
             residual = np.where(active, now, residual)
             active &= ~(anchored & (residual < residual_tolerance) & (move < move_tolerance))
             # Once motion is as slow as friction's creep, its reference stays put; it follows while real slip goes on.
-            anchored = (move < 4.0 * epsilon) & (self.slip() < 20.0 * epsilon)
+            anchored = (move < 4.0 * epsilon) & (slip < 20.0 * epsilon)
             # Slow sliding gets longer steps.
             weight = np.where(move < slow, np.maximum(0.5 * weight, 1e-6), np.where(move > fast, 1.0, weight))
             # Friction recorded at either of two states can lead to the other for ever; inertia damps the leap.
-            end = self.state()
-            change = end - start
-            weight = np.where(self.reverses(change, last), np.minimum(16.0 * weight, MOST_INERTIA), weight)
-            start, last = end, change
+            weight = np.where(reverses, np.minimum(16.0 * weight, MOST_INERTIA), weight)
             if move.max() > options.d_hat:
-                self.trajectory.append(end.astype(np.float32))
+                self._frames.append(wp.clone(self.q))
             self.progress("polishing", self.polish_steps, float(move.max()))
-        return ~active, residual
+        return ~active & self.running(), residual
 
     def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Find equilibrium at the wide barrier, where sliding is cheap, then at the final one."""
@@ -286,29 +338,86 @@ class Run:
         return self.relax(options.final_d_hat, options.residual, options.move, SLOW, FAST)
 
 
-def settle(model: Model, options: SettleOptions | None = None, progress: Progress = lambda *_: None) -> Settled:
+def settle(
+    model: Model,
+    options: SettleOptions | None = None,
+    progress: Progress = lambda *_: None,
+    *,
+    throw: bool = True,
+) -> Settled:
     """Let the bodies of every world of `model` come to rest from its initial state.
 
+    Args:
+        model: the worlds.
+        options: settings.
+        progress: called with the phase, step number and largest motion [m].
+        throw: whether worlds that do not come to rest raise; else their `status` tells, and their state is safe.
+
     Raises:
-        SimulationError: bodies intersect at the start, or the state is not finite.
+        SimulationError: bodies intersect at the start, or a world can never move on.
+        UnsettledError: a world is still moving in the end; it holds what was found.
     """
     options = options or SettleOptions()
     # Factorisations of a few hundred unknowns lose more to the threads of BLAS than they gain.
     with threadpool_limits(limits=1, user_api="blas"):
         run = Run(model, options, progress)
+        run.throw = throw
         run.refuse_intersections()
         run.set_reach(options.d_hat)
         run.drop()
         at_rest, residual = run.polish()
-    q = run.state()
-    if not np.all(np.isfinite(q)):
-        raise SimulationError("settling produced values that are not finite.")
-    return Settled(
-        q=q,
-        trajectory=np.stack(run.trajectory),
+    settled = Settled(
+        q=run.state(),
+        trajectory=run.trajectory,
         at_rest=at_rest,
         residual=residual,
         frames=run.frames,
         polish_steps=run.polish_steps,
         newton_iterations=run.iterations,
+        status=tuple(
+            Status.AT_REST if rests else run.halted.get(world, Status.STILL_MOVING)
+            for world, rests in enumerate(at_rest)
+        ),
+        unconverged=run.unconverged,
     )
+    if throw and not at_rest.all():
+        world = int(np.argmin(at_rest))
+        path = dump(model, settled.q, run.steps, options.time_step)
+        raise UnsettledError(
+            f"{np.sum(~at_rest)} of {model.worlds} worlds did not come to rest in {run.steps} steps; world {world} is "
+            f"{settled.status[world]} with {residual[world]:.1e} of the weight out of balance, {options.residual:.1e} "
+            f"is rest. The last safe state is in {path}. Valid: more max_frames or max_polish_steps, or throw=False.",
+            settled,
+            path,
+        )
+    return settled
+
+
+def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.array) -> None:
+    """Copy the states of the bodies of chosen worlds, shape (bodies, 4), vec3d, on the device.
+
+    Args:
+        model: the worlds.
+        worlds: nonzero for those to copy, shape (worlds,), int.
+        source: copied from.
+        target: copied to.
+    """
+    wp.launch(
+        _copy_worlds, dim=model.bodies, device=model.device, inputs=[model.body_world, worlds, source], outputs=[target]
+    )  # fmt: skip
+
+
+@wp.kernel
+def _copy_worlds(
+    # Model
+    body_world: wp.array(dtype=int),
+    # State in
+    worlds: wp.array(dtype=int),
+    source: wp.array2d(dtype=wp.vec3d),
+    # Out
+    target: wp.array2d(dtype=wp.vec3d),
+):
+    body = wp.tid()
+    if worlds[body_world[body]] != 0:
+        for i in range(4):
+            target[body, i] = source[body, i]

@@ -1,0 +1,150 @@
+"""What other packages make of a URDF or SDF export, where they are installed: yourdfpy, PyBullet, Drake."""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pat3d.errors import CheckError
+from pat3d.exporters.load_drake import load_drake, plant_config
+from pat3d.exporters.load_pybullet import load_pybullet
+from pat3d.exporters.read_files import Volumes, beside, common, convex_volume, in_body_axes
+from pat3d.exporters.read_urdf import read_manifest
+from pat3d.exporters.readback import BodyReadback
+from pat3d.scene import Pose
+
+
+def read_with_yourdfpy(folder: str | Path) -> tuple[BodyReadback, ...]:
+    """Every link of scene.urdf; a file for viewers, so all are fixed, and friction is not parsed.
+
+    Raises:
+        CheckError: yourdfpy finds errors in the file.
+    """
+    folder = Path(folder)
+    yourdfpy: Any = import_module("yourdfpy")
+    robot = yourdfpy.URDF.load(
+        str(folder / "scene.urdf"), load_meshes=False, load_collision_meshes=False, build_scene_graph=True
+    )
+    if not robot.validate():
+        raise CheckError(f"yourdfpy finds errors in {folder / 'scene.urdf'}: {robot.errors[:3]}")
+    volumes = Volumes()
+    return tuple(
+        _link(link, robot.get_transform(name), folder, volumes)
+        for name, link in robot.link_map.items()
+        if name != "world"
+    )
+
+
+def _link(link: Any, transform: np.ndarray, folder: Path, volumes: Volumes) -> BodyReadback:
+    shapes = [collision.geometry for collision in link.collisions]
+    origin = link.inertial.origin
+    return BodyReadback(
+        name=link.name,
+        mass=float(link.inertial.mass),
+        centre=origin[:3, 3],
+        inertia=in_body_axes(link.inertial.inertia, origin[:3, :3]),
+        friction=math.nan,
+        hull_volume=sum(
+            float(np.prod(shape.box.size)) if shape.box else volumes.of(beside(shape.mesh.filename, folder, folder))
+            for shape in shapes
+        ),
+        pose=Pose.from_matrix(transform[:3, :3], transform[:3, 3]),
+        fixed=True,
+    )
+
+
+def read_with_pybullet(folder: str | Path) -> tuple[BodyReadback, ...]:
+    """Every body that PyBullet's loader makes; it does not tell the vertices of hulls, nor the mass of what is fixed.
+
+    Raises:
+        CheckError: PyBullet refuses a file.
+    """
+    folder = Path(folder)
+    pybullet: Any = import_module("pybullet")
+    manifest = read_manifest(folder)
+    client = pybullet.connect(pybullet.DIRECT)
+    try:
+        bodies = load_pybullet(folder, client, geometric_friction=False)
+        return tuple(_bullet_body(pybullet, client, entry, bodies[entry["name"]]) for entry in manifest["objects"])
+    except pybullet.error as error:
+        raise CheckError(f"PyBullet refuses the files of {folder}: {error}") from error
+    finally:
+        pybullet.disconnect(client)
+
+
+def _bullet_body(pybullet: Any, client: int, entry: dict[str, Any], body: int) -> BodyReadback:
+    mass, friction, moments, centre, turn = pybullet.getDynamicsInfo(body, -1, physicsClientId=client)[:5]
+    placed = pybullet.getBasePositionAndOrientation(body, physicsClientId=client)
+    position, quat = pybullet.multiplyTransforms(*placed, *pybullet.invertTransform(centre, turn))
+    x, y, z, w = turn
+    axes = Pose(quat_wxyz=(w, x, y, z)).rotation
+    x, y, z, w = quat
+    return BodyReadback(
+        name=entry["name"],
+        mass=mass,
+        centre=np.array(centre),
+        inertia=in_body_axes(np.diag(moments), axes),
+        friction=friction,
+        hull_volume=math.nan,
+        pose=Pose(position=position, quat_wxyz=(w, x, y, z)),
+        fixed=mass == 0.0,
+    )
+
+
+def read_with_drake(path: str | Path) -> tuple[BodyReadback, ...]:
+    """Every body that Drake's parser makes of a URDF export's folder, or of an SDF world.
+
+    Raises:
+        CheckError: Drake refuses a file.
+    """
+    parsing: Any = import_module("pydrake.multibody.parsing")
+    plants: Any = import_module("pydrake.multibody.plant")
+    builder = import_module("pydrake.systems.framework").DiagramBuilder()
+    path = Path(path)
+    plant, graph = plants.AddMultibodyPlant(plant_config(), builder)
+    try:
+        if path.is_dir():
+            names = load_drake(path, plant)
+        else:
+            models = parsing.Parser(plant).AddModels(str(path))
+            names = {plant.GetModelInstanceName(model).split("::")[-1]: plant.GetBodyByName("link", model)
+                     for model in models}  # fmt: skip
+    except RuntimeError as error:
+        raise CheckError(f"Drake refuses {path}: {error}") from error
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    inspector = graph.model_inspector()
+    return tuple(_drake_body(plant, context, inspector, name, body) for name, body in names.items() if name != "ground")
+
+
+def _drake_body(plant: Any, context: Any, inspector: Any, name: str, body: Any) -> BodyReadback:
+    centre = body.default_com()
+    inertia = body.default_spatial_inertia().Shift(centre).CalcRotationalInertia().CopyToFullMatrix3()
+    geometries = plant.GetCollisionGeometriesForBody(body)
+    frictions = [
+        inspector.GetProximityProperties(geometry).GetProperty("material", "coulomb_friction")
+        for geometry in geometries
+    ]
+    transform = plant.EvalBodyPoseInWorld(context, body)
+    return BodyReadback(
+        name=name,
+        mass=body.default_mass(),
+        centre=np.array(centre),
+        inertia=inertia,
+        friction=common([value for one in frictions for value in (one.static_friction(), one.dynamic_friction())]),
+        hull_volume=sum(_drake_volume(inspector.GetShape(geometry)) for geometry in geometries),
+        pose=Pose.from_matrix(transform.rotation().matrix(), transform.translation()),
+        fixed=bool(plant.IsAnchored(body)),
+    )
+
+
+def _drake_volume(shape: Any) -> float:
+    """Volume [m^3] of a box, or of the hull that Drake computes of a convex mesh."""
+    if hasattr(shape, "size"):
+        return float(np.prod(shape.size()))
+    hull = shape.GetConvexHull()
+    return convex_volume(np.array([hull.vertex(number) for number in range(hull.num_vertices())]))

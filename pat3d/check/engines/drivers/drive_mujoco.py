@@ -1,0 +1,49 @@
+"""MuJoCo, any version: the MJCF export with its own options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import recording
+
+
+def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
+    """Load scene.xml as it is and run it."""
+    messages: list[str] = []
+    mujoco.set_mju_user_warning(messages.append)
+    model = mujoco.MjModel.from_xml_path(str(export / "scene.xml"))
+    data = mujoco.MjData(model)
+    free = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
+    names = {int(body): model.body(body).name for body in free}
+
+    def poses() -> dict[str, list[float]]:
+        # The positions that a step leaves behind lag by a step; the joint state does not.
+        mujoco.mj_kinematics(model, data)
+        return {name: [*data.xpos[body], *data.xquat[body]] for body, name in names.items()}
+
+    found = recording.run(
+        lambda count: mujoco.mj_step(model, data, nstep=count), poses, model.opt.timestep, seconds
+    )  # fmt: skip
+    for kind, stat in zip(mujoco.mjtWarning.__members__, data.warning, strict=False):
+        if stat.number:
+            messages.append(f"{kind.removeprefix('mjWARN_').lower()}: {stat.number} times")
+    option = model.opt
+    settings = {
+        "timestep": option.timestep,
+        "cone": mujoco.mjtCone(option.cone).name.removeprefix("mjCONE_").lower(),
+        "impratio": option.impratio,
+        "integrator": mujoco.mjtIntegrator(option.integrator).name.removeprefix("mjINT_").lower(),
+        "solref": [float(value) for value in model.geom_solref[-1]],
+        "largest margin [m]": float(model.geom_margin.max()),
+    }
+    return {
+        "engine": "MuJoCo", "version": mujoco.mj_versionString(), "settings": settings,
+        "warnings": list(dict.fromkeys(messages)), "recording": found,
+    }  # fmt: skip
+
+
+if __name__ == "__main__":
+    recording.main(drive)

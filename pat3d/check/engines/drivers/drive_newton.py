@@ -1,0 +1,67 @@
+"""Newton: the USD export, with its MuJoCo solver or its own position-based one, on the CPU."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import newton
+import numpy as np
+import recording
+import warp as wp
+
+MUJOCO_STEP = 0.001
+"""[s]; Newton gives MuJoCo's colliders no margin, so what floats lands, and lands harder the longer a step is."""
+
+XPBD_STEP = 0.001
+"""[s]"""
+
+XPBD_ITERATIONS = 32
+
+
+def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
+    """Load scene.usdc and run it with the solver "mujoco" or "xpbd"."""
+    wp.config.quiet = True
+    builder = newton.ModelBuilder()
+    newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
+    builder.add_usd(str(export / "scene.usdc"))
+    model = builder.finalize(device="cpu")
+    if variant == "mujoco":
+        step_seconds = MUJOCO_STEP
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            solver: Any = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True)
+        pipeline, contacts = None, None
+    else:
+        step_seconds = XPBD_STEP
+        solver = newton.solvers.SolverXPBD(model, iterations=XPBD_ITERATIONS)
+        pipeline = newton.CollisionPipeline(model)
+        contacts = pipeline.contacts()
+    state, after, control = model.state(), model.state(), model.control()
+    newton.eval_fk(model, model.joint_q, model.joint_qd, state)
+    names = {label.split("/")[-1]: number for number, label in enumerate(builder.body_label)}
+
+    def poses() -> dict[str, list[float]]:
+        placed = state.body_q.numpy().astype(np.float64)
+        return {name: [*placed[k, :3], placed[k, 6], *placed[k, 3:6]] for name, k in names.items()}
+
+    def step(count: int) -> None:
+        nonlocal state, after
+        for _ in range(count):
+            if pipeline is not None:
+                pipeline.collide(state, contacts)
+            state.clear_forces()
+            solver.step(state, after, control, contacts, step_seconds)
+            state, after = after, state
+
+    found = recording.run(step, poses, step_seconds, seconds)
+    settings = {"timestep": step_seconds, "solver": variant}
+    return {
+        "engine": f"Newton ({variant})", "version": newton.__version__, "settings": settings, "warnings": [],
+        "recording": found,
+    }  # fmt: skip
+
+
+if __name__ == "__main__":
+    recording.main(drive)

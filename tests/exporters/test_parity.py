@@ -1,0 +1,117 @@
+"""Parity convicts files in which one number was changed, and acquits those that were not."""
+
+import json
+import re
+import shutil
+
+import pytest
+
+from pat3d.errors import ExportError
+from pat3d.exporters import export, parity
+from pat3d.exporters.reload import QUANTITIES
+from tests.exporters.things import mixed_scene
+
+FORMATS = ("mjcf", "urdf", "sdf")
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return mixed_scene()
+
+
+@pytest.fixture(scope="module")
+def written(scene, tmp_path_factory):
+    return export(scene, FORMATS, tmp_path_factory.mktemp("exports"))
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_what_was_written_is_the_scene(scene, written, name):
+    report = parity(scene, written[name])
+    assert report.passed, report.failures
+    assert report.format == name
+    worst = report.as_dict()["worst"]
+    assert set(worst) == set(QUANTITIES)
+    assert all(error is not None and error < 1e-6 for error in worst.values())
+
+
+def _scaled(text: str, pattern: str, factor: float) -> str:
+    """`text` with the number that the group of `pattern` first matches, scaled."""
+    found = re.search(pattern, text, re.DOTALL)
+    assert found is not None
+    return text[: found.start(1)] + repr(float(found.group(1)) * factor) + text[found.end(1) :]
+
+
+MUG = "objects/red_mug_1/red_mug_1.urdf"
+PENCIL = "objects/pencil_co/pencil_co.urdf"
+PLANTED = [
+    ("mjcf", "scene.xml", r'<body name="red_mug_1".*?mass="(\S+)"', "weighs"),
+    ("mjcf", "scene.xml", r'<body name="red_mug_1" pos="(\S+) ', "stands elsewhere"),
+    ("mjcf", "scene.xml", r'<body name="pencil_co".*?diaginertia="(\S+) ', "inertia"),
+    ("mjcf", "scene.xml", r'<body name="red_mug_2".*?<inertial pos="\S+ \S+ (\S+)"', "centre of mass"),
+    ("mjcf", "scene.xml", r'name="red_mug_2/part_000" friction="(\S+) ', "friction"),
+    ("mjcf", "meshes/red_mug_1/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("urdf", MUG, r'<mass value="(\S+)"', "weighs"),
+    ("urdf", PENCIL, r'izz="(\S+)"', "inertia"),
+    ("urdf", PENCIL, r'<origin xyz="\S+ \S+ \S+" rpy="\S+ (\S+) ', "inertia"),
+    ("urdf", MUG, r'<origin xyz="\S+ \S+ (\S+)"', "centre of mass"),
+    ("urdf", MUG, r'<lateral_friction value="(\S+)"', "friction"),
+    ("urdf", MUG, r'<drake:mu_dynamic value="(\S+)"', "friction"),
+    ("urdf", "objects/wooden_table/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("sdf", "scene.sdf", r'<model name="wooden_table".*?<collision.*?<size>(\S+) ', "volume of hulls"),
+    ("urdf", "objects/ball/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("urdf", "manifest.json", r'"position": \[\s*(0\.1),', "stands elsewhere"),
+    ("urdf", "scene.dmd.yaml", r"translation: \[(0\.1),", "stands elsewhere"),
+    ("urdf", "scene.dmd.yaml", r"pencil_co:\s+translation: \S+ \S+ \S+\s+rotation: !AngleAxis {angle_deg: (\S+),",
+     "stands elsewhere"),
+    ("sdf", "scene.sdf", r'<model name="red_mug_1".*?<mass>(\S+)</mass>', "weighs"),
+    ("sdf", "scene.sdf", r'<model name="red_mug_1">\s*<pose rotation_format="quat_xyzw">(\S+) ', "stands elsewhere"),
+    ("sdf", "scene.sdf", r'<model name="pencil_co".*?<iyy>(\S+)</iyy>', "inertia"),
+    ("sdf", "scene.sdf", r'<model name="red_mug_2".*?<mu>(\S+)</mu>', "friction"),
+    ("sdf", "models/red_mug_1/meshes/part_000.obj", r"v (\S+) ", "volume of hulls"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "file", "pattern", "words"), PLANTED)
+def test_one_number_off_by_a_hundred_thousandth_is_found(scene, written, tmp_path, name, file, pattern, words):
+    shutil.copytree(written[name].parent, tmp_path / name)
+    path = tmp_path / name / file
+    # One corner of one of many parts moves the sum of their volumes little.
+    path.write_text(_scaled(path.read_text(), pattern, 1.01 if file.endswith(".obj") else 1 + 1e-5))
+    report = parity(scene, tmp_path / name / written[name].name)
+    assert not report.passed
+    assert any(words in line for line in report.failures), report.failures
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "before", "after", "words"),
+    [
+        ("mjcf", "scene.xml", '<freejoint name="ball" />', "", "MuJoCo 3"),
+        ("urdf", "manifest.json", '"fixed": true', '"fixed": false', "is fixed in the scene but free"),
+        ("sdf", "scene.sdf", 'model name="ball"', 'model name="bell"', "is missing"),
+        ("sdf", "scene.sdf", 'model name="ball"', 'model name="bell"', '"bell"'),
+        ("sdf", "scene.sdf", "<sdf ", "<sdf", "not well-formed"),
+        ("mjcf", "scene.xml", "<worldbody>", "<worldbody><geom/>", "refuses"),
+        ("urdf", MUG, "part_000.obj", "../../../../passwd.obj", "no file inside"),
+        ("urdf", MUG, "part_000.obj", "nothing.obj", "cannot be read"),
+        ("urdf", "manifest.json", '"version": 1', '"version": 2', "manifest of version"),
+        ("urdf", "scene.dmd.yaml", "!AngleAxis", "!!python/object/apply:os.system", "not valid YAML"),
+    ],
+)
+def test_faults_of_structure_are_told(scene, written, tmp_path, name, file, before, after, words):
+    shutil.copytree(written[name].parent, tmp_path / name)
+    path = tmp_path / name / file
+    text = path.read_text()
+    assert before in text
+    path.write_text(text.replace(before, after, 1))
+    failures = parity(scene, tmp_path / name / written[name].name).failures
+    assert any(words in line for line in failures), failures
+
+
+def test_a_path_without_an_export_is_an_error_that_lists_what_is_looked_for(scene, tmp_path):
+    with pytest.raises(ExportError, match=r"scene\.xml.*manifest\.json"):
+        parity(scene, tmp_path)
+
+
+def test_the_report_is_json(scene, written):
+    for path in written.values():
+        json.dumps(parity(scene, path).as_dict(), allow_nan=False)
