@@ -38,8 +38,8 @@ class RolloutSettings:
         """The environment of an episode."""
         from pat3d.envs.env import TabletopEnv
 
+        kinds: dict[str, Any] = {"robot": self.robot, "obs": self.obs, "control": self.control}
         return TabletopEnv(
-            scene or None, task, self.robot, self.obs, self.control,  # type: ignore[arg-type]
-            control_freq=self.control_freq, max_objects=self.max_objects,
-            image_size=(self.image_size, self.image_size), **more,
+            scene=scene or None, task=task, control_freq=self.control_freq, max_objects=self.max_objects,
+            image_size=(self.image_size, self.image_size), **kinds, **more,
         )  # fmt: skip
