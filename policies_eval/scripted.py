@@ -147,7 +147,8 @@ class ScriptedPolicy:
         return self._go(np.array([hand[0], hand[1], above]), -1.0, NEAR, "hover")
 
     def _hover(self) -> NDArray[np.float32] | None:
-        return self._go(self._at + [0.0, 0.0, HOVER], -1.0, 0.012, "descend")
+        # Fingers that come down beside their place push what they should take.
+        return self._go(self._at + [0.0, 0.0, HOVER], -1.0, 0.006, "descend")
 
     def _descend(self) -> NDArray[np.float32] | None:
         return self._go(self._at, -1.0, EXACT, "close")
@@ -223,21 +224,51 @@ class ScriptedPolicy:
         if self._kind in ("unload", "retrieve"):
             centre = self._free_place() + [0.0, 0.0, bottom + DROP_HEIGHT]
         else:
-            centre = np.array(verdict.goal)
+            centre = np.array(verdict.goal) + self._aside(verdict.goal)
             half = float(self._env.scene[self._name].asset.size[2]) / 2
             centre[2] += bottom - half + DROP_HEIGHT
         return centre - offset
+
+    def _aside(self, goal: Any) -> Array:
+        """How far from the middle of a container [m] to let go, so that nothing lands on what is there already."""
+        state, name = self._env.simulation.state, self._name
+        own = float(np.ptp(state.points(name)[:, :2], axis=0).max()) / 2
+        near = [
+            state.centre(obj.name)[:2]
+            for obj in self._env.scene.objects
+            if obj.name != name and not obj.fixed and obj.asset.region("in") is None
+        ]
+        near = [point for point in near if math.dist(point, goal[:2]) < 0.12]
+        room = self._room(goal)
+        if not near or room <= own:
+            return np.zeros(3)
+        angles = np.linspace(0.0, 2 * math.pi, 16, endpoint=False)
+        places = (room - own) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        gaps = [min(math.dist(place + goal[:2], point) for point in near) for place in places]
+        best = places[int(np.argmax(gaps))]
+        return np.array([best[0], best[1], 0.0])
+
+    def _room(self, goal: Any) -> float:
+        """Half of the width of the container whose middle is nearest to `goal` [m]; 0 for none."""
+        state = self._env.simulation.state
+        found = [
+            (math.dist(state.position(obj.name)[:2], goal[:2]), min(region.half_size))
+            for obj in self._env.scene.objects
+            if (region := obj.asset.region("in")) is not None
+        ]
+        return min(found)[1] if found and min(found)[0] < 0.1 else 0.0
 
     def _free_place(self) -> Array:
         """A place on the surface of the work, near the robot and away from everything [m]."""
         state, placement = self._env.simulation.state, self._env.placement
         own = state.points(self._name)[:, :2]
         radius = float(np.linalg.norm(own - own.mean(axis=0), axis=1).max()) + 0.05
-        others = [
+        clouds = [
             state.points(obj.name)[:, :2]
             for obj in self._env.scene.objects
             if obj.name not in (self._name, placement.host)
         ]
+        boxes = [(cloud.min(axis=0), cloud.max(axis=0)) for cloud in clouds]
         base, focus = np.array(placement.base_position), np.array(placement.focus)
         best, room = focus[:2], -math.inf
         for turn in np.linspace(-1.3, 1.3, FREE_PLACES):
@@ -245,10 +276,11 @@ class ScriptedPolicy:
                 angle = placement.yaw + turn
                 point = base[:2] + away * np.array([math.cos(angle), math.sin(angle)])
                 if placement.bench is not None:
-                    low, high = np.array(placement.bench[0]) + 0.12, np.array(placement.bench[1]) - 0.12
-                    if (point < low).any() or (point > high).any():
+                    inner = np.array(placement.bench) + [[0.12], [-0.12]]
+                    if (point < inner[0]).any() or (point > inner[1]).any():
                         continue
-                gap = min((float(np.linalg.norm(p - point, axis=1).min()) for p in others), default=1.0) - radius
+                gaps = [np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0)) for low, high in boxes]
+                gap = float(min(gaps, default=1.0)) - radius
                 # Enough room is enough; the nearest such place wins.
                 score = min(gap, 0.03) - 0.05 * float(np.linalg.norm(point - state.hand[:2]))
                 if score > room:
