@@ -17,7 +17,7 @@ from typing import Any
 from pat3d.errors import EvaluationError, Pat3dError
 from pat3d.policies_eval.episodes import Episode, checksum
 from pat3d.policies_eval.manifest import make_manifest, require_same
-from pat3d.policies_eval.policies import identity, make_policy
+from pat3d.policies_eval.policies import identity, make_policy, require_known
 from pat3d.policies_eval.policy import Policy
 from pat3d.policies_eval.records import Evaluation, RecordFolder, read_manifest, write_text
 from pat3d.policies_eval.rollout import Result, Runner
@@ -67,6 +67,8 @@ def evaluate(
         raise EvaluationError("a policy object runs in this process: workers=0; give worker processes its name.")
     if not 0 <= workers <= MAX_WORKERS:
         raise EvaluationError(f"0 to {MAX_WORKERS} workers, not {workers}.")
+    if isinstance(policy, str):
+        require_known(policy)
     details = identity(policy) if isinstance(policy, str) else {}
     known = source or {"episodes": checksum(episodes)}
     manifest = make_manifest(name, details, settings, known, len(episodes))

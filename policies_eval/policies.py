@@ -56,6 +56,7 @@ def make_policy(spec: str) -> Policy:
     Raises:
         EvaluationError: no such policy, or it cannot be made; says what is valid.
     """
+    require_known(spec)
     if spec == "random":
         return RandomPolicy()
     if spec == "scripted":
@@ -70,9 +71,17 @@ def make_policy(spec: str) -> Policy:
         from pat3d.policies_eval.cloning import ClonedPolicy
 
         return ClonedPolicy(spec)
-    if _CALLABLE.fullmatch(spec):
-        return _imported(spec)
-    raise EvaluationError(f'no policy "{spec}". Policies: {FORMS}.')
+    return _imported(spec)
+
+
+def require_known(spec: str) -> None:
+    """Raise EvaluationError unless `spec` has the form of a policy, and names a file that is there."""
+    plain = spec in ("random", "scripted") or spec.startswith(("ws://", "wss://"))
+    if spec.endswith(".pt"):
+        if not Path(spec).is_file():
+            raise EvaluationError(f"{spec}: no such checkpoint; pat3d train writes one.")
+    elif not plain and not _CALLABLE.fullmatch(spec):
+        raise EvaluationError(f'no policy "{spec}". Policies: {FORMS}.')
 
 
 def identity(spec: str) -> dict[str, str]:
