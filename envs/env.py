@@ -169,6 +169,24 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self._start_noise
         self.simulation.reset(noise)
+        return self._begin()
+
+    def restart(self) -> tuple[Observation, dict[str, Any]]:
+        """Begin the episode in the present state, after something in the simulation was changed on purpose."""
+        self.simulation.restart()
+        return self._begin()
+
+    @property
+    def scene_checksum(self) -> str:
+        """SHA-256 of the files that MuJoCo loaded."""
+        return self._loaded.checksum
+
+    @property
+    def verdict(self) -> Verdict:
+        """How far the episode is, and what the next move is about."""
+        return self._verdict
+
+    def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.begin(self.simulation.state)
         self._verdict = self._judge.update(self.simulation.state, 0.0)
         return self._observation(), self._info()

@@ -48,6 +48,24 @@ EXAMPLES = {
     "doctor": """
   pat3d doctor
 """,
+    "evaluate": """
+  pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
+  pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
+  pat3d evaluate --suite suites/tabletop --split test --policy my_package.my_policy:make --workers auto --out eval/mine
+""",
+    "compare": """
+  pat3d compare eval/a eval/b
+""",
+    "leaderboard": """
+  pat3d leaderboard eval/*
+""",
+    "replay": """
+  pat3d replay eval/a --episode 17 --video out.mp4
+  pat3d replay eval/a                    do every episode again and compare every state
+""",
+    "train": """
+  pat3d train --episodes 100 --perturb pose=0.04 --out cloned.pt
+""",
 }
 
 
@@ -131,6 +149,9 @@ def parser() -> argparse.ArgumentParser:
     add_arguments(suites, argparse.RawDescriptionHelpFormatter)
 
     command("doctor", "what works on this computer, and what would enable more")
+    from pat3d.policies_eval.commands import add_commands
+
+    add_commands(command)
     return main_parser
 
 

@@ -154,3 +154,38 @@ def doctor(options: argparse.Namespace) -> int:
     from pat3d.doctor import examine
 
     return examine(console())
+
+
+def evaluate(options: argparse.Namespace) -> int:
+    """`pat3d evaluate`."""
+    from pat3d.policies_eval import commands
+
+    return commands.evaluate(options)
+
+
+def compare(options: argparse.Namespace) -> int:
+    """`pat3d compare`."""
+    from pat3d.policies_eval import commands
+
+    return commands.compare(options)
+
+
+def leaderboard(options: argparse.Namespace) -> int:
+    """`pat3d leaderboard`."""
+    from pat3d.policies_eval import commands
+
+    return commands.leaderboard(options)
+
+
+def replay(options: argparse.Namespace) -> int:
+    """`pat3d replay`."""
+    from pat3d.policies_eval import commands
+
+    return commands.replay(options)
+
+
+def train(options: argparse.Namespace) -> int:
+    """`pat3d train`."""
+    from pat3d.policies_eval import commands
+
+    return commands.train(options)

@@ -60,3 +60,7 @@ class TaskError(Pat3dError):
 
 class SuiteError(Pat3dError):
     """A suite that cannot be made, found or used: damaged, locked, or asked for what it does not have."""
+
+
+class EvaluationError(Pat3dError):
+    """An evaluation, a policy or a record of one that cannot be used."""
