@@ -8,6 +8,8 @@ from typing import Any
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim import determinism
+
 
 class Program:
     """Launches that are the same every time: recorded once as a graph, then replayed.
@@ -35,8 +37,9 @@ class Program:
         Args:
             shape: whatever the recorded launches depend on besides the contents of arrays; a change records anew.
         """
-        if not self._loaded:
-            # The first run may load modules, which must not happen while recording.
+        if not self._loaded or determinism.enabled():
+            # The first run may load modules, which must not happen while recording; and Warp's deterministic launches
+            # allocate.
             self._loaded = True
             self._launches()
             return
