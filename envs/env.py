@@ -16,6 +16,7 @@ from pat3d.envs.pictures import Pictures
 from pat3d.envs.placement import Placement, place
 from pat3d.envs.robots import make_robot
 from pat3d.envs.simulation import Simulation
+from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.task import Judge, Task, Verdict
@@ -42,8 +43,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     Args:
         scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
         task: "pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task;
-            None for picking the first object that can be picked.
+            None for picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all.
         robot: Panda, UR5e, Sawyer or IIWA.
+        suite: a suite folder instead of a scene; every reset draws one of its scenes with that scene's own task.
+        split: of the suite: "train", "val", "test", "val/object", ...; None for all.
+        index: of the only scene to use among those chosen by split and kind of task, from 0.
         obs: "state", "rgb" or "rgbd".
         control: "osc", "joint_velocity" or "joint_position".
         reward: "sparse" or "dense".
@@ -61,6 +65,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     Raises:
         UnsettledSceneError: the scene moves when MuJoCo loads it.
         TaskError: the task cannot be done in the scene by this robot; says why.
+        SuiteError: no such suite, split or kind of task; says what there is.
         EnvironmentSetupError: an argument is not valid; says what is.
     """
 
@@ -71,6 +76,9 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         scene: Source = None,
         task: str | Task | None = None,
         robot: str = "Panda",
+        suite: str | os.PathLike[str] | None = None,
+        split: str | None = None,
+        index: int | None = None,
         obs: Literal["state", "rgb", "rgbd"] = "state",
         control: Literal["osc", "joint_velocity", "joint_position"] = "osc",
         reward: Literal["sparse", "dense"] = "sparse",
@@ -98,9 +106,16 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         make_robot(robot)
         self._kept: dict[tuple[str, str], tuple[Task, Simulation]] = {}
         self._pictures: Pictures | None = None
-        self._loaded: LoadedScene = load(scene)
-        self._task_given = DEFAULT_TASK if scene is None and task is None else task
-        moving = sum(not obj.fixed for obj in self._loaded.scene.objects)
+        self._chosen = Selection.of(suite, split, index, scene, task)
+        self._loaded: LoadedScene
+        self._task_given: str | Task | None
+        if self._chosen is not None:
+            self._loaded, self._task_given = self._chosen.first()
+            moving = self._chosen.most_objects
+        else:
+            self._loaded = load(scene)
+            self._task_given = DEFAULT_TASK if scene is None and task is None else task
+            moving = sum(not obj.fixed for obj in self._loaded.scene.objects)
         self._spec = ObservationSpec(
             kind=obs,
             cameras=tuple(cameras),
@@ -143,21 +158,35 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 
         Args:
             seed: of the robot's posture; the same seed gives the same episode bit for bit.
-            options: "scene" (a folder or a scene) and "task" change what the episode is about, from now on.
+            options: "scene" (a folder or a scene) and "task" change what the episode is about, from now on; "index"
+                says which scene of the suite this episode is about.
         """
         super().reset(seed=seed)
-        if options:
-            unknown = sorted(set(options) - {"scene", "task"})
-            if unknown:
-                raise EnvironmentSetupError(f'no reset option "{", ".join(unknown)}". Options: scene, task.')
-            loaded = load(options["scene"]) if "scene" in options else self._loaded
-            task = options.get("task", self._task_given)
-            self._enter(loaded, task)
-            self._loaded, self._task_given = loaded, task
+        loaded, task = self._wanted(options or {})
+        self._enter(loaded, task)
+        self._loaded, self._task_given = loaded, task
         count = len(self.simulation.world.robot.arm_joints)
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self._start_noise
         self.simulation.reset(noise)
+        return self._begin()
+
+    def restart(self) -> tuple[Observation, dict[str, Any]]:
+        """Begin the episode in the present state, after something in the simulation was changed on purpose."""
+        self.simulation.restart()
+        return self._begin()
+
+    @property
+    def scene_checksum(self) -> str:
+        """SHA-256 of the files that MuJoCo loaded."""
+        return self._loaded.checksum
+
+    @property
+    def verdict(self) -> Verdict:
+        """How far the episode is, and what the next move is about."""
+        return self._verdict
+
+    def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.begin(self.simulation.state)
         self._verdict = self._judge.update(self.simulation.state, 0.0)
         return self._observation(), self._info()
@@ -199,6 +228,17 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             self._pictures = Pictures(self.simulation)
         return self._pictures
 
+    def _wanted(self, options: dict[str, Any]) -> tuple[LoadedScene, str | Task | None]:
+        """What the next episode is about."""
+        valid = ("scene", "task") if self._chosen is None else ("index",)
+        unknown = sorted(set(options) - set(valid))
+        if unknown:
+            raise EnvironmentSetupError(f'no reset option "{", ".join(unknown)}". Options: {", ".join(valid)}.')
+        if self._chosen is not None:
+            return self._chosen.next(self.np_random, options.get("index"))
+        loaded = load(options["scene"]) if "scene" in options else self._loaded
+        return loaded, options.get("task", self._task_given)
+
     def _enter(self, loaded: LoadedScene, task: str | Task | None) -> None:
         """Make `task` in `loaded` what the next episode is about; nothing changes where that is impossible."""
         name = task.spec if isinstance(task, Task) else task or ""
@@ -229,6 +269,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             "touched": state.all_touched(),
             "task": self.task.spec,
             "instruction": self.instruction,
+            **({} if self._chosen is None else {"index": self._chosen.current}),
         }
 
 

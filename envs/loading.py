@@ -19,6 +19,7 @@ from typing import Any
 from pat3d.assets.cache import cache_root
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
 from pat3d.scene import Scene
+from pat3d.versions import version_of
 
 DEFAULT_TASK = "pick:red mug"
 
@@ -44,10 +45,11 @@ def default_scene() -> Path:
     return Path(str(files("pat3d.envs"))) / "scenes" / "breakfast"
 
 
-def load(source: str | os.PathLike[str] | Scene | None = None) -> LoadedScene:
+def load(source: str | os.PathLike[str] | Scene | None = None, *, proven_in: str | None = None) -> LoadedScene:
     """Load a scene folder, the scene that ships with the package (None), or a scene in memory.
 
-    The folder's own mjcf/scene.xml is used where there is one; otherwise the scene is exported into the cache.
+    The folder's own mjcf/scene.xml is used where there is one; otherwise the scene is exported into the cache. Files
+    that are known to stay still in the MuJoCo version `proven_in`, where that is the one here, are not tried again.
 
     Raises:
         SpecError: no readable scene there.
@@ -65,7 +67,8 @@ def load(source: str | os.PathLike[str] | Scene | None = None) -> LoadedScene:
     own = None if folder is None else folder / "mjcf" / "scene.xml"
     mjcf = own if own is not None and own.is_file() else _export(scene, folder)
     checksum = checksum_of(mjcf.parent)
-    _require_settled(mjcf, checksum)
+    if proven_in != version_of("mujoco"):
+        _require_settled(mjcf, checksum)
     return LoadedScene(scene=scene, mjcf=mjcf, checksum=checksum)
 
 

@@ -43,7 +43,6 @@ class ScriptedPick:
     def __init__(self, env: Any, target: str | None = None, attempt: int = 0) -> None:
         if env.control != "osc":
             raise EnvironmentSetupError(f'the scripted hand needs control="osc", not "{env.control}".')
-        self._env = env
         grasps = env.placement.grasps
         name = target or next(iter(grasps), None)
         if name is None or not grasps.get(name):
@@ -51,42 +50,57 @@ class ScriptedPick:
         self._grasp: Grasp = grasps[name][attempt % len(grasps[name])]
         self._gripper = measure_gripper(env.robot)
         self._phase, self._closing = 0, 0
-        self._rotation = self._nearer(self._grasp.closing)
+        self._servo = Servo(env)
+        self._rotation = self._servo.nearer(self._grasp.closing)
 
     def action(self) -> NDArray[np.float32]:
         """The next action, shape (7,)."""
         at = np.array(self._grasp.position) + [0.0, 0.0, self._gripper.tip]
         if self._phase == 0:
-            command, error = self._towards(at + [0.0, 0.0, HOVER], -1.0)
+            command, error = self._servo.towards(at + [0.0, 0.0, HOVER], self._rotation, -1.0)
             self._phase += error < 0.012
         elif self._phase == 1:
-            command, error = self._towards(at, -1.0)
+            command, error = self._servo.towards(at, self._rotation, -1.0)
             self._phase += error < 0.004
         elif self._phase == 2:
-            command, _ = self._towards(at, 1.0)
+            command, _ = self._servo.towards(at, self._rotation, 1.0)
             self._closing += 1
             self._phase += self._closing >= CLOSE_STEPS
         else:
-            command, _ = self._towards(at + [0.0, 0.0, LIFT], 1.0)
+            command, _ = self._servo.towards(at + [0.0, 0.0, LIFT], self._rotation, 1.0)
         return command
 
-    def _towards(self, position: Array, fingers: float) -> tuple[NDArray[np.float32], float]:
-        """The action that brings the hand nearer to `position` [m], and how far it is [m, a radian counting 5 cm]."""
+
+class Servo:
+    """Brings the hand of an environment with osc control to a pose, one action after the other."""
+
+    def __init__(self, env: Any) -> None:
+        self._env = env
+        self._axis = measure_gripper(env.robot).closing_axis
+
+    def towards(self, position: Array, rotation: Array, fingers: float) -> tuple[NDArray[np.float32], float]:
+        """The next action, and how far the hand still is [m, a radian counting 5 cm].
+
+        Args:
+            position: of the grip site [m], shape (3,).
+            rotation: of the grip site, shape (3, 3).
+            fingers: -1 opens them, 1 closes them.
+        """
         state, yaw = self._env.simulation.state, self._env.placement.yaw
         c, s = math.cos(yaw), math.sin(yaw)
         to_base = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         move = to_base @ (position - state.hand)
-        turn = to_base @ _rotation_vector(self._rotation @ state.hand_rotation.T)
+        turn = to_base @ _rotation_vector(rotation @ state.hand_rotation.T)
         command = np.concatenate([
             _limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]
         ])  # fmt: skip
         error = float(np.linalg.norm(move)) + 0.05 * float(np.linalg.norm(turn))
         return command.astype(np.float32), error
 
-    def _nearer(self, closing: float) -> Array:
+    def nearer(self, closing: float) -> Array:
         """Of the two hand rotations that close along one line, that with the shorter turn."""
         now = self._env.simulation.state.hand_rotation
-        both = [hand_rotation(closing + half, self._gripper.closing_axis) for half in (0.0, math.pi)]
+        both = [hand_rotation(closing + half, self._axis) for half in (0.0, math.pi)]
         return max(both, key=lambda rotation: float(np.trace(rotation @ now.T)))
 
 

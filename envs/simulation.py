@@ -73,8 +73,12 @@ class Simulation:
         self._mujoco.mj_setState(model, data, self._home, self._signature)
         if noise is not None:
             data.qpos[self._arm] += noise
+        self.restart()
+
+    def restart(self) -> None:
+        """Take the present state, which somebody changed, as the start of the episode."""
         self.controller.reset()
-        self._mujoco.mj_forward(model, data)
+        self._mujoco.mj_forward(self.model, self.data)
         self.state.begin()
 
     def step(self, action: Array) -> None:

@@ -153,6 +153,11 @@ class Attempts:
             raise SimulationError("; ".join(best.failures))
         return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
 
+    def first(self) -> Attempt:
+        """The first layout, settled, and checked where it came to rest; it may have failed."""
+        attempt = self._attempt(0)
+        return attempt if attempt.failures else self._checked(attempt)
+
     def _attempt(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)

@@ -40,8 +40,31 @@ EXAMPLES = {
   pat3d catalogue mug                    one object, with a picture in mug.png
   pat3d catalogue --sheet catalogue.png  pictures of everything
 """,
+    "suite": """
+  pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+  pat3d suite check suites/tabletop
+  pat3d suite show suites/tabletop
+""",
     "doctor": """
   pat3d doctor
+""",
+    "evaluate": """
+  pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
+  pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
+  pat3d evaluate --suite suites/tabletop --split test --policy my_package.my_policy:make --workers auto --out eval/mine
+""",
+    "compare": """
+  pat3d compare eval/a eval/b
+""",
+    "leaderboard": """
+  pat3d leaderboard eval/*
+""",
+    "replay": """
+  pat3d replay eval/a --episode 17 --video out.mp4
+  pat3d replay eval/a                    do every episode again and compare every state
+""",
+    "train": """
+  pat3d train --episodes 100 --perturb pose=0.04 --out cloned.pt
 """,
 }
 
@@ -120,7 +143,15 @@ def parser() -> argparse.ArgumentParser:
     listing.add_argument("--out", metavar="PNG", help="picture of NAME (default: ./NAME.png)")
     listing.add_argument("--seed", type=int, default=0, help="variation of what is drawn")
 
+    from pat3d.envs.suites.command import add_arguments
+
+    suites = command("suite", "scenes with tasks by the thousand, in splits, for training and testing policies")
+    add_arguments(suites, argparse.RawDescriptionHelpFormatter)
+
     command("doctor", "what works on this computer, and what would enable more")
+    from pat3d.policies_eval.commands import add_commands
+
+    add_commands(command)
     return main_parser
 
 

@@ -142,8 +142,50 @@ def catalogue(options: argparse.Namespace) -> int:
     return browse.everything(seed=options.seed, sheet=options.sheet)
 
 
+def suite(options: argparse.Namespace) -> int:
+    """`pat3d suite`."""
+    from pat3d.envs.suites import command
+
+    return command.run(options)
+
+
 def doctor(options: argparse.Namespace) -> int:
     """`pat3d doctor`."""
     from pat3d.doctor import examine
 
     return examine(console())
+
+
+def evaluate(options: argparse.Namespace) -> int:
+    """`pat3d evaluate`."""
+    from pat3d.policies_eval import commands
+
+    return commands.evaluate(options)
+
+
+def compare(options: argparse.Namespace) -> int:
+    """`pat3d compare`."""
+    from pat3d.policies_eval import commands
+
+    return commands.compare(options)
+
+
+def leaderboard(options: argparse.Namespace) -> int:
+    """`pat3d leaderboard`."""
+    from pat3d.policies_eval import commands
+
+    return commands.leaderboard(options)
+
+
+def replay(options: argparse.Namespace) -> int:
+    """`pat3d replay`."""
+    from pat3d.policies_eval import commands
+
+    return commands.replay(options)
+
+
+def train(options: argparse.Namespace) -> int:
+    """`pat3d train`."""
+    from pat3d.policies_eval import commands
+
+    return commands.train(options)

@@ -29,9 +29,9 @@ def console(*, stderr: bool = False) -> Console:
     """A console that writes plain text where the stream is no terminal."""
     from rich.console import Console
 
-    made = Console(stderr=stderr, highlight=False)
+    made = Console(stderr=stderr, highlight=False, emoji=False)
     if not made.is_terminal:
-        made = Console(stderr=stderr, highlight=False, width=120)
+        made = Console(stderr=stderr, highlight=False, emoji=False, width=120)
     return made
 
 

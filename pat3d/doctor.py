@@ -27,6 +27,10 @@ OPTIONAL = {
     "usd-core": "USD files",
     "gymnasium": "reinforcement-learning environments",
     "robosuite": "robots and controllers",
+    "pyarrow": "records of policy evaluations",
+    "websockets": "policies on openpi servers",
+    "imageio-ffmpeg": "films of episodes as MP4",
+    "h5py": "demonstrations for robomimic",
     "mujoco-warp": "thousands of scenes at once on a GPU",
 }
 

@@ -56,3 +56,11 @@ class UnsettledSceneError(Pat3dError):
 
 class TaskError(Pat3dError):
     """A task that its scene does not allow: done already, out of reach, or too wide for the gripper."""
+
+
+class SuiteError(Pat3dError):
+    """A suite that cannot be made, found or used: damaged, locked, or asked for what it does not have."""
+
+
+class EvaluationError(Pat3dError):
+    """An evaluation, a policy or a record of one that cannot be used."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from importlib import metadata
 
 import pat3d
@@ -10,6 +11,7 @@ MADE_WITH = ("numpy", "scipy", "warp-lang", "mujoco", "trimesh", "manifold3d", "
 """Packages that decide how a scene turns out, or that it was proved with."""
 
 
+@functools.cache
 def version_of(package: str) -> str | None:
     """Version of an installed package, or None."""
     try:

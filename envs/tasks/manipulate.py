@@ -237,4 +237,6 @@ def check_move(scene: Scene, target: str, where: str) -> None:
 
 
 def _preposition(scene: Scene, where: str) -> str:
-    return "on" if scene[where].asset.region("in") is None else "in"
+    """What one says of things there: a plate has an inside too, but its first region is its top."""
+    regions = scene[where].asset.regions
+    return regions[0].kind if regions else "on"

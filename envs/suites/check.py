@@ -1,0 +1,103 @@
+"""Proves a suite again: files, splits, and every scene's stillness in MuJoCo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from pat3d.envs.suites.folder import RECORD, checksum_of, read_document
+from pat3d.envs.suites.suite import Entry, Suite
+from pat3d.errors import Pat3dError, SuiteError
+
+
+def check_suite(
+    suite: Suite, *, settle: bool = True, workers: int = 1, tell: Callable[[int, int], None] = lambda done, of: None
+) -> list[str]:
+    """What is wrong with a suite, a line each.
+
+    Args:
+        suite: a complete one.
+        settle: whether MuJoCo simulates every scene again (half a second each).
+        workers: processes that do so.
+        tell: told how many scenes are done, of how many.
+    """
+    lines = check_splits(suite)
+    job = partial(check_scene, suite.folder.path, settle=settle)
+    with _mapping(workers if settle else 1) as apply:
+        for number, found in enumerate(apply(job, suite.entries)):
+            lines += found
+            tell(number + 1, len(suite.entries))
+    return lines
+
+
+def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
+    """What is wrong with one scene of the suite in the folder `path`."""
+    from pat3d.check.settle import settle_in_mujoco
+
+    folder = path / "scenes" / f"{entry.place:06d}"
+    try:
+        if read_document(folder / RECORD).get("checksum") != entry.checksum:
+            return [f"scene {entry.place}: record.json and suite.json differ."]
+        if checksum_of(folder) != entry.checksum:
+            return [f"scene {entry.place}: its files are not those that were proven (their checksum differs)."]
+        if not settle:
+            return []
+        report = settle_in_mujoco(folder / "mjcf" / "scene.xml")
+    except Pat3dError as error:
+        return [f"scene {entry.place}: {error}"]
+    moved = [
+        f'scene {entry.place}: "{one.name}" drifts {max(one.centre_mm, one.origin_mm):.2f} mm and {one.degrees:.2f} '
+        f"degrees in {report.seconds:g} s of MuJoCo {report.version}."
+        for one in report.moved()
+    ]
+    return moved + [f"scene {entry.place}: MuJoCo warns: {warning}" for warning in report.warnings]
+
+
+def check_splits(suite: Suite) -> list[str]:
+    """Whether what is held out is held out, and no scene is there twice."""
+    scenes = suite.document["scenes"]
+    lines = [
+        f"scene {scene['place']}: split {scene['split']} and task {scene['kind']}, where the request asks for "
+        f"{suite.request.split_of(scene['place'])} and {suite.request.task_of(scene['place'])}."
+        for scene in scenes
+        if (scene["split"], scene["kind"])
+        != (suite.request.split_of(scene["place"]), suite.request.task_of(scene["place"]))
+    ]
+    for what, of in (("object", "nouns"), ("layout", "structure")):
+        parts = {part: _values(scenes, part, of) for part in ("train", f"val/{what}", f"test/{what}")}
+        names = list(parts)
+        for number, first in enumerate(names):
+            for second in names[number + 1 :]:
+                if shared := sorted(parts[first] & parts[second]):
+                    lines.append(f"{first} and {second} share {of}: {', '.join(map(str, shared))}.")
+    seen: dict[str, int] = {}
+    for scene in scenes:
+        if (first := seen.setdefault(scene["checksum"], scene["place"])) != scene["place"]:
+            lines.append(f"scenes {first} and {scene['place']} are the same.")
+    return lines
+
+
+def _values(scenes: list[dict[str, Any]], split: str, key: str) -> set[Any]:
+    found: set[Any] = set()
+    for scene in scenes:
+        if scene["split"] == split:
+            value = scene.get(key)
+            if value is None:
+                raise SuiteError(f"suite.json is damaged: scene {scene['place']} has no {key}.")
+            # Structures are a task's own: different tasks may use the same words.
+            found |= set(value) if isinstance(value, list) else {f"{scene['kind']}: {value}"}
+    return found
+
+
+@contextmanager
+def _mapping(workers: int) -> Iterator[Callable[..., Any]]:
+    if workers == 1:
+        yield map
+        return
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        yield partial(pool.map, chunksize=4)

@@ -1,0 +1,162 @@
+"""Collects the objects of a composition, and says it in sentences that the grammar reads back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pat3d.envs.suites.pools import (
+    COLOURS,
+    CONTAINERS,
+    FLAT,
+    HOMES,
+    ITEMS,
+    PLAIN,
+    STANDING,
+    Container,
+    item_of,
+)
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene import GROUND, Relation, SupportKind
+
+STACKED_WIDTH = 0.09
+"""Of the widest thing put on top of another [m]."""
+
+_NAMED_MATERIAL = 0.4
+"""Share of things that come in several materials whose material is named."""
+
+
+class ExhaustedError(Exception):
+    """No noun or name is left that fits."""
+
+
+class Composer:
+    """Collects the objects of one composition."""
+
+    def __init__(self, rng: np.random.Generator, *, moved: tuple[str, ...], others: tuple[str, ...]) -> None:
+        self.rng, self._nouns = rng, {True: moved, False: others}
+        self.objects: list[PlannedObject] = []
+        self.relations: list[Relation] = []
+        self.moved: list[str] = []
+        self.places: list[str] = []
+        self.avoid: tuple[str, ...] = ()
+        """Colours that mean something in this scene, so that bystanders have others."""
+        self.container_colours: tuple[str, ...] | None = None
+        """Of containers that are no homes; None for any colour that means nothing."""
+        self.coloured_only = False
+
+    def item(
+        self, parent: str = GROUND, kind: SupportKind = "on", *, moved: bool = False,
+        groups: tuple[str, ...] = (FLAT, STANDING, PLAIN), width: float = 1.0, colour: str | None = None,
+    ) -> str:  # fmt: skip
+        """Add something a gripper takes, at most `width` [m] wide; returns its name."""
+        if colour is not None or self.coloured_only:
+            groups = tuple(group for group in groups if group != PLAIN)
+        fitting = [
+            item.noun for item in ITEMS
+            if item.noun in self._nouns[moved] and item.group in groups and item.width <= width
+        ]  # fmt: skip
+        if not fitting:
+            raise ExhaustedError
+        item = item_of(self._pick(fitting))
+        material = None
+        if item.materials and self.rng.random() < _NAMED_MATERIAL:
+            material = self._pick(item.materials)
+        if item.group == PLAIN:
+            colours: tuple[str, ...] = ()
+        else:
+            colours = (colour or self._pick([name for name in COLOURS if name not in self.avoid]),)
+        name = self._add(item.noun, colours, material, parent, kind)
+        if moved:
+            self.moved.append(name)
+        return name
+
+    def container(self, kind: str | None = None, *, room: int = 1, place: bool = False) -> tuple[str, Container]:
+        """Add something that takes `room` items; returns its name and what it is."""
+        fitting = [one for one in CONTAINERS if one.room >= room and kind in (None, one.kind)]
+        chosen = fitting[int(self.rng.integers(len(fitting)))]
+        free = self.container_colours or tuple(name for name in COLOURS if name not in self.avoid)
+        colours = (self._pick(free),) if chosen.coloured else ()
+        name = self._add(chosen.noun, colours, None, GROUND, "on")
+        if place:
+            self.places.append(name)
+        return name, chosen
+
+    def home(self, colour: str) -> str:
+        """Add what things of one colour are sorted into."""
+        name = self._add(self._pick(HOMES), (colour,), None, GROUND, "on")
+        self.places.append(name)
+        return name
+
+    def into(self, where: tuple[str, Container], *, moved: bool = False) -> str:
+        """Add something in or on a container."""
+        name, container = where
+        # The grammar reads a bowl of fruit as a fruit bowl.
+        groups = (FLAT, STANDING) if container.noun == "bowl" else (FLAT, STANDING, PLAIN)
+        kind: SupportKind = "in" if container.kind == "in" else "on"
+        return self.item(name, kind, moved=moved, groups=groups, width=container.width)
+
+    def tower(self, height: int, *, parent: str = GROUND) -> str:
+        """Add flat things one upon another; returns the topmost."""
+        for _ in range(height):
+            width = 1.0 if parent == GROUND else STACKED_WIDTH
+            parent = self.item(parent, "on", groups=(FLAT,), width=width)
+        return parent
+
+    def fill(self, count: int) -> None:
+        """Add loose things until there are `count` objects."""
+        while len(self.objects) < count:
+            self.item()
+
+    def plan(self) -> ScenePlan:
+        """Everything, with the sentence that describes it."""
+        prompt = self._sentence()
+        return ScenePlan(prompt=prompt, objects=tuple(self.objects), relations=tuple(self.relations))
+
+    def _pick(self, of: list[str] | tuple[str, ...]) -> str:
+        return of[int(self.rng.integers(len(of)))]
+
+    def _add(
+        self, noun: str, colours: tuple[str, ...], material: str | None, parent: str, kind: SupportKind
+    ) -> str:  # fmt: skip
+        # Naming a thing's own material would be no different from not naming it, but reads oddly beside "red".
+        words = [*colours, *([_ADJECTIVES.get(material, material)] if material else []), noun]
+        name = " ".join(words)
+        if any(obj.name == name for obj in self.objects):
+            raise ExhaustedError
+        self.objects.append(PlannedObject(name=name, noun=noun, phrase=name, colours=colours, material=material))
+        if parent != GROUND:
+            self.relations.append(Relation(child=name, kind=kind, parent=parent))
+        return name
+
+    def _sentence(self) -> str:
+        roots = [obj.name for obj in self.objects if all(rel.child != obj.name for rel in self.relations)]
+        shuffled = [roots[place] for place in self.rng.permutation(len(roots))]
+        carriers = {rel.parent for rel in self.relations}
+        loose = [_a(name) for name in shuffled if name not in carriers]
+        # A sentence for each group: in a list, "on it" may be read as said of everything before.
+        sentences = [self._words(name) for name in shuffled if name in carriers] + ([_listed(loose)] if loose else [])
+        return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences)
+
+    def _words(self, root: str) -> str:
+        on = [rel for rel in self.relations if rel.parent == root]
+        noun = next(obj.noun for obj in self.objects if obj.name == root)
+        if any(noun == one.noun for one in CONTAINERS):
+            return f"{_a(root)} with {_listed([_a(rel.child) for rel in on])} {on[0].kind} it"
+        tower, top = [root], root
+        while above := next((rel.child for rel in self.relations if rel.parent == top), None):
+            tower.append(above)
+            top = above
+        return " on ".join(_a(name) for name in reversed(tower))
+
+
+_ADJECTIVES = {"wood": "wooden"}
+
+
+def _a(name: str) -> str:
+    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+def _listed(parts: list[str]) -> str:
+    if len(parts) < 3:
+        return " and ".join(parts)
+    return f"{', '.join(parts[:-1])}, and {parts[-1]}"

@@ -1,0 +1,85 @@
+"""Sampled tabletop compositions: objects, what carries them, the sentence that says so, and the task they are for.
+
+A composition is a core, which the task needs, a side group beside it, and loose objects up to the number asked for.
+Core and side group together are the composition's structure. Some structures, and some nouns of moved objects, occur in
+no training scene: they are what validation and testing by layout and by object are about.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.envs.suites.composer import Composer, ExhaustedError
+from pat3d.envs.suites.pools import partition
+from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.structures import CORES, SIDES, Core
+from pat3d.gather import derived_seed
+from pat3d.plan.scene_plan import ScenePlan
+
+_DRAWS = 200
+"""Of nouns and colours for one composition; most need one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """A scene before anything of it is made."""
+
+    plan: ScenePlan
+    task: str
+    """As `parse_task` reads it."""
+    structure: str
+    """Core and side group."""
+    moved: tuple[str, ...]
+    """Names of the objects that the task is to move."""
+    places: tuple[str, ...]
+    """Names of what they are moved from or to, apart from the ground."""
+    scene_seed: int
+
+
+def draft(request: Request, place: int, candidate: int) -> Draft:
+    """The `candidate`-th composition for a place of the suite, both from 0; the same arguments give the same one."""
+    seed = derived_seed(request.seed, "suite", place, candidate)
+    kind, split = request.task_of(place), request.split_of(place)
+    part, _, held_out = split.partition("/")
+    structures = structure_splits(request, kind)["train" if held_out == "object" else part]
+    nouns = partition(request.seed)
+    for draw in range(_DRAWS):
+        rng = np.random.default_rng([seed, draw])
+        core, side = structures[int(rng.integers(len(structures)))]
+        composer = Composer(rng, moved=nouns[part if held_out == "object" else "train"], others=nouns["train"])
+        try:
+            task = core.build(composer)
+            side.build(composer)
+            least = max(request.objects[0], core.size + side.size)
+            composer.fill(int(rng.integers(least, request.objects[1] + 1)))
+        except ExhaustedError:
+            continue
+        return Draft(
+            plan=composer.plan(), task=task, structure=_name(core, side), moved=tuple(composer.moved),
+            places=tuple(composer.places), scene_seed=derived_seed(seed, "scene"),
+        )  # fmt: skip
+    raise RuntimeError(f"no composition for place {place} of {request}")
+
+
+def structure_splits(request: Request, kind: str) -> dict[str, list[tuple[Core, Core]]]:
+    """The structures of a task, dealt to "train", "val" and "test"; a tenth and at least one to each of the last."""
+    most = request.objects[1]
+    known = [(core, side) for core in CORES[kind] for side in SIDES if core.size + side.size <= most]
+    order = np.random.default_rng([request.seed, *f"structures {kind}".encode()]).permutation(len(known))
+    few = max(1, round(len(known) / 10))
+    dealt = [known[place] for place in order]
+    return {"val": dealt[:few], "test": dealt[few : 2 * few], "train": dealt[2 * few :]}
+
+
+def structure_names(request: Request, kind: str) -> dict[str, list[str]]:
+    """`structure_splits` in words."""
+    return {
+        part: sorted(_name(core, side) for core, side in found)
+        for part, found in structure_splits(request, kind).items()
+    }
+
+
+def _name(core: Core, side: Core) -> str:
+    return f"{core.name} + {side.name}"

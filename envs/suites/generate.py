@@ -1,0 +1,225 @@
+"""Makes a suite: hands units to workers until every place has its scene, then writes what is said about all of them."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from pat3d.envs.suites.crew import Answer, Crew, Unit, how_it_ended
+from pat3d.envs.suites.folder import LOG, MANIFEST, SuiteFolder, read_document, write_document
+from pat3d.envs.suites.manifest import begin_manifest, finish_manifest
+from pat3d.envs.suites.request import Request
+from pat3d.errors import SuiteError
+
+CANDIDATES = 30
+"""Tried for a place before the run gives up."""
+
+DEATHS = 2
+"""Of workers over the same unit before it is rejected."""
+
+FAILED_STARTS = 3
+"""Workers that may end before they are ready."""
+
+_TICK = 0.5
+"""Between two looks at the clock [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Status:
+    """How far a run is."""
+
+    done: int
+    total: int
+    rejected: int
+    """Candidates rejected, in earlier runs too."""
+    made: int
+    """Scenes made by this run."""
+    seconds: float
+    """Since the first worker of this run was ready [s]; 0 before."""
+    workers: int
+    note: str = ""
+
+    @property
+    def per_hour(self) -> float:
+        """Scenes an hour in this run."""
+        return 3600.0 * self.made / self.seconds if self.seconds > 0.0 else 0.0
+
+    @property
+    def left(self) -> float | None:
+        """Time to go [s]; None where it cannot be told yet."""
+        return None if not self.made else (self.total - self.done) * self.seconds / self.made
+
+
+Watcher = Callable[[Status], None]
+
+
+def generate(path: str, request: Request, *, workers: int, tell: Watcher = lambda status: None) -> Status:
+    """Make the suite `request` in the folder `path`, or what is missing of it.
+
+    Returns:
+        How it ended.
+
+    Raises:
+        SuiteError: the folder is in use, holds another suite, or a place finds no scene.
+        ExportError: it cannot be written.
+        EnvironmentSetupError: there is no such robot, or robosuite is not installed.
+    """
+    from pat3d.envs.robots import make_robot
+
+    make_robot(request.robot)
+    folder = SuiteFolder(path)
+    folder.check_usable()
+    with folder.locked():
+        folder.clear_work()
+        if (folder.path / MANIFEST).exists():
+            _check_same(folder, request)
+        run = _Run(folder, request, workers, tell)
+        if run.pending:
+            begin_manifest(folder, request)
+            run.work()
+        finish_manifest(folder, request)
+        folder.clear_work()
+    return run.status("")
+
+
+def _check_same(folder: SuiteFolder, request: Request) -> None:
+    """Raise SuiteError unless the suite in `folder` is of the same request, or a shorter one."""
+    where = str(folder.path / MANIFEST)
+    document = read_document(folder.path / MANIFEST)
+    earlier = Request.from_dict(document.get("request"), where)
+    asked = {**request.as_dict(), "scenes": earlier.scenes}
+    differ = {name: value for name, value in earlier.as_dict().items() if value != asked[name]}
+    if differ:
+        said = ", ".join(f"{name} {json.dumps(value)}" for name, value in differ.items())
+        raise SuiteError(f"{folder.path} holds a suite with {said}; ask for the same, or give a new folder.")
+    if request.scenes < earlier.scenes:
+        raise SuiteError(
+            f"{folder.path} holds a suite of {earlier.scenes} scenes; it can be made longer, not shorter. "
+            "Give a new folder."
+        )
+    from pat3d.versions import versions
+
+    found = document.get("versions")
+    made_with = found if isinstance(found, dict) else {}
+    changed = sorted(name for name, value in versions().items() if made_with.get(name) != value)
+    if changed:
+        said = ", ".join(f"{name} {made_with.get(name)} (here {versions()[name]})" for name in changed)
+        raise SuiteError(f"{folder.path} was begun with {said}; go on with the same versions, or give a new folder.")
+
+
+class _Run:
+    """The queue of one run and the workers at it."""
+
+    def __init__(self, folder: SuiteFolder, request: Request, workers: int, tell: Watcher) -> None:
+        self.folder, self.request, self.workers, self.tell = folder, request, workers, tell
+        done, rejected = folder.done(), folder.rejected()
+        self.pending: deque[Unit] = deque(
+            (place, rejected.get(place, 0)) for place in range(request.scenes) if place not in done
+        )
+        self.done = request.scenes - len(self.pending)
+        self.rejected, self.made = sum(rejected.values()), 0
+        self._deaths: dict[Unit, int] = {}
+        self._failed_starts = 0
+        self._began: float | None = None
+
+    def status(self, note: str) -> Status:
+        """How far the run is."""
+        seconds = 0.0 if self._began is None else time.perf_counter() - self._began
+        crew = getattr(self, "_crew", None)
+        return Status(
+            done=self.done, total=self.request.scenes, rejected=self.rejected, made=self.made, seconds=seconds,
+            workers=crew.size if crew is not None else 0, note=note,
+        )  # fmt: skip
+
+    def work(self) -> None:
+        """Until nothing is pending."""
+        self._check_candidates()
+        self._crew = Crew(self.folder, self.request)
+        with self._crew.dismissed_at_end() as crew:
+            # The first one compiles the simulator's kernels where that is needed; the others find them compiled.
+            crew.hire()
+            self.tell(self.status("preparing the simulator"))
+            while self.pending or crew.busy():
+                for worker in crew.idle():
+                    if self.pending:
+                        crew.give(worker, self.pending.popleft())
+                answer = crew.answer(_TICK)
+                if answer is not None:
+                    self._take(answer)
+                self.tell(self.status("" if self._began is not None else "preparing the simulator"))
+
+    def _take(self, answer: Answer) -> None:
+        crew = self._crew
+        if answer.ended is not None:
+            self._buried(answer)
+        elif "fatal" in answer.said:
+            raise SuiteError(
+                f"a worker had to stop: {answer.said['fatal']} What is finished is kept; run the same command again."
+            )
+        elif "ready" in answer.said:
+            self._failed_starts = 0
+            if self._began is None:
+                self._began = time.perf_counter()
+                for _ in range(min(self.workers, len(self.pending)) - 1):
+                    crew.hire()
+        else:
+            self._log(answer.said)
+            if answer.said["reason"]:
+                self._again(answer.said["place"], answer.said["candidate"])
+            else:
+                self.done += 1
+                self.made += 1
+
+    def _buried(self, answer: Answer) -> None:
+        """A worker is gone; what it did is done by another, unless that has killed one before."""
+        crew = self._crew
+        how = how_it_ended(answer.ended or 0)
+        if answer.unit is None:
+            self._failed_starts += 1
+            if self._failed_starts >= FAILED_STARTS:
+                words = crew.last_words(answer.worker)
+                raise SuiteError(f"workers end before they are ready: the last one {how}. {words}")
+        else:
+            deaths = self._deaths[answer.unit] = self._deaths.get(answer.unit, 0) + 1
+            place, candidate = answer.unit
+            if place in self.folder.done():
+                # It had just put the scene in its place.
+                self.done += 1
+                self.made += 1
+            elif self.folder.rejection(place, candidate).exists():
+                self._again(place, candidate)
+            elif deaths < DEATHS:
+                self.pending.appendleft(answer.unit)
+            else:
+                message = f"{deaths} workers died over it; the last one {how}. {crew.last_words(answer.worker)}"
+                document = {
+                    "place": place, "candidate": candidate, "split": self.request.split_of(place),
+                    "kind": self.request.task_of(place), "reason": "worker", "message": message,
+                }  # fmt: skip
+                write_document(self.folder.rejection(place, candidate), document)
+                self._again(place, candidate)
+        if self.pending:
+            crew.hire()
+
+    def _again(self, place: int, candidate: int) -> None:
+        """Put the next candidate for a place first in the queue."""
+        self.rejected += 1
+        self.pending.appendleft((place, candidate + 1))
+        self._check_candidates()
+
+    def _check_candidates(self) -> None:
+        for place, candidate in self.pending:
+            if candidate >= CANDIDATES:
+                last = read_document(self.folder.rejection(place, candidate - 1))
+                raise SuiteError(
+                    f"none of {candidate} candidates for scene {place} ({self.request.task_of(place)}, "
+                    f"{self.request.split_of(place)}) became one; the last: {last.get('message')}"
+                )
+
+    def _log(self, said: dict[str, Any]) -> None:
+        with (self.folder.path / LOG).open("a", encoding="utf-8") as file:
+            file.write(json.dumps(said) + "\n")

@@ -1,0 +1,121 @@
+"""What a suite is made from: its request, and what of it falls on every place in the suite.
+
+A place is decided by the request's seed and its number alone, never by how many scenes there are or who makes them: a
+suite can be made longer, and comes out the same with any number of workers.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pat3d.errors import SuiteError
+
+TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve")
+
+SPLITS = ("train", "val", "test", "val/layout", "val/object", "test/layout", "test/object")
+"""What may be asked for; a scene belongs to "train" or to one of those with a slash."""
+
+_CYCLE = 20
+_HELD_OUT = {3: "test/object", 8: "val/layout", 13: "test/layout", 18: "val/object"}
+"""In every 20 scenes of a task: one for each of the held-out splits, the others for training."""
+
+_STAGGER = 4
+"""Places by which the tasks' cycles are shifted, so that small suites have some of every split."""
+
+MIN_OBJECTS, MAX_OBJECTS = 4, 16
+MAX_SCENES = 1_000_000
+MAX_SEED = 2**32 - 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """Everything that decides a suite's content."""
+
+    tasks: tuple[str, ...] = TASKS[:5]
+    scenes: int = 100
+    seed: int = 0
+    objects: tuple[int, int] = (5, 8)
+    """Fewest and most objects of a scene; containers count."""
+    robot: str = "Panda"
+    """That has to be able to reach and take what a task needs."""
+    picture: int = 320
+    """Width of the scenes' pictures [pixel]; 0 for none."""
+
+    def __post_init__(self) -> None:
+        unknown = [name for name in self.tasks if name not in TASKS]
+        if unknown or not self.tasks or len(set(self.tasks)) != len(self.tasks):
+            what = f'no task "{unknown[0]}"' if unknown else "name each task once, and at least one"
+            raise SuiteError(f"{what}. Tasks: {', '.join(TASKS)}.")
+        if not 1 <= self.scenes <= MAX_SCENES:
+            raise SuiteError(f"a suite has 1 to {MAX_SCENES} scenes, not {self.scenes}.")
+        if not 0 <= self.seed <= MAX_SEED:
+            raise SuiteError(f"the seed must be a whole number from 0 to {MAX_SEED}, got {self.seed}.")
+        fewest, most = self.objects
+        if not MIN_OBJECTS <= fewest <= most <= MAX_OBJECTS or most < MIN_OBJECTS + 2:
+            raise SuiteError(
+                f"scenes have from {MIN_OBJECTS} to {MAX_OBJECTS} objects, and the larger number is at least "
+                f"{MIN_OBJECTS + 2}; got {fewest}-{most}."
+            )
+        if self.picture and not 64 <= self.picture <= 2048:
+            raise SuiteError(f"pictures are 64 to 2048 pixels wide, or 0 for none; got {self.picture}.")
+
+    def as_dict(self) -> dict[str, Any]:
+        """JSON data."""
+        return {
+            "tasks": list(self.tasks), "scenes": self.scenes, "seed": self.seed, "objects": list(self.objects),
+            "robot": self.robot, "picture": self.picture,
+        }  # fmt: skip
+
+    @staticmethod
+    def from_dict(data: Any, where: str) -> Request:
+        """The request that `as_dict` wrote.
+
+        Raises:
+            SuiteError: `data` is something else; the message names `where`.
+        """
+        good = (
+            isinstance(data, Mapping)
+            and _strings(data.get("tasks"))
+            and all(_whole(data.get(name)) for name in ("scenes", "seed", "picture"))
+            and isinstance(data.get("objects"), list)
+            and len(data["objects"]) == 2
+            and all(map(_whole, data["objects"]))
+            and isinstance(data.get("robot"), str)
+        )
+        if not good:
+            raise SuiteError(f"{where}: the suite's request is damaged: {json.dumps(data)[:200]}")
+        return Request(
+            tasks=tuple(data["tasks"]), scenes=data["scenes"], seed=data["seed"],
+            objects=(data["objects"][0], data["objects"][1]), robot=data["robot"], picture=data["picture"],
+        )  # fmt: skip
+
+    def task_of(self, place: int) -> str:
+        """The kind of task at a place of the suite, from 0."""
+        return self.tasks[place % len(self.tasks)]
+
+    def split_of(self, place: int) -> str:
+        """The split of a place of the suite, from 0."""
+        turn, number = divmod(place, len(self.tasks))
+        return _HELD_OUT.get((turn + _STAGGER * number) % _CYCLE, "train")
+
+
+def check_split(split: str | None) -> None:
+    """Raise SuiteError unless `split` is None or the name of one."""
+    if split is not None and split not in SPLITS:
+        raise SuiteError(f'no split "{split}". Splits: {", ".join(SPLITS)}.')
+
+
+def in_split(own: str, asked: str | None) -> bool:
+    """Whether a scene of split `own` belongs to the split `asked` for; None asks for all."""
+    return asked is None or own == asked or own.startswith(f"{asked}/")
+
+
+def _whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _strings(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, str) and all(isinstance(one, str) for one in value)

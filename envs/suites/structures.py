@@ -1,0 +1,187 @@
+"""The structures of compositions: cores, which a task needs, and side groups, which stand beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from pat3d.envs.suites.composer import STACKED_WIDTH, Composer
+from pat3d.envs.suites.pools import COLOURS, FLAT, HOME_WIDTH, STANDING
+
+
+@dataclass(frozen=True, kw_only=True)
+class Core:
+    """What a task needs in its scene."""
+
+    name: str
+    size: int
+    """Objects that it adds."""
+    build: Callable[[Composer], str]
+    """Adds them, and says which task they are for."""
+
+
+def _pick_loose(c: Composer) -> str:
+    return f"pick:{c.item(moved=True)}"
+
+
+def _pick_in(c: Composer) -> str:
+    return f"pick:{c.into(c.container('in', place=True), moved=True)}"
+
+
+def _pick_beside(c: Composer) -> str:
+    carrier = c.container("on", room=2, place=True)
+    target = c.into(carrier, moved=True)
+    c.into(carrier)
+    return f"pick:{target}"
+
+
+def _pick_top(height: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        return f"pick:{_on_tower(c, height)}"
+
+    return build
+
+
+def _on_tower(c: Composer, height: int) -> str:
+    """Something to move, on top of `height` others."""
+    base = c.tower(height)
+    c.places.append(base)
+    return c.item(base, "on", moved=True, groups=(FLAT, STANDING), width=STACKED_WIDTH)
+
+
+def _place_loose(kind: str, companions: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        where = c.container(kind, room=companions + 1, place=True)
+        for _ in range(companions):
+            c.into(where)
+        return f"place:{c.item(moved=True, width=where[1].width)}:{where[0]}"
+
+    return build
+
+
+def _place_from_tower(c: Composer) -> str:
+    where = c.container(place=True)
+    base = c.tower(1)
+    width = min(STACKED_WIDTH, where[1].width)
+    return f"place:{c.item(base, 'on', moved=True, groups=(FLAT, STANDING), width=width)}:{where[0]}"
+
+
+def _place_across(c: Composer) -> str:
+    where = c.container("in", place=True)
+    source = c.container("on", place=True)
+    width = min(where[1].width, source[1].width)
+    return f"place:{c.item(source[0], 'on', moved=True, width=width)}:{where[0]}"
+
+
+def _stack_loose(height: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        base = c.tower(height)
+        c.places.append(base)
+        return f"stack:{c.item(moved=True, groups=(FLAT, STANDING), width=STACKED_WIDTH)}:{base}"
+
+    return build
+
+
+def _stack_from(kind: str) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        source = c.container(kind, place=True)
+        base = c.tower(1)
+        c.places.append(base)
+        width = min(source[1].width, STACKED_WIDTH)
+        carried = "in" if source[1].kind == "in" else "on"
+        return f"stack:{c.item(source[0], carried, moved=True, groups=(FLAT, STANDING), width=width)}:{base}"
+
+    return build
+
+
+def _sort(first: int, second: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        colours = [COLOURS[place] for place in c.rng.permutation(6)[:2]]
+        c.avoid, c.coloured_only = (*colours, "white"), True
+        # A bystander of a container's colour would have a home there: containers are white, and nothing else is.
+        c.container_colours = ("white",)
+        for colour, count in zip(colours, (first, second), strict=True):
+            c.home(colour)
+            for _ in range(count):
+                c.item(moved=True, colour=colour, width=HOME_WIDTH)
+        return "sort"
+
+    return build
+
+
+def _unload(kind: str, count: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        where = c.container(kind, room=count, place=True)
+        for _ in range(count):
+            c.into(where, moved=True)
+        return f"unload:{where[0]}"
+
+    return build
+
+
+def _retrieve(height: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        target = c.item(moved=True, groups=(FLAT,), width=STACKED_WIDTH)
+        c.places.append(c.tower(height, parent=target))
+        return f"retrieve:{target}"
+
+    return build
+
+
+def _core(name: str, size: int, build: Callable[[Composer], str]) -> Core:
+    return Core(name=name, size=size, build=build)
+
+
+CORES: dict[str, tuple[Core, ...]] = {
+    "pick": (
+        _core("loose", 1, _pick_loose), _core("in a container", 2, _pick_in),
+        _core("beside another on a carrier", 3, _pick_beside), _core("on top of one", 2, _pick_top(1)),
+        _core("on top of two", 3, _pick_top(2)),
+    ),
+    "place": (
+        _core("into an empty container", 2, _place_loose("in", 0)),
+        _core("onto an empty carrier", 2, _place_loose("on", 0)),
+        _core("beside another in a container", 3, _place_loose("in", 1)),
+        _core("beside another on a carrier", 3, _place_loose("on", 1)),
+        _core("from a stack", 3, _place_from_tower), _core("from a carrier into a container", 3, _place_across),
+    ),
+    "stack": (
+        _core("on one", 2, _stack_loose(1)), _core("on two", 3, _stack_loose(2)), _core("on three", 4, _stack_loose(3)),
+        _core("from a carrier", 3, _stack_from("on")), _core("from a container", 3, _stack_from("in")),
+    ),
+    "sort": (
+        _core("one and one", 4, _sort(1, 1)), _core("two and one", 5, _sort(2, 1)),
+        _core("two and two", 6, _sort(2, 2)), _core("three and one", 6, _sort(3, 1)),
+    ),
+    "unload": (
+        _core("two from a container", 3, _unload("in", 2)), _core("two from a carrier", 3, _unload("on", 2)),
+        _core("three from a container", 4, _unload("in", 3)), _core("three from a carrier", 4, _unload("on", 3)),
+    ),
+    "retrieve": (_core("under one", 2, _retrieve(1)), _core("under two", 3, _retrieve(2))),
+}  # fmt: skip
+
+
+def _side_none(c: Composer) -> str:
+    return ""
+
+
+def _side_tower(height: int) -> Callable[[Composer], str]:
+    return lambda c: c.tower(height)
+
+
+def _side_container(kind: str, count: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        where = c.container(kind, room=count)
+        for _ in range(count):
+            c.into(where)
+        return where[0]
+
+    return build
+
+
+SIDES = (
+    _core("nothing", 0, _side_none), _core("a stack of two", 2, _side_tower(2)),
+    _core("a stack of three", 3, _side_tower(3)),
+    _core("one in a container", 2, _side_container("in", 1)), _core("two on a carrier", 3, _side_container("on", 2)),
+    _core("two in a container", 3, _side_container("in", 2)),
+)  # fmt: skip

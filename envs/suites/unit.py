@@ -1,0 +1,184 @@
+"""One unit of the queue: a candidate for a place of the suite, made, proven, and written or rejected."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from pathlib import Path
+from typing import Any
+
+from pat3d.attempts import Attempt, Attempts
+from pat3d.envs.suites.composition import Draft, draft
+from pat3d.envs.suites.folder import RECORD, SuiteFolder, checksum_of, write_document
+from pat3d.envs.suites.request import Request
+from pat3d.errors import LayoutError, TaskError
+from pat3d.gather import order_of
+from pat3d.progress import silent
+from pat3d.report import Clock
+from pat3d.scene import GROUND, Scene
+from pat3d.scene_io import save_scene
+from pat3d.workspace import Workspace
+
+FRICTION = 0.2
+"""Coulomb coefficient [-] while settling."""
+
+
+def make_unit(folder: SuiteFolder, request: Request, place: int, candidate: int) -> dict[str, Any]:
+    """Make a candidate; its scene folder or its rejection is in the suite when this returns.
+
+    Returns:
+        How it went, for the log: place, candidate, reason (empty for a scene), seconds by stage.
+
+    Raises:
+        OSError, Pat3dError: the folder cannot be written.
+    """
+    start, clock = time.perf_counter(), Clock()
+    made = draft(request, place, candidate)
+    scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    try:
+        attempts = Attempts(
+            order_of(made.plan, False), seed=made.scene_seed, friction=FRICTION, device="cpu",
+            workspace=Workspace(scratch / "none", keep=False), clock=clock, progress=silent, scratch=scratch,
+        )  # fmt: skip
+        attempt = attempts.first()
+        reason, message, placement = _fault(attempt), "; ".join(attempt.failures), ""
+        with clock("task"):
+            if not reason and attempt.checked is not None:
+                try:
+                    placement = _doable(attempt.checked.scene, made.task, request.robot)
+                except TaskError as error:
+                    reason, message = "task", str(error)
+        record = _record(request, place, candidate, made, attempt)
+        if reason:
+            write_document(folder.rejection(place, candidate), {**record, "reason": reason, "message": message})
+        else:
+            record["robot"] = placement
+            with clock("files"):
+                _write(folder, request, place, attempt, record, scratch, clock)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    seconds = {**{name: round(value, 3) for name, value in clock.seconds.items() if name != "total"}}
+    return {
+        "place": place, "candidate": candidate, "reason": reason, "message": message,
+        "seconds": round(time.perf_counter() - start, 3), "stages": seconds,
+    }  # fmt: skip
+
+
+def _fault(attempt: Attempt) -> str:
+    """What kind of fault an attempt has, in a word; empty for none."""
+    if attempt.error is not None:
+        return "layout" if isinstance(attempt.error, LayoutError) else "simulation"
+    if attempt.rest is not None and not attempt.rest.at_rest:
+        return "not at rest"
+    if attempt.broken:
+        return "relations"
+    if attempt.checked is None or attempt.passed:
+        return ""
+    proof = attempt.checked.proof
+    if not proof.penetration.passed:
+        return "intersection"
+    if not proof.mujoco.passed:
+        return "MuJoCo"
+    return "equilibrium" if not proof.certificate.passed else "relations"
+
+
+def _doable(scene: Scene, task: str, robot: str) -> str:
+    """Where the robot stands for the task, in words.
+
+    Raises:
+        TaskError: it cannot do it.
+    """
+    from pat3d.envs.placement import place
+    from pat3d.envs.tasks.registry import parse_task
+
+    parsed = parse_task(task)
+    parsed.check(scene)
+    return place(scene, robot, parsed.needs(scene)).describe()
+
+
+def _record(request: Request, place: int, candidate: int, made: Draft, attempt: Attempt) -> dict[str, Any]:
+    """Everything known about a candidate that does not depend on the clock."""
+    from pat3d.envs.tasks.registry import parse_task
+
+    scene = attempt.scene
+    proof = attempt.checked.proof if attempt.checked is not None else None
+    numbers = None
+    if proof is not None:
+        numbers = {
+            "mujoco": {"version": proof.mujoco.version, "seconds": proof.mujoco.seconds, "passed": proof.mujoco.passed,
+                       "mm": proof.mujoco.worst_mm, "degrees": proof.mujoco.worst_degrees},
+            "intersections": len(proof.penetration.hulls) + len(proof.penetration.visuals),
+            "equilibrium": {"passed": proof.certificate.passed, "residual": proof.certificate.worst,
+                            "smallest_friction": proof.certificate.smallest_friction},
+        }  # fmt: skip
+    return {
+        "place": place, "candidate": candidate, "seed": made.scene_seed, "split": request.split_of(place),
+        "kind": request.task_of(place), "task": made.task, "prompt": made.plan.prompt,
+        "instruction": parse_task(made.task).instruction(scene) if scene is not None and _told(made, scene) else "",
+        "structure": made.structure, "moved": list(made.moved),
+        "nouns": sorted({obj.noun for obj in made.plan.objects if obj.name in made.moved}),
+        "axes": _axes(made, scene), "proof": numbers,
+    }  # fmt: skip
+
+
+def _told(made: Draft, scene: Scene) -> bool:
+    from pat3d.envs.tasks.registry import parse_task
+
+    try:
+        parse_task(made.task).check(scene)
+    except TaskError:
+        return False
+    return True
+
+
+def _axes(made: Draft, scene: Scene | None) -> dict[str, Any]:
+    """How difficult a scene is, along the axes of `pat3d.envs.suites.suite.AXES`."""
+    plan = made.plan
+    involved = {*made.moved, *made.places}
+    parents = {rel.child: rel for rel in plan.relations if rel.supports}
+    assets = {obj.name: obj.asset for obj in scene.objects} if scene is not None else {}
+    regions = {name for name, asset in assets.items() if asset.region("in") is not None}
+    # A plate or a tray has an inside too, but things are on it first of all.
+    containers = {name for name in regions if assets[name].regions[0].kind == "in"}
+
+    def height(name: str) -> int:
+        relation = parents.get(name)
+        if relation is None or relation.parent in regions or relation.kind == "in":
+            return 1
+        return 1 + height(relation.parent)
+
+    return {
+        "objects": len(plan.objects),
+        "clutter": sum(obj.name not in involved for obj in plan.objects),
+        "container": any(name in containers for name in made.places),
+        "stack_height": max(height(obj.name) for obj in plan.objects if obj.name != GROUND),
+        "friction": None if scene is None else min(scene[name].asset.material.friction for name in made.moved),
+    }
+
+
+def _write(
+    folder: SuiteFolder, request: Request, place: int, attempt: Attempt, record: dict[str, Any], scratch: Path,
+    clock: Clock,
+) -> None:  # fmt: skip
+    """Write the scene's folder and move it to its place."""
+    from pat3d.view.preview import save_picture
+
+    checked = attempt.checked
+    if checked is None:
+        return
+    fresh = scratch / "scene"
+    fresh.mkdir()
+    save_scene(checked.scene, fresh)
+    checked.mjcf.rename(fresh / "mjcf")
+    if request.picture:
+        with clock("picture"):
+            save_picture(checked.scene, fresh / "preview.png", width=request.picture, height=request.picture * 3 // 4)
+    write_document(fresh / RECORD, {**record, "checksum": checksum_of(fresh)})
+    target = folder.scene(place)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    # A worker that outlived its run by a moment may have made the same scene already.
+    if not target.exists():
+        fresh.rename(target)

@@ -1,0 +1,68 @@
+"""A worker process: reads units from its input, a JSON line each, and answers with a line each.
+
+It has no other tie to its run and ends when its input does, in the middle of a unit too: a run that is killed leaves
+nobody behind who still writes.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import threading
+from queue import SimpleQueue
+from typing import Any, TextIO
+
+from pat3d.envs.suites.folder import SuiteFolder
+from pat3d.envs.suites.request import Request
+from pat3d.errors import Pat3dError
+
+
+def main() -> int:
+    """Serve one run; the first line of the input says which."""
+    units: SimpleQueue[dict[str, Any]] = SimpleQueue()
+    # The protocol keeps the real output to itself; whatever libraries print goes to the log.
+    out = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    threading.Thread(target=_listen, args=(units,), daemon=True).start()
+    try:
+        order = units.get()
+        folder, request = SuiteFolder(order["folder"]), Request.from_dict(order["request"], "worker")
+        _prepare(request)
+        _say(out, {"ready": True})
+        while True:
+            unit = units.get()
+            _say(out, _made(folder, request, unit["place"], unit["candidate"]))
+    except (OSError, MemoryError, Pat3dError) as error:
+        _say(out, {"fatal": f"{type(error).__name__}: {error}"})
+        return 1
+
+
+def _made(folder: SuiteFolder, request: Request, place: int, candidate: int) -> dict[str, Any]:
+    from pat3d.envs.suites.unit import make_unit
+
+    return make_unit(folder, request, place, candidate)
+
+
+def _prepare(request: Request) -> None:
+    """Everything that is slow the first time."""
+    from pat3d.envs.robots import make_robot
+    from pat3d.kernels import prepare
+
+    make_robot(request.robot)
+    prepare("cpu")
+
+
+def _listen(units: SimpleQueue[dict[str, Any]]) -> None:
+    for line in sys.stdin:
+        units.put(json.loads(line))
+    os._exit(0)
+
+
+def _say(out: TextIO, answer: dict[str, Any]) -> None:
+    out.write(json.dumps(answer) + "\n")
+    out.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,106 @@
+"""What a policy is, and what an evaluation does with its answers.
+
+class Still:
+def reset(self, episode):
+self.size = episode.action_size
+
+def act(self, observation):
+return numpy.zeros(self.size)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+OUT_OF_RANGE = 0.05
+"""Actions may pass 1 by this much, as regressions do; they are clipped."""
+
+MAX_CHUNK = 1000
+"""Actions that a policy may give at once."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EpisodeStart:
+    """What a policy is told before an episode."""
+
+    instruction: str
+    """The task in words."""
+    task: str
+    """Specification of the task: "pick:red mug"."""
+    seed: int
+    """Of the episode; a policy that draws random numbers draws them from this."""
+    robot: str
+    control: str
+    action_size: int
+    control_freq: float
+    """Actions a second [1/s]."""
+    env: Any = None
+    """The TabletopEnv itself, for a policy with `privileged = True` only."""
+
+
+@runtime_checkable
+class Policy(Protocol):
+    """Two methods; an optional attribute `privileged = True` asks for the environment itself."""
+
+    def reset(self, episode: EpisodeStart) -> None:
+        """An episode begins."""
+        ...
+
+    def act(self, observation: Mapping[str, Any]) -> Any:
+        """The next action in [-1, 1], shape (action_size,), or several in a row, shape (n, action_size)."""
+        ...
+
+
+class PolicyError(Exception):
+    """A policy did what no policy may; the episode is recorded as a policy error with this reason."""
+
+    def __init__(self, kind: str, reason: str) -> None:
+        super().__init__(f"{kind}: {reason}")
+        self.kind, self.reason = kind, reason
+
+
+class PolicyHang(BaseException):
+    """Interrupts a policy that thinks for too long; no `except Exception` of the policy swallows it."""
+
+
+def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32]:
+    """The actions in a policy's answer, in [-1, 1], shape (n, size).
+
+    Args:
+        answer: what the policy returned.
+        size: values in one action.
+        clip: clip whatever is out of range.
+
+    Raises:
+        PolicyError: not numbers, the wrong shape, not finite, or further out of range than OUT_OF_RANGE.
+    """
+    if hasattr(answer, "detach"):
+        answer = answer.detach().cpu().numpy()
+    try:
+        values = np.asarray(answer)
+        if values.dtype.kind not in "fiub":
+            raise TypeError(f"values of type {values.dtype}")
+        values = values.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise PolicyError("no numbers", f"an action is {size} numbers, not {_short(error)}") from None
+    if values.ndim == 1:
+        values = values[None]
+    if values.ndim != 2 or values.shape[1] != size or not 1 <= len(values) <= MAX_CHUNK:
+        raise PolicyError("wrong shape", f"got shape {np.shape(answer)}, valid are ({size},) and (n, {size})")
+    if not np.isfinite(values).all():
+        what = "NaN" if np.isnan(values).any() else "infinite values"
+        raise PolicyError("not finite", f"an action holds {what}")
+    largest = float(np.abs(values).max())
+    if largest > 1.0 + OUT_OF_RANGE and not clip:
+        raise PolicyError("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
+    return np.clip(values, -1.0, 1.0).astype(np.float32)
+
+
+def _short(error: object, limit: int = 200) -> str:
+    text = str(error)
+    return text if len(text) <= limit else text[:limit] + "..."

@@ -1,0 +1,45 @@
+"""What is the same for every episode of an evaluation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from pat3d.errors import EvaluationError
+
+
+@dataclass(frozen=True, kw_only=True)
+class RolloutSettings:
+    """What is the same for every episode of an evaluation."""
+
+    robot: str = "Panda"
+    control: str = "osc"
+    obs: str = "state"
+    control_freq: float = 20.0
+    max_steps: int = 400
+    image_size: int = 128
+    max_objects: int = 32
+    """Rows of the state's "objects", so that every scene of a suite gives observations of one shape."""
+    replan: int = 8
+    """Actions that are done of several given at once before the policy is asked again."""
+    clip: bool = False
+    """Clip actions that are out of range; otherwise they are policy errors."""
+    act_seconds: float = 30.0
+    """A policy that thinks for longer hangs [s]."""
+
+    def __post_init__(self) -> None:
+        for name, low, high in (("max_steps", 1, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
+            if not low <= getattr(self, name) <= high:
+                raise EvaluationError(f"{name} is {low} to {high}, not {getattr(self, name)}.")
+        if not 0.001 <= self.act_seconds <= 3600.0:
+            raise EvaluationError(f"the time for an action is 0.001 to 3600 s, not {self.act_seconds}.")
+
+    def make_env(self, scene: str, task: str, **more: Any) -> Any:
+        """The environment of an episode."""
+        from pat3d.envs.env import TabletopEnv
+
+        kinds: dict[str, Any] = {"robot": self.robot, "obs": self.obs, "control": self.control}
+        return TabletopEnv(
+            scene=scene or None, task=task, control_freq=self.control_freq, max_objects=self.max_objects,
+            image_size=(self.image_size, self.image_size), **kinds, **more,
+        )  # fmt: skip

@@ -1,0 +1,141 @@
+"""How sure a success rate is, and a difference between two.
+
+Intervals cover 95 %. Two policies that did the same episodes are compared on the episodes where they differ:
+
+    McNemar, exact:   p = P(|X - n/2| >= |b - n/2|),   X ~ Binomial(n = b + c, 1/2)
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from pat3d.errors import EvaluationError
+
+LEVEL = 0.95
+POWER = 0.8
+"""Probability with which a difference of the size seen would be found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """A share of successes with its interval."""
+
+    successes: int
+    episodes: int
+    low: float
+    high: float
+
+    @property
+    def value(self) -> float:
+        """In [0, 1]; nan without episodes."""
+        return self.successes / self.episodes if self.episodes else math.nan
+
+    def __str__(self) -> str:
+        if not self.episodes:
+            return "no episodes"
+        return f"{100 * self.value:.1f} % [{100 * self.low:.1f}, {100 * self.high:.1f}] of {self.episodes}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Two policies on the same episodes."""
+
+    both: int
+    only_first: int
+    only_second: int
+    neither: int
+    p_value: float
+    """Of the exact McNemar test, two-sided."""
+    needed: int | None
+    """Paired episodes that decide a difference of this size with POWER; None where the two are equal so far."""
+
+    @property
+    def episodes(self) -> int:
+        """That both did."""
+        return self.both + self.only_first + self.only_second + self.neither
+
+    @property
+    def difference(self) -> float:
+        """Success rate of the first less that of the second."""
+        return (self.only_first - self.only_second) / self.episodes if self.episodes else math.nan
+
+    @property
+    def decided(self) -> bool:
+        """Whether the difference is significant at 5 %."""
+        return self.p_value < 1.0 - LEVEL
+
+
+def wilson(successes: int, episodes: int, level: float = LEVEL) -> Rate:
+    """Wilson's score interval."""
+    _require(successes, episodes)
+    if not episodes:
+        return Rate(successes=0, episodes=0, low=0.0, high=1.0)
+    z = float(_stats().norm.ppf(0.5 + level / 2))
+    p, n = successes / episodes, episodes
+    middle, scale = p + z * z / (2 * n), 1.0 + z * z / n
+    half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    low = 0.0 if successes == 0 else (middle - half) / scale
+    high = 1.0 if successes == episodes else (middle + half) / scale
+    return Rate(successes=successes, episodes=episodes, low=low, high=high)
+
+
+def clopper_pearson(successes: int, episodes: int, level: float = LEVEL) -> Rate:
+    """The exact interval: covers at least `level`, wider than Wilson's."""
+    _require(successes, episodes)
+    if not episodes:
+        return Rate(successes=0, episodes=0, low=0.0, high=1.0)
+    beta, tail = _stats().beta, (1 - level) / 2
+    low = 0.0 if successes == 0 else float(beta.ppf(tail, successes, episodes - successes + 1))
+    high = 1.0 if successes == episodes else float(beta.ppf(1 - tail, successes + 1, episodes - successes))
+    return Rate(successes=successes, episodes=episodes, low=low, high=high)
+
+
+INTERVALS = {"wilson": wilson, "clopper-pearson": clopper_pearson}
+
+
+def compare(pairs: list[tuple[bool, bool]]) -> Comparison:
+    """Compare two policies by their successes in the same episodes."""
+    both = sum(a and b for a, b in pairs)
+    first, second = sum(a and not b for a, b in pairs), sum(b and not a for a, b in pairs)
+    return Comparison(
+        both=both,
+        only_first=first,
+        only_second=second,
+        neither=len(pairs) - both - first - second,
+        p_value=mcnemar(first, second),
+        needed=episodes_needed(first, second, len(pairs)),
+    )
+
+
+def mcnemar(only_first: int, only_second: int) -> float:
+    """Exact two-sided p-value of McNemar's test; 1 where the two never differ."""
+    discordant = only_first + only_second
+    if not discordant:
+        return 1.0
+    return float(_stats().binomtest(only_first, discordant, 0.5).pvalue)
+
+
+def episodes_needed(only_first: int, only_second: int, episodes: int, *, power: float = POWER) -> int | None:
+    """Paired episodes after which a difference like the one seen is significant at 5 % with probability `power`.
+
+    n = (z_a sqrt(d) + z_b sqrt(d - e^2))^2 / e^2 with d the share of episodes that differ and e the difference of the
+    rates (Miettinen 1968). None where there is no difference.
+    """
+    if not episodes or only_first == only_second:
+        return None
+    share, effect = (only_first + only_second) / episodes, (only_first - only_second) / episodes
+    norm = _stats().norm
+    z_a, z_b = float(norm.ppf(0.5 + LEVEL / 2)), float(norm.ppf(power))
+    return math.ceil((z_a * math.sqrt(share) + z_b * math.sqrt(max(share - effect**2, 0.0))) ** 2 / effect**2)
+
+
+def _require(successes: int, episodes: int) -> None:
+    if not 0 <= successes <= episodes:
+        raise EvaluationError(f"{successes} successes in {episodes} episodes are impossible.")
+
+
+def _stats() -> Any:
+    return import_module("scipy.stats")

@@ -1,0 +1,86 @@
+"""Frames to a film: MP4 where imageio-ffmpeg is installed, else GIF, or PNG files in a folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import EvaluationError
+
+INSTALL_HINT = "MP4 needs imageio-ffmpeg: pip install 'pat3d[eval]'; name a .gif or a folder for PNG files instead."
+
+Frames = Sequence[NDArray[np.uint8]]
+"""RGB pictures of one size, shape (height, width, 3) each."""
+
+
+def can_write_mp4() -> bool:
+    """Whether MP4 files can be written."""
+    try:
+        import_module("imageio_ffmpeg")
+    except ImportError:
+        return False
+    return True
+
+
+def write_video(frames: Frames, file: str | os.PathLike[str], fps: float) -> Path:
+    """Write a film; what the name ends with decides its kind.
+
+    Raises:
+        EvaluationError: no frames, or a kind that cannot be written here.
+    """
+    path = Path(file)
+    if not frames:
+        raise EvaluationError("a film needs a frame.")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    kind = path.suffix.lower()
+    if kind == "":
+        for number, frame in enumerate(frames):
+            path.mkdir(exist_ok=True)
+            _image(frame).save(path / f"{number:05d}.png")
+        return path
+    if kind not in (".mp4", ".gif"):
+        raise EvaluationError(f'a film is FILE.mp4, FILE.gif or a folder for PNG files, not "{path.name}".')
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{kind}")
+    try:
+        if kind == ".gif":
+            _write_gif(frames, temporary, fps)
+        else:
+            _write_mp4(frames, temporary, fps)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return path
+
+
+def _write_gif(frames: Frames, path: Path, fps: float) -> None:
+    images = [_image(frame) for frame in frames]
+    images[0].save(path, save_all=True, append_images=images[1:], duration=round(1000 / fps), loop=0)
+
+
+def _write_mp4(frames: Frames, path: Path, fps: float) -> None:
+    try:
+        ffmpeg: Any = import_module("imageio_ffmpeg")
+    except ImportError as error:
+        raise EvaluationError(INSTALL_HINT) from error
+    # H.264 in its common form has pictures of even sizes only.
+    height, width = frames[0].shape[0] // 2 * 2, frames[0].shape[1] // 2 * 2
+    writer = ffmpeg.write_frames(
+        str(path), (width, height), fps=fps, codec="libx264", pix_fmt_out="yuv420p", macro_block_size=2, quality=6,
+        output_params=["-movflags", "+faststart"], ffmpeg_log_level="error",
+    )  # fmt: skip
+    writer.send(None)
+    try:
+        for frame in frames:
+            writer.send(np.ascontiguousarray(frame[:height, :width]))
+    finally:
+        writer.close()
+
+
+def _image(frame: NDArray[np.uint8]) -> Any:
+    return import_module("PIL.Image").fromarray(frame)

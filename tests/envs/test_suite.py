@@ -1,0 +1,253 @@
+"""Suites made for real: two runs of one request, one with a worker killed and one killed itself, and what they hold."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("robosuite")
+gymnasium = pytest.importorskip("gymnasium")
+
+import pat3d  # noqa: E402, F401
+from pat3d.cli import main  # noqa: E402
+from pat3d.envs.suites.check import check_suite  # noqa: E402
+from pat3d.envs.suites.folder import LOG, MANIFEST, RECORD, SuiteFolder  # noqa: E402
+from pat3d.envs.suites.generate import generate  # noqa: E402
+from pat3d.envs.suites.lerobot import make_env  # noqa: E402
+from pat3d.envs.suites.page import page  # noqa: E402
+from pat3d.envs.suites.request import Request  # noqa: E402
+from pat3d.envs.suites.suite import Suite  # noqa: E402
+from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
+
+REQUEST = Request(tasks=("pick", "stack"), scenes=4, objects=(4, 6), picture=64, seed=3)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A suite by two workers, the first of which is killed once it has made something."""
+    folder = tmp_path_factory.mktemp("suites") / "two"
+    killed = []
+
+    def kill_one(status):
+        if status.made and not killed:
+            killed.append(_workers_of(os.getpid())[0])
+            os.kill(killed[0], signal.SIGKILL)
+
+    status = generate(str(folder), REQUEST, workers=2, tell=kill_one)
+    assert killed
+    assert status.done == status.total == 4
+    return folder
+
+
+@pytest.fixture
+def copy(made, tmp_path):
+    """The suite in a folder that a test may spoil."""
+    return Path(shutil.copytree(made, tmp_path / "copy"))
+
+
+def test_a_run_killed_and_started_again_makes_the_same_suite_bit_for_bit(made, tmp_path):
+    """One worker and SIGKILL in the middle, against two workers of which one was killed: only the log may differ."""
+    folder = tmp_path / "one"
+    command = [sys.executable, "-m", "pat3d", "suite", "generate", str(folder), "--tasks", "pick,stack",
+               "--scenes", "4", "--objects", "4-6", "--picture", "64", "--seed", "3", "--workers", "1"]  # fmt: skip
+    first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    scenes = SuiteFolder(folder)
+    _wait(lambda: len(scenes.done()) >= 2 and any(scenes.work.glob("*-0*")))
+    workers = _workers_of(first.pid)
+    first.kill()
+    first.wait()
+    _wait(lambda: not any(_alive(pid) for pid in workers))
+    kept = {place: (scenes.scene(place) / RECORD).stat().st_mtime_ns for place in scenes.done()}
+    assert len(kept) < 4
+    with pytest.raises(SuiteError, match=r"unfinished: [23] of 4 scenes"):
+        Suite.open(folder)
+    status = generate(str(folder), REQUEST, workers=1)
+    assert status.made == 4 - len(kept)
+    assert all((scenes.scene(place) / RECORD).stat().st_mtime_ns == then for place, then in kept.items())
+    page_of_its_own = {"index.html"}
+    assert _files(folder, page_of_its_own) == _files(made, page_of_its_own)
+    assert not scenes.work.exists()
+
+
+def test_a_finished_suite_is_left_as_it_is(made):
+    before = {path: path.stat().st_mtime_ns for path in made.glob("scenes/*/*")}
+    status = generate(str(made), REQUEST, workers=1)
+    assert (status.made, status.done) == (0, 4)
+    assert {path: path.stat().st_mtime_ns for path in made.glob("scenes/*/*")} == before
+
+
+def test_a_folder_in_use_names_the_process_that_has_it(made):
+    with (
+        SuiteFolder(made).locked(),
+        pytest.raises(SuiteError, match=f"in use by process {os.getpid()} on "),
+    ):
+        generate(str(made), REQUEST, workers=1)
+
+
+def test_another_request_is_refused_in_a_folder_that_has_a_suite(made):
+    with pytest.raises(SuiteError, match="holds a suite with seed 3;"):
+        generate(str(made), replace(REQUEST, seed=4), workers=1)
+    with pytest.raises(SuiteError, match="longer, not shorter"):
+        generate(str(made), replace(REQUEST, scenes=2), workers=1)
+
+
+def test_a_folder_with_other_things_is_left_alone(tmp_path):
+    (tmp_path / "thesis.tex").write_text("x")
+    with pytest.raises(ExportError, match=r"holds files but no suite.json"):
+        generate(str(tmp_path), REQUEST, workers=1)
+    assert [one.name for one in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_an_unknown_robot_is_answered_before_anything_is_written(tmp_path):
+    with pytest.raises(EnvironmentSetupError, match="Robots: Panda"):
+        generate(str(tmp_path / "new"), replace(REQUEST, robot="Marvin"), workers=1)
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_worker_that_cannot_write_stops_the_run_and_nothing_is_lost(copy):
+    """What a full disk does, by a file where the scene's folder has to go."""
+    folder = SuiteFolder(copy)
+    shutil.rmtree(folder.scene(1))
+    shutil.rmtree(copy / "rejected", ignore_errors=True)
+    (copy / "scenes").rename(copy / "aside")
+    (copy / "scenes").write_text("no room")
+    with pytest.raises(SuiteError, match=r"a worker had to stop: .*run the same command again"):
+        generate(str(copy), replace(REQUEST, scenes=4), workers=1)
+    (copy / "scenes").unlink()
+    (copy / "aside").rename(copy / "scenes")
+    assert folder.done() == {0, 2, 3}
+
+
+def test_every_scene_is_proven_and_the_manifest_says_so(made):
+    suite = Suite.open(made)
+    assert check_suite(suite) == []
+    numbers = suite.document["numbers"]
+    assert numbers["scenes"] == 4
+    assert numbers["candidates"] == 4 + len(suite.document["rejected"])
+    assert numbers["intersections"] == 0
+    assert all(one["reason"] and one["message"] for one in suite.document["rejected"])
+    assert set(suite.document["versions"]) >= {"pat3d", "mujoco", "warp-lang", "robosuite"}
+
+
+def test_a_scene_whose_files_changed_is_refused_by_environments_and_by_the_check(copy):
+    part = next(copy.glob("scenes/000002/mjcf/**/*.xml"))
+    part.write_text(part.read_text() + " ")
+    suite = Suite.open(copy)
+    with pytest.raises(UnsettledSceneError, match="their checksum differs"):
+        suite.load(suite.entries[2])
+    assert check_suite(suite, settle=False) == [
+        "scene 2: its files are not those that were proven (their checksum differs)."
+    ]
+    assert main(["suite", "check", str(copy), "--quick"]) == 1
+
+
+def test_suites_from_a_newer_version_and_damaged_ones_are_told_apart(copy):
+    document = json.loads((copy / MANIFEST).read_text())
+    for change, message in (
+        ({"version": 99}, "reads up to 1. Upgrade pat3d"),
+        ({"format": "other"}, "not a suite's description"),
+        ({"scenes": document["scenes"][:1]}, "does not list 4 scenes"),
+        (
+            {"scenes": [{**document["scenes"][0], "place": "../.."}, *document["scenes"][1:]]},
+            "of scene 0 is incomplete",
+        ),
+    ):
+        (copy / MANIFEST).write_text(json.dumps({**document, **change}))
+        with pytest.raises(SuiteError, match=message):
+            Suite.open(copy)
+    with pytest.raises(SuiteError, match=r"is no suite: it has no suite.json"):
+        Suite.open(copy / "scenes")
+
+
+def test_an_environment_draws_the_suite_s_scenes_by_its_seed(made):
+    env = gymnasium.make("PAT3D-v0", suite=made)
+    drawn = [env.reset(seed=seed)[1]["index"] for seed in range(6)]
+    assert drawn == [env.reset(seed=seed)[1]["index"] for seed in range(6)]
+    assert len(set(drawn)) > 1
+    entries = Suite.open(made).entries
+    for index in range(4):
+        observation, info = env.reset(options={"index": index})
+        assert info["task"] == entries[index].task
+        assert info["instruction"] == entries[index].instruction
+        assert observation in env.observation_space
+    with pytest.raises(SuiteError, match="valid are 0 to 3"):
+        env.reset(options={"index": 4})
+
+
+def test_split_and_kind_of_task_choose_scenes_and_unknown_ones_list_the_valid(made):
+    env = gymnasium.make("PAT3D-v0", suite=made, split="train", task="stack", index=0)
+    assert env.reset(seed=0)[1]["task"].startswith("stack:")
+    for wrong, message in (
+        ({"split": "tset"}, "Splits: train, val, test"),
+        ({"task": "juggle"}, "Its tasks: pick, stack"),
+        ({"split": "val/object"}, r"has no scene for any task; there are: train \d"),
+    ):
+        with pytest.raises(SuiteError, match=message):
+            gymnasium.make("PAT3D-v0", suite=made, **wrong)
+    with pytest.raises(EnvironmentSetupError, match="give suite=FOLDER too"):
+        gymnasium.make("PAT3D-v0", split="train")
+
+
+def test_vector_environments_over_a_suite(made):
+    envs = gymnasium.make_vec("PAT3D-v0", num_envs=2, suite=made, vectorization_mode="sync")
+    observations, infos = envs.reset(seed=0)
+    assert observations["objects"].shape == (2, 6, 7)
+    assert np.all(infos["index"] < 4)
+    envs.close()
+
+
+def test_lerobot_gets_a_vector_environment_for_every_kind_of_task(made):
+    envs = make_env(made, split="train", n_envs=1, image_size=(32, 32))
+    assert set(envs) == {"pick", "stack"}
+    observations, _ = envs["pick"][0].reset(seed=0)
+    assert observations["pixels"]["agentview"].shape == (1, 32, 32, 3)
+    assert envs["pick"][0].call("task_description")[0].startswith("pick up the ")
+    assert observations in envs["pick"][0].observation_space
+
+
+def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
+    assert main(["suite", "show", str(made)]) == 0
+    assert "scenes from" in capsys.readouterr().out
+    text = (made / "index.html").read_text()
+    assert text.count("<figure>") == 4
+    assert all((made / f"scenes/{place:06d}/preview.png").is_file() for place in range(4))
+    document = Suite.open(made).document
+    scenes = [{**document["scenes"][0], "prompt": "<script>"}, *document["scenes"][1:]]
+    assert "<script>" not in page("x", {**document, "scenes": scenes})
+
+
+def _files(folder, without):
+    """Contents of all files but the log and those named."""
+    paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name not in {LOG, ".lock", *without})
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+
+
+def _workers_of(pid):
+    """Process ids of the workers that process `pid` started."""
+    tasks = Path(f"/proc/{pid}/task").glob("*/children")
+    children = [int(child) for task in tasks for child in task.read_text().split()]
+    return [child for child in children if b"suites.worker" in Path(f"/proc/{child}/cmdline").read_bytes()]
+
+
+def _alive(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+def _wait(until, seconds=120.0):
+    end = time.monotonic() + seconds
+    while not until():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)

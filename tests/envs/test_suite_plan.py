@@ -1,0 +1,146 @@
+"""What a suite is going to be, before anything is made: places, splits, compositions, sentences."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from pat3d.assets import catalogue
+from pat3d.envs.suites.composition import draft, structure_splits
+from pat3d.envs.suites.crew import worker_count
+from pat3d.envs.suites.pools import CONTAINERS, ITEMS, partition
+from pat3d.envs.suites.request import SPLITS, TASKS, Request, check_split, in_split
+from pat3d.envs.tasks.registry import TASKS as JUDGED
+from pat3d.envs.tasks.registry import parse_task
+from pat3d.errors import SuiteError
+from pat3d.plan.grammar import GrammarPlanner
+
+REQUEST = Request(tasks=TASKS, scenes=300)
+
+
+def test_unknown_names_are_answered_with_the_valid_ones():
+    with pytest.raises(SuiteError, match=r'no task "juggle".*pick, place, stack, sort, unload, retrieve'):
+        Request(tasks=("pick", "juggle"))
+    with pytest.raises(SuiteError, match=r'no split "tset".*train, val, test'):
+        check_split("tset")
+    with pytest.raises(SuiteError, match=r'"auto" or a number from 1 to'):
+        worker_count("many")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"tasks": ()}, {"tasks": ("pick", "pick")}, {"scenes": 0}, {"seed": -1}, {"objects": (9, 5)}, {"objects": (2, 3)},
+     {"objects": (5, 99)}, {"picture": 3}],
+)  # fmt: skip
+def test_requests_out_of_range_are_refused(wrong):
+    with pytest.raises(SuiteError):
+        replace(REQUEST, **wrong)
+
+
+def test_a_request_survives_its_json_and_damage_is_told():
+    assert Request.from_dict(REQUEST.as_dict(), "x") == REQUEST
+    for damage in ({}, None, {**REQUEST.as_dict(), "scenes": "many"}, {**REQUEST.as_dict(), "objects": [1, 2, 3]}):
+        with pytest.raises(SuiteError, match="here: the suite's request is damaged"):
+            Request.from_dict(damage, "here")
+
+
+def test_every_task_of_suites_has_a_judge():
+    assert set(TASKS) == set(JUDGED)
+
+
+def test_eighty_percent_train_and_a_twentieth_for_every_way_of_holding_out():
+    request = Request(scenes=1000)
+    counts = Counter((request.split_of(place), request.task_of(place)) for place in range(1000))
+    for task in request.tasks:
+        assert counts["train", task] == 160
+        for split in SPLITS[3:]:
+            assert counts[split, task] == 10
+
+
+def test_val_is_both_ways_of_holding_out_for_validation():
+    assert [split for split in SPLITS if in_split(split, "val")] == ["val", "val/layout", "val/object"]
+    assert all(in_split(split, None) for split in SPLITS)
+    assert not in_split("train", "val")
+
+
+def test_a_longer_suite_begins_with_the_shorter_one():
+    longer = replace(REQUEST, scenes=10_000)
+    for place in range(12):
+        assert draft(REQUEST, place, 0) == draft(longer, place, 0)
+
+
+def test_another_seed_or_candidate_is_another_composition():
+    own = [draft(REQUEST, place, 0).plan.prompt for place in range(12)]
+    assert own != [draft(REQUEST, place, 1).plan.prompt for place in range(12)]
+    assert own != [draft(replace(REQUEST, seed=1), place, 0).plan.prompt for place in range(12)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_nouns_are_held_out_without_overlap_and_from_every_group(seed):
+    parts = partition(seed)
+    assert sorted(sum(parts.values(), ())) == sorted(item.noun for item in ITEMS)
+    groups = {item.noun: item.group for item in ITEMS}
+    assert all({groups[noun] for noun in nouns} == {"flat", "standing", "plain"} for nouns in parts.values())
+
+
+@pytest.mark.parametrize("objects", [(4, 6), (6, 6), (5, 8), (10, 12)])
+def test_structures_are_held_out_without_overlap_at_every_size(objects):
+    request = Request(tasks=TASKS, objects=objects)
+    for task in TASKS:
+        parts = structure_splits(request, task)
+        names = [{(core.name, side.name) for core, side in found} for found in parts.values()]
+        assert all(names)
+        assert sum(map(len, names)) == len(set().union(*names))
+
+
+def test_compositions_keep_their_split_s_promise():
+    """Object splits move held-out nouns only, the others training nouns only; layouts have their split's structures."""
+    nouns = partition(REQUEST.seed)
+    for place in range(0, 300):
+        made, split = draft(REQUEST, place, 0), REQUEST.split_of(place)
+        part, _, way = split.partition("/")
+        by_name = {obj.name: obj.noun for obj in made.plan.objects}
+        assert {by_name[name] for name in made.moved} <= set(nouns[part if way == "object" else "train"])
+        structures = structure_splits(REQUEST, REQUEST.task_of(place))["train" if way == "object" else part]
+        assert made.structure in {f"{core.name} + {side.name}" for core, side in structures}
+        assert REQUEST.objects[0] <= len(made.plan.objects) <= REQUEST.objects[1]
+
+
+def test_the_grammar_reads_every_sentence_as_the_composition_it_describes():
+    for place in range(90):
+        plan = draft(REQUEST, place, 0).plan
+        read = GrammarPlanner(False).plan(plan.prompt)
+        assert _content(read) == _content(plan), plan.prompt
+
+
+def test_tasks_name_objects_of_their_scene():
+    for place in range(60):
+        made = draft(REQUEST, place, 0)
+        task = parse_task(made.task)
+        names = {obj.name for obj in made.plan.objects}
+        assert task.kind == REQUEST.task_of(place)
+        assert set(made.task.split(":")[1:]) <= names
+        assert set(made.moved) <= names
+
+
+def test_in_sorting_scenes_only_what_is_to_be_sorted_has_the_colour_of_a_container():
+    containers = {one.noun for one in CONTAINERS}
+    request = Request(tasks=("sort",))
+    for place in range(60):
+        made = draft(request, place, 0)
+        colours = {obj.colours for obj in made.plan.objects if obj.noun in containers and obj.colours}
+        # Fruit bowls and boards come in white and woods.
+        colours.add(("white",))
+        matching = {obj.name for obj in made.plan.objects if obj.noun not in containers and obj.colours in colours}
+        assert matching == set(made.moved)
+
+
+def test_everything_that_suites_use_is_in_the_catalogue():
+    assert all(catalogue.find(one.noun) is not None for one in (*ITEMS, *CONTAINERS))
+
+
+def _content(plan):
+    objects = sorted((obj.noun, obj.colours, str(obj.material)) for obj in plan.objects)
+    return objects, sorted((rel.child, rel.kind, rel.parent) for rel in plan.relations)

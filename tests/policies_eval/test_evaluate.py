@@ -1,0 +1,174 @@
+"""Whole evaluations: records, resuming, worker processes, comparison, report, command line."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pyarrow")
+pytest.importorskip("robosuite")
+
+from pat3d.cli import main
+from pat3d.errors import EvaluationError
+from pat3d.policies_eval import evaluate as module
+from pat3d.policies_eval.compare import compare_evaluations, show_leaderboard, verdict
+from pat3d.policies_eval.episodes import Setting, episodes_of
+from pat3d.policies_eval.evaluate import evaluate
+from pat3d.policies_eval.policies import RandomPolicy
+from pat3d.policies_eval.records import read_evaluation
+from pat3d.policies_eval.report import write_report
+from pat3d.policies_eval.settings import RolloutSettings
+from pat3d.policies_eval.summary import summarise
+
+SHORT = RolloutSettings(max_steps=8, act_seconds=1.0)
+EPISODES = episodes_of([Setting(scene="", task="pick:red mug")], 4)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """Four short episodes of the random policy."""
+    return evaluate("random", EPISODES, tmp_path_factory.mktemp("eval") / "random", settings=SHORT, workers=0)
+
+
+def test_records_come_back_as_they_were_written(done):
+    again = read_evaluation(done.folder)
+    assert [one.episode for one in again.results] == list(EPISODES)
+    for mine, theirs in zip(done.results, again.results, strict=True):
+        assert mine.to_json() == theirs.to_json()
+        assert np.array_equal(mine.actions, theirs.actions)
+        assert mine.final_state == theirs.final_state
+    assert not (done.folder / "parts").exists()
+
+
+def test_a_stopped_run_goes_on_where_it_stopped(done, tmp_path):
+    class StopError(Exception):
+        pass
+
+    def stop(result, finished, wanted):
+        if finished == 2:
+            raise StopError
+
+    with pytest.raises(StopError):
+        evaluate("random", EPISODES, tmp_path, settings=SHORT, workers=0, report=stop)
+    assert len(read_evaluation(tmp_path).results) == 2
+    seen = []
+    found = evaluate("random", EPISODES, tmp_path, settings=SHORT, workers=0, report=lambda *a: seen.append(a))
+    assert len(seen) == 2
+    assert [one.state_hash for one in found.results] == [one.state_hash for one in done.results]
+
+
+def test_another_evaluation_in_the_folder_is_not_mixed_with(done):
+    with pytest.raises(EvaluationError, match="max_steps: 8 there, 9 now"):
+        evaluate("random", EPISODES, done.folder, settings=RolloutSettings(max_steps=9, act_seconds=1.0), workers=0)
+
+
+class Freezes:
+    """Hangs where no Python exception reaches it, in the second episode; dies in the third."""
+
+    count = 0
+
+    def reset(self, episode):
+        type(self).count += 1
+        if episode.seed == EPISODES[1].seed:
+            import signal
+
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGALRM])
+            time.sleep(300)
+        if episode.seed == EPISODES[2].seed:
+            os._exit(7)
+
+    def act(self, observation):
+        return np.zeros(7)
+
+
+def test_a_worker_that_hangs_or_dies_is_a_policy_error_and_the_run_goes_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "GRACE_SECONDS", 1.0)
+    found = evaluate(f"{__name__}:Freezes", EPISODES, tmp_path / "f", settings=SHORT, workers=1)
+    assert [one.outcome for one in found.results] == ["missed", "policy_error", "policy_error", "missed"]
+    assert "hang" in found.results[1].reason
+    assert "exit code 7" in found.results[2].reason
+    summary = summarise(found)
+    assert (summary.rate.episodes, summary.outcomes["policy_error"]) == (4, 2)
+
+
+def test_comparison_pairs_episodes_and_refuses_what_cannot_be_compared(done, tmp_path):
+    other = evaluate(RandomPolicy(), EPISODES[:3], tmp_path / "b", settings=SHORT, workers=0)
+    found = compare_evaluations(done, other)
+    assert (found.comparison.neither, found.left_out) == (3, 1)
+    assert "No difference" in verdict(found)
+    shifted = episodes_of([Setting(scene="", task="pick:red mug")], 3, seed=1)
+    strange = evaluate("random", shifted, tmp_path / "c", settings=SHORT, workers=0)
+    with pytest.raises(EvaluationError, match="seed"):
+        compare_evaluations(done, strange)
+    file = tmp_path / "b" / "manifest.json"
+    manifest = json.loads(file.read_text())
+    manifest["engine"]["mujoco"] = "2.0.0"
+    file.write_text(json.dumps(manifest))
+    with pytest.raises(EvaluationError, match=r"mujoco \(2.0.0"):
+        compare_evaluations(done, read_evaluation(tmp_path / "b"))
+
+
+def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
+    from pat3d.console import console
+
+    other = read_evaluation(done.folder)
+    other.manifest["engine"]["mujoco"] = "2.0.0"
+    show_leaderboard(console(), [read_evaluation(done.folder), other])
+    out = capsys.readouterr().out
+    assert out.count("policy errors") == 2
+    assert "not comparable" in out
+
+
+def test_the_report_is_one_page_without_links_to_anything(done):
+    page = write_report(done, summarise(done), pictures=True).read_text(encoding="utf-8")
+    assert "0.0 %" in page
+    assert "data:image/jpeg;base64," in page
+    assert "http" not in page.replace("http-equiv", "")
+    assert 'src="data:' in page
+    assert page.count("<section") == page.count("</section>")
+
+
+def test_hostile_records_are_errors(tmp_path, done):
+    with pytest.raises(EvaluationError, match="no evaluation"):
+        read_evaluation(tmp_path)
+    (tmp_path / "manifest.json").write_text("[1]")
+    with pytest.raises(EvaluationError, match="format"):
+        read_evaluation(tmp_path)
+    good = (done.folder / "manifest.json").read_text()
+    (tmp_path / "manifest.json").write_text(good.replace('"format": 1', '"format": 99'))
+    with pytest.raises(EvaluationError, match="upgrade"):
+        read_evaluation(tmp_path)
+    (tmp_path / "manifest.json").write_text(good)
+    (tmp_path / "episodes.parquet").write_bytes(b"PAR1 junk")
+    with pytest.raises(EvaluationError, match="not readable"):
+        read_evaluation(tmp_path)
+
+
+def test_a_film_shows_one_episode(done, tmp_path, capsys):
+    folder = str(done.folder)
+    assert main(["replay", folder, "--episode", "1", "--video", str(tmp_path / "x.gif"), "--size", "64x48"]) == 0
+    assert (tmp_path / "x.gif").read_bytes()[:4] == b"GIF8"
+    assert "1 of 1 episodes went as recorded" in capsys.readouterr().out
+    assert main(["replay", folder, "--episode", "99"]) == 2
+    assert "done: 0 to 3" in capsys.readouterr().err
+    assert main(["replay", folder, "--video", str(tmp_path / "x.gif")]) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--policy", "nonsense"], "scripted"),
+        (["--policy", "random", "--task", "pick:octopus"], "red mug"),
+        (["--policy", "random", "--scene", "nowhere"], "scene folder"),
+        (["--policy", "random", "--perturb", "wind=1"], "Axes"),
+        (["--policy", "random", "--workers", "many"], "auto"),
+        (["--policy", "random", "--episodes", "0"], "episodes"),
+    ],
+)
+def test_what_the_user_got_wrong_is_said_without_a_traceback(arguments, words, tmp_path, capsys):
+    assert main(["evaluate", *arguments, "--out", str(tmp_path / "o")]) == 2
+    assert words in capsys.readouterr().err

@@ -1,0 +1,136 @@
+"""Episodes on the shipped scene: paired, repeatable, perturbed and judged."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pat3d.errors import EvaluationError, TaskError
+from pat3d.policies_eval.episodes import Episode, Setting, episodes_of, settings_of
+from pat3d.policies_eval.perturb import Perturbation, parse, reworded
+from pat3d.policies_eval.policies import RandomPolicy
+from pat3d.policies_eval.scripted import ScriptedPolicy
+
+MUG = Setting(scene="", task="pick:red mug")
+ALL = Perturbation(pose=0.03, friction=0.5, mass=0.5, camera=0.02, light=0.2)
+
+
+def test_episode_k_is_the_same_however_many_there_are():
+    settings = [MUG, Setting(scene="", task="pick:green apple")]
+    few, many = episodes_of(settings, 5, seed=3), episodes_of(settings, 50, seed=3)
+    assert few == many[:5]
+    assert len({one.seed for one in many}) == 50
+    assert episodes_of(settings, 5, seed=4)[0].seed != few[0].seed
+
+
+def test_an_episode_survives_json():
+    one = episodes_of([replace(MUG, axes=(("clutter", "low"),))], 1, perturbation=ALL)[0]
+    assert Episode.from_json(json.loads(json.dumps(one.to_json()))) == one
+
+
+def test_what_is_not_there_is_named():
+    with pytest.raises(EvaluationError, match="no scene folder"):
+        settings_of(["nowhere"], [])
+    with pytest.raises(TaskError, match="red mug"):
+        settings_of([], ["pick:octopus"])
+    with pytest.raises(EvaluationError, match="Axes: pose"):
+        parse(["gravity=1"])
+    with pytest.raises(EvaluationError, match=r"0 to 0\.3"):
+        parse(["pose=nan"])
+    with pytest.raises(EvaluationError, match="episodes"):
+        episodes_of([MUG], 0)
+
+
+def test_the_scripted_policy_picks_the_mug_and_its_actions_do_it_again_bit_for_bit(runner, episode):
+    result = runner.run(episode, ScriptedPolicy())
+    assert (result.outcome, result.events.grasped, result.events.lifted) == ("success", True, True)
+    assert result.events.highest > 0.1
+    assert runner.replay(episode, result.actions) == result.state_hash
+    changed = result.actions.copy()
+    changed[20, 0] += 1e-6
+    assert runner.replay(episode, changed) != result.state_hash
+
+
+def test_every_policy_starts_from_the_same_state(runner, episode):
+    perturbed = replace(episode, perturbation=ALL)
+
+    def start():
+        observation, _, drawn = runner.start(perturbed)
+        return observation, drawn, runner.env.simulation.data.qpos.copy()
+
+    first, drawn, place = start()
+    runner.run(replace(episode, seed=5), RandomPolicy())
+    again, drawn_again, place_again = start()
+    assert drawn == drawn_again
+    assert np.array_equal(place, place_again)
+    assert all(np.array_equal(first[name], again[name]) for name in first)
+
+
+def test_a_perturbed_episode_leaves_no_trace(runner, episode):
+    """Masses, friction, cameras and derived constants are what they were: the plain episode is the same bit for bit."""
+    actions = RandomPolicy()
+    before = runner.run(episode, actions).state_hash
+    during = runner.run(replace(episode, perturbation=ALL), actions).state_hash
+    assert runner.run(episode, actions).state_hash == before != during
+
+
+def test_a_moved_object_stands_still_where_nothing_is_in_its_way(runner, episode):
+    for seed in (1, 2):
+        observation, _, drawn = runner.start(replace(episode, seed=seed, perturbation=Perturbation(pose=0.04)))
+        x, y, _ = drawn["pose"]["red mug"]
+        state = runner.env.simulation.state
+        rest = runner.env.scene["red mug"]
+        moved = state.centre("red mug") - rest.pose.apply(np.array([rest.asset.mass_properties.centre_of_mass]))[0]
+        assert moved[:2] == pytest.approx([x, y], abs=1e-3)
+        assert abs(moved[2]) < 1e-3
+        assert state.still("red mug")
+        assert np.allclose(observation["target"][:3], state.position("red mug"), atol=1e-6)
+
+
+def test_strengths_bound_what_is_drawn(runner, episode):
+    _, _, drawn = runner.start(replace(episode, perturbation=Perturbation(friction=0.5, mass=1.0)))
+    assert all(1 / 1.5 <= value <= 1.5 for value in drawn["friction"].values())
+    assert all(0.5 <= value <= 2.0 for value in drawn["mass"].values())
+    mass = runner.env.simulation.model.body_mass[runner.env.simulation.world.bodies["red mug"]]
+    rest = runner.env.scene["red mug"].asset.mass_properties.mass
+    assert mass == pytest.approx(rest * drawn["mass"]["red mug"])
+
+
+def test_words_change_only_where_they_are_asked_to():
+    assert reworded("pick up the mug", Perturbation(), 1) == "pick up the mug"
+    said = {reworded("pick up the mug", Perturbation(words=1.0), seed) for seed in range(30)}
+    assert len(said) > 2
+    assert all("pick up the mug" in text for text in said)
+
+
+class Clumsy(ScriptedPolicy):
+    """Lets go of what it has lifted."""
+
+    def act(self, observation):
+        action = super().act(observation)
+        if self._phase == "lift" and self._steps > 14:
+            action[-1] = -1.0
+        return action
+
+
+class Away:
+    """Never gets near anything."""
+
+    def reset(self, episode):
+        self.action = np.zeros(episode.action_size)
+        self.action[2] = 0.5
+
+    def act(self, observation):
+        return self.action
+
+
+def test_failures_are_counted_from_the_state(runner, episode):
+    dropped = runner.run(episode, Clumsy())
+    assert dropped.events.dropped
+    assert dropped.outcome in ("dropped", "toppled")
+    missed = runner.run(episode, Away())
+    assert (missed.outcome, missed.events.grasped, missed.events.collided) == ("missed", False, ())
+    assert missed.events.closest > 0.05

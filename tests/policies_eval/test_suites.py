@@ -1,0 +1,41 @@
+"""Episodes from a suite."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from pat3d.cli import main
+from pat3d.envs.suites import suite as suites
+from pat3d.policies_eval.suites import suite_settings
+
+
+def test_a_suite_gives_scenes_tasks_and_difficulty_of_a_split_and_checks_every_file(tmp_path, monkeypatch):
+    (tmp_path / "suite.json").write_text("{}")
+    entries = [
+        SimpleNamespace(place=3, task="pick:a", axes={"objects": 5, "clutter": 2}),
+        SimpleNamespace(place=8, task="sort", axes={"objects": 6, "clutter": 0}),
+    ]
+    verified, asked = [], []
+    suite = SimpleNamespace(
+        folder=SimpleNamespace(scene=lambda place: Path(tmp_path) / f"{place:06d}"),
+        select=lambda split: asked.append(split) or entries,
+        verify=lambda entry: verified.append(entry.place),
+    )
+    monkeypatch.setattr(suites.Suite, "open", staticmethod(lambda folder: suite))
+    settings, identity = suite_settings(str(tmp_path), "test")
+    assert [one.task for one in settings] == ["pick:a", "sort"]
+    assert settings[0].axes == (("clutter", "2"), ("objects", "5"))
+    assert settings[1].scene.endswith("000008")
+    assert (verified, asked) == ([3, 8], ["test"])
+    assert identity["suite_sha256"] == hashlib.sha256(b"{}").hexdigest()
+
+
+@pytest.mark.parametrize("more", [[], ["--scene", "x"]])
+def test_a_suite_that_is_none_is_said_so(tmp_path, capsys, more):
+    out = str(tmp_path / "o")
+    assert main(["evaluate", "--suite", str(tmp_path), "--policy", "random", "--out", out, *more]) == 2
+    assert "suite" in capsys.readouterr().err
