@@ -95,7 +95,10 @@ def episodes_from(options: argparse.Namespace) -> tuple[tuple[Any, ...], dict[st
         source |= identity
     else:
         settings = settings_of(options.scene, options.task)
-        source |= {"scenes": sorted({Path(one.scene).name for one in settings}), "tasks": [s.task for s in settings]}
+        source |= {
+            "scenes": sorted({Path(one.scene).name or "shipped scene" for one in settings}),
+            "tasks": [s.task for s in settings],
+        }
     return episodes_of(settings, options.episodes, seed=options.seed, perturbation=perturbation), source
 
 
