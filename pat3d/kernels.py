@@ -18,7 +18,7 @@ MODULES = (
     "pat3d.sim.energies.inertia",
     "pat3d.sim.energies.orthogonality",
     "pat3d.sim.solvers.linear",
-    "pat3d.sim.solvers.newton",
+    "pat3d.sim.solvers.line_search",
     "pat3d.sim.potential",
     "pat3d.sim.measures",
     "pat3d.sim.settling",

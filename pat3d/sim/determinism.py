@@ -21,7 +21,7 @@ RECORDS = {
     "pat3d.sim.energies.friction": 8 * 8 * 9,
     "pat3d.sim.energies.contact_reach": 1,
     "pat3d.sim.energies.friction_lag": 8,
-    "pat3d.sim.solvers.newton": 2,
+    "pat3d.sim.solvers.line_search": 2,
     "pat3d.sim.measures": 1,
     "pat3d.sim.adjoint": 1,
 }

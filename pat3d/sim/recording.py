@@ -67,33 +67,32 @@ class RecordedRun(Run):
         self.every = every
         self.calls: list[Call] = []
         self.references: dict[int, wp.array] = {}
-        super().__init__(model, options, progress, q0, Tape())
+        self.kept_states = Tape()
+        super().__init__(model, options, progress, q0, self.kept_states)
         self.coefficient = friction
         self.potential.friction.coefficient.assign(friction)
 
     def step(self, active: NDArray[np.bool_], weight: NDArray[np.float64], **tolerances: Any) -> NewtonResult:
         """As `Run.step`, but tightly converged; forgets the state that it starts from unless that is to be kept."""
         tolerances["residual_tolerance"] = min(tolerances["residual_tolerance"], GRADIENT_RESIDUAL)
-        number, tape = self.steps, self.tape
-        assert tape is not None
+        number = self.steps
         reference = self.reference[active]
         if number % self.every == 0 and np.any((reference != number) & (reference % self.every != 0)):
             self.references[number] = wp.clone(self.potential.friction.reference)
         self.calls.append((weight.copy(), tolerances))
         result = super().step(active, weight, **tolerances)
         if number % self.every:
-            del tape.states[-2], self.kept[-1]
+            del self.kept_states.states[-2], self.kept[-1]
         self.kept.append(number + 1)
         return result
 
     def recorded(self) -> tuple[Recording, list[wp.array]]:
         """The record so far, and the kept states, shape (bodies, 4), vec3d each."""
-        assert self.tape is not None
         record = Recording(
             model=self.model, options=self.options, friction=self.coefficient, kept=np.array(self.kept),
-            every=self.every, steps=self.tape.steps, calls=self.calls, references=self.references,
+            every=self.every, steps=self.kept_states.steps, calls=self.calls, references=self.references,
         )  # fmt: skip
-        return record, self.tape.states
+        return record, self.kept_states.states
 
 
 class Replay:

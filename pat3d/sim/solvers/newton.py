@@ -2,13 +2,7 @@
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
 
-"""Projected Newton with a line search that never lets an accepted state intersect.
-
-A straight step of an affine map stretches the body at second order of its rotation, which the stiff
-orthogonality energy punishes: steps would be limited to about a hundredth of a radian. The search therefore follows a
-curve with the same tangent, A(t) = exp(t [w]) (I + t S) A, where [w] and S are the skew and
-symmetric parts of dA A^-1. Safety is checked on the straight segment to each point tried.
-"""
+"""Projected Newton with a line search that never lets an accepted state intersect."""
 
 from __future__ import annotations
 
@@ -23,30 +17,13 @@ from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.model import Model
 from pat3d.sim.potential import SKIN, Potential
 from pat3d.sim.program import Mirror, Program
+from pat3d.sim.solvers import line_search
+from pat3d.sim.solvers.line_search import COUNTS, OUTSIDE, PENDING, UNSOLVED
 from pat3d.sim.solvers.linear import DenseSolver
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
-
 BACKTRACKS = 60
-SUFFICIENT_DECREASE = wp.constant(wp.float64(1.0e-4))
-"""Armijo constant."""
-
 UNRESOLVED = 1.0e-14
 """Decreases below the heaviest body's weight over this height [m] drown in the energy's rounding."""
-
-LONGEST_STEP = wp.constant(wp.float64(0.03))
-"""Motion of a vertex that a first trial may make [m]; the pairs along longer ones are many, and contact shortens
-them."""
-
-OUTSIDE = wp.constant(0)
-PENDING = wp.constant(1)
-RUNNING = wp.constant(2)
-UNSOLVED = wp.constant(3)
-"""What the first numbers of the status count: whether candidates must be collected anew, worlds that search, worlds
-that go on, and worlds whose Hessian was not positive definite. A trial decides nothing while the first or the last is
-not zero."""
-
-COUNTS = 4
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -212,7 +189,7 @@ class Newton:
     def _assemble(self) -> None:
         """The Newton system of every running world."""
         wp.launch(
-            _choose_exact, dim=self.model.worlds, device=self.model.device,
+            line_search.choose_exact, dim=self.model.worlds, device=self.model.device,
             inputs=[self._tolerances, self._residual], outputs=[self._exact],
         )  # fmt: skip
         self.potential.assemble(self.q, self._start, self._exact, self._running, self._hessian)
@@ -229,21 +206,22 @@ class Newton:
         self._status[int(UNSOLVED) : int(UNSOLVED) + 1].zero_()
         self.solver.get_solution(self._direction)
         wp.launch(
-            _start_search, dim=self.model.worlds, device=self.model.device,
+            line_search.start_search, dim=self.model.worlds, device=self.model.device,
             inputs=[self._running, self.solver.unsolved],
             outputs=[self._pending, self._first, self._motion, self._slope, self._status],
         )  # fmt: skip
         wp.launch(
-            _slope, dim=self.model.bodies, device=self.model.device,
+            line_search.slope, dim=self.model.bodies, device=self.model.device,
             inputs=[self.model.body_world, self._gradient, self._direction], outputs=[self._slope],
         )  # fmt: skip
         wp.launch(
-            _linear_motion, dim=len(self.model.vertex_rest), device=self.model.device,
+            line_search.linear_motion, dim=len(self.model.vertex_rest), device=self.model.device,
             inputs=[self.model.vertex_rest, self.model.vertex_body, self.model.body_world, self._direction],
             outputs=[self._motion],
         )  # fmt: skip
         wp.launch(
-            _first_step, dim=self.model.worlds, device=self.model.device, inputs=[self._motion], outputs=[self._step]
+            line_search.first_step, dim=self.model.worlds, device=self.model.device,
+            inputs=[self._motion], outputs=[self._step],
         )  # fmt: skip
         self._try()
 
@@ -251,25 +229,25 @@ class Newton:
         """One trial of every pending world: accepted, shortened, or found to be converged."""
         model, potential = self.model, self.potential
         wp.launch(
-            _along_curve, dim=model.bodies, device=model.device,
+            line_search.along_curve, dim=model.bodies, device=model.device,
             inputs=[model.body_world, self._pending, self.q, self._direction, self._step], outputs=[self._trial],
         )  # fmt: skip
         potential.positions(self._trial, self._end)
         potential.measure_motion(self._start, self._end, self._motion)
         wp.launch(
-            _clear_status, dim=model.worlds, device=model.device,
+            line_search.clear_status, dim=model.worlds, device=model.device,
             inputs=[self._pending], outputs=[self._fraction, self._status],
         )  # fmt: skip
         potential.candidates.flag_outside(self._start, self._end, self._status)
         safe_step(model, potential.candidates, self._start, self._end, self._fraction)
         wp.launch(
-            _select_safe, dim=model.worlds, device=model.device,
+            line_search.select_safe, dim=model.worlds, device=model.device,
             inputs=[self._fraction, self._status], outputs=[self._safe],
         )  # fmt: skip
         potential.evaluate(self._trial, self._end, self._safe, self._trial_energy, self._trial_gradient)
         potential.measure_residual(self._trial_gradient, self._trial_residual)
         wp.launch(
-            _decide, dim=model.worlds, device=model.device,
+            line_search.decide, dim=model.worlds, device=model.device,
             inputs=[
                 self._tolerances, self._unresolved, self._slope, self._motion, self._fraction, self._trial_energy,
                 self._trial_residual, self._first, self._step, self._energy, self._residual, self._iterations,
@@ -277,12 +255,12 @@ class Newton:
             ],
         )  # fmt: skip
         wp.launch(
-            _accept_bodies, dim=model.bodies, device=model.device,
+            line_search.accept_bodies, dim=model.bodies, device=model.device,
             inputs=[model.body_world, self._accepted, self._trial, self._trial_gradient],
             outputs=[self.q, self._gradient],
         )  # fmt: skip
         wp.launch(
-            _accept_vertices, dim=len(model.vertex_rest), device=model.device,
+            line_search.accept_vertices, dim=len(model.vertex_rest), device=model.device,
             inputs=[model.vertex_body, model.body_world, self._accepted, self._end], outputs=[self._start],
         )  # fmt: skip
         self._mirror.fetch()
@@ -290,248 +268,7 @@ class Newton:
     def _give_up(self) -> None:
         """Worlds that still search have stalled."""
         wp.launch(
-            _stall, dim=self.model.worlds, device=self.model.device,
+            line_search.stall, dim=self.model.worlds, device=self.model.device,
             inputs=[self._pending], outputs=[self._stalled, self._running],
         )  # fmt: skip
         self._mirror.fetch()
-
-
-@wp.kernel
-def _choose_exact(
-    tolerances: wp.array(dtype=wp.float64),
-    residual: wp.array(dtype=wp.float64),
-    # Out
-    exact: wp.array(dtype=int),
-):
-    world = wp.tid()
-    exact[world] = int(residual[world] < tolerances[2])
-
-
-@wp.kernel
-def _start_search(
-    running: wp.array(dtype=int),
-    unsolved: wp.array(dtype=int),
-    # Out
-    pending: wp.array(dtype=int),
-    first: wp.array(dtype=int),
-    motion: wp.array(dtype=wp.float64),
-    slope: wp.array(dtype=wp.float64),
-    status: wp.array(dtype=int),
-):
-    world = wp.tid()
-    if running[world] != 0 and unsolved[world] != 0:
-        wp.atomic_add(status, UNSOLVED, 1)
-    pending[world] = running[world]
-    first[world] = 1
-    motion[world] = wp.float64(0.0)
-    slope[world] = wp.float64(0.0)
-
-
-@wp.kernel
-def _slope(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
-    gradient: wp.array2d(dtype=wp.vec3d),
-    direction: wp.array2d(dtype=wp.vec3d),
-    # Out
-    slope: wp.array(dtype=wp.float64),
-):
-    body = wp.tid()
-    total = wp.float64(0.0)
-    for i in range(4):
-        total += wp.dot(gradient[body, i], direction[body, i])
-    wp.atomic_add(slope, body_world[body], total)
-
-
-@wp.kernel
-def _linear_motion(
-    # Model
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
-    direction: wp.array2d(dtype=wp.vec3d),
-    # Out
-    motion: wp.array(dtype=wp.float64),
-):
-    v = wp.tid()
-    body = vertex_body[v]
-    move = direction[body, 0]
-    for k in range(3):
-        move += vertex_rest[v][k] * direction[body, 1 + k]
-    wp.atomic_max(motion, body_world[body], wp.length(move))
-
-
-@wp.kernel
-def _first_step(
-    motion: wp.array(dtype=wp.float64),
-    # Out
-    step: wp.array(dtype=wp.float64),
-):
-    world = wp.tid()
-    step[world] = wp.min(wp.float64(1.0), LONGEST_STEP / wp.max(motion[world], wp.float64(1.0e-300)))
-
-
-@wp.kernel
-def _clear_status(
-    pending: wp.array(dtype=int),
-    # Out
-    fraction: wp.array(dtype=wp.float64),
-    status: wp.array(dtype=int),
-):
-    world = wp.tid()
-    fraction[world] = wp.float64(pending[world])
-    if world == 0:
-        status[OUTSIDE] = 0
-        status[PENDING] = 0
-        status[RUNNING] = 0
-
-
-@wp.kernel
-def _select_safe(
-    fraction: wp.array(dtype=wp.float64),
-    status: wp.array(dtype=int),
-    # Out
-    safe: wp.array(dtype=int),
-):
-    world = wp.tid()
-    safe[world] = int(status[OUTSIDE] + status[UNSOLVED] == 0 and fraction[world] >= wp.float64(1.0))
-
-
-@wp.kernel
-def _decide(
-    tolerances: wp.array(dtype=wp.float64),
-    unresolved: wp.array(dtype=wp.float64),
-    # Trial
-    slope: wp.array(dtype=wp.float64),
-    motion: wp.array(dtype=wp.float64),
-    fraction: wp.array(dtype=wp.float64),
-    trial_energy: wp.array(dtype=wp.float64),
-    trial_residual: wp.array(dtype=wp.float64),
-    # In and out
-    first: wp.array(dtype=int),
-    step: wp.array(dtype=wp.float64),
-    energy: wp.array(dtype=wp.float64),
-    residual: wp.array(dtype=wp.float64),
-    iterations: wp.array(dtype=int),
-    pending: wp.array(dtype=int),
-    accepted: wp.array(dtype=int),
-    running: wp.array(dtype=int),
-    status: wp.array(dtype=int),
-):
-    world = wp.tid()
-    accepted[world] = 0
-    if pending[world] != 0 and status[OUTSIDE] + status[UNSOLVED] == 0:
-        if first[world] != 0 and motion[world] < tolerances[0] and residual[world] < tolerances[1]:
-            running[world] = 0
-            pending[world] = 0
-        else:
-            if first[world] != 0:
-                iterations[world] = iterations[world] + 1
-                first[world] = 0
-            if fraction[world] < wp.float64(1.0):
-                step[world] = wp.float64(0.95) * fraction[world] * step[world]
-            else:
-                limit = energy[world] + SUFFICIENT_DECREASE * step[world] * slope[world]
-                downhill = trial_energy[world] <= limit
-                if not downhill and (residual[world] < tolerances[2] or -slope[world] < unresolved[world]):
-                    downhill = trial_residual[world] < residual[world]
-                if downhill:
-                    accepted[world] = 1
-                    pending[world] = 0
-                    energy[world] = trial_energy[world]
-                    residual[world] = trial_residual[world]
-                else:
-                    step[world] = wp.float64(0.5) * step[world]
-    if pending[world] != 0:
-        wp.atomic_add(status, PENDING, 1)
-    if running[world] != 0:
-        wp.atomic_add(status, RUNNING, 1)
-
-
-@wp.kernel
-def _accept_bodies(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
-    accepted: wp.array(dtype=int),
-    trial: wp.array2d(dtype=wp.vec3d),
-    trial_gradient: wp.array2d(dtype=wp.vec3d),
-    # Out
-    q: wp.array2d(dtype=wp.vec3d),
-    gradient: wp.array2d(dtype=wp.vec3d),
-):
-    body = wp.tid()
-    if accepted[body_world[body]] != 0:
-        for i in range(4):
-            q[body, i] = trial[body, i]
-            gradient[body, i] = trial_gradient[body, i]
-
-
-@wp.kernel
-def _accept_vertices(
-    # Model
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
-    accepted: wp.array(dtype=int),
-    end: wp.array(dtype=wp.vec3d),
-    # Out
-    start: wp.array(dtype=wp.vec3d),
-):
-    v = wp.tid()
-    if accepted[body_world[vertex_body[v]]] != 0:
-        start[v] = end[v]
-
-
-@wp.kernel
-def _stall(
-    pending: wp.array(dtype=int),
-    # Out
-    stalled: wp.array(dtype=int),
-    running: wp.array(dtype=int),
-):
-    world = wp.tid()
-    if pending[world] != 0:
-        stalled[world] = 1
-        running[world] = 0
-
-
-@wp.kernel
-def _along_curve(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
-    pending: wp.array(dtype=int),
-    q: wp.array2d(dtype=wp.vec3d),
-    direction: wp.array2d(dtype=wp.vec3d),
-    step: wp.array(dtype=wp.float64),
-    # Out
-    trial: wp.array2d(dtype=wp.vec3d),
-):
-    body = wp.tid()
-    if pending[body_world[body]] == 0:
-        for k in range(4):
-            trial[body, k] = q[body, k]
-        return
-    t = step[body_world[body]]
-    half = wp.float64(0.5)
-    trial[body, 0] = q[body, 0] + t * direction[body, 0]
-    a = wp.matrix_from_cols(q[body, 1], q[body, 2], q[body, 3])
-    rate = wp.matrix_from_cols(direction[body, 1], direction[body, 2], direction[body, 3]) * wp.inverse(a)
-    stretch = half * (rate + wp.transpose(rate))
-    w = t * half * wp.vec3d(rate[2, 1] - rate[1, 2], rate[0, 2] - rate[2, 0], rate[1, 0] - rate[0, 1])
-    for k in range(3):
-        x = q[body, 1 + k]
-        y = x + t * (stretch * x)
-        # Rodrigues' formula, with the series of its coefficients near zero.
-        angle2 = wp.dot(w, w)
-        first = wp.float64(1.0) - angle2 / wp.float64(6.0) + angle2 * angle2 / wp.float64(120.0)
-        second = half - angle2 / wp.float64(24.0) + angle2 * angle2 / wp.float64(720.0)
-        if angle2 > wp.float64(1.0e-4):
-            angle = wp.sqrt(angle2)
-            first = wp.sin(angle) / angle
-            second = (wp.float64(1.0) - wp.cos(angle)) / angle2
-        turn = wp.cross(w, y)
-        trial[body, 1 + k] = y + first * turn + second * wp.cross(w, turn)
