@@ -176,9 +176,7 @@ class Benchmark:
                 # Every worker's first episode carries its start.
                 kept = self._keep(name, {"seconds": ends[-1] - ends[count - 1], "episodes": len(ends) - count})
             rates[count] = kept["episodes"] / kept["seconds"]
-            say(
-                f"  {count} workers: {kept['episodes']} episodes in {kept['seconds']:.1f} s, {rates[count]:.2f} a second"
-            )
+            say(f"  {count} workers: {kept['episodes']} episodes in {kept['seconds']:.1f} s, {rates[count]:.2f} a s")
         several = max(rates)
         self.row(
             f"{several} workers against one, episodes a second", f"{rates[several] / rates[1]:.2f} times", ">= 6 times"
