@@ -279,7 +279,7 @@ def rate(found: Evaluation) -> str:
 
 def kinds(refused: dict[str, str]) -> str:
     """How many objects were refused for what reason."""
-    reasons = (("does not stay still", "moves when set down"), ("at its narrowest", "wider than the gripper opens"),
+    reasons = (("does not stay still", "moves when set down"), ("at its narrowest", "no grasp from above"), ("too heavy", "too heavy"),
                ("out of reach", "out of reach"), ("no free place", "no place for the robot"))  # fmt: skip
     counted = Counter(
         next((short for part, short in reasons if part in message), message[:60]) for message in refused.values()

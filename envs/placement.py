@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.grasp import Grasp, find_grasps, narrowest
 from pat3d.envs.kinematics import ArmKinematics
-from pat3d.envs.robots import measure_gripper
+from pat3d.envs.robots import PAYLOADS, measure_gripper
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
 
@@ -144,6 +144,11 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
 
 def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool) -> list[Grasp]:
     gripper = measure_gripper(robot)
+    mass = scene[name].asset.mass_properties.mass
+    if mass > PAYLOADS[robot]:
+        raise TaskError(
+            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f}.'
+        )
     if not cleared:
         found = find_grasps(scene, name, gripper)
         if found:

@@ -33,6 +33,12 @@ CLOSE_STEPS, OPEN_STEPS = 12, 8
 LIFT = 0.15
 """[m]"""
 
+RISE = 0.13
+"""What is picked up is lifted until its centre has risen by this [m], as what is held by its rim hangs askew."""
+
+HIGHEST_LIFT = 0.35
+"""[m]"""
+
 CARRY_CLEARANCE = 0.06
 """Kept below what is carried, above everything that it passes [m]."""
 
@@ -81,7 +87,7 @@ class ScriptedPolicy:
             grasp = self._found(self._name, tried) or grasp
         self._grasp = grasp
         self._at = np.array(grasp.position) + [0.0, 0.0, self._gripper.tip]
-        self._rotation = self._servo.nearer(grasp.closing)
+        self._rotation, self._height = self._servo.nearer(grasp.closing), LIFT
         self._enter("rise")
 
     def _target(self) -> str:
@@ -166,7 +172,11 @@ class ScriptedPolicy:
         if self._steps > 12 and not state.touched(self._name):
             return self._retry()
         keep = self._kind == "pick" or (self._kind == "retrieve" and self._name == self._env.task.target)
-        action, error = self._servo.towards(self._at + [0.0, 0.0, LIFT], self._rotation, 1.0)
+        if keep and state.touched(self._name):
+            short = RISE - float(state.centre(self._name)[2] - state.start_centre(self._name)[2])
+            if float(state.hand[2] - self._at[2]) > self._height - NEAR and short > 0.0:
+                self._height = min(self._height + min(short, 0.02), HIGHEST_LIFT)
+        action, error = self._servo.towards(self._at + [0.0, 0.0, self._height], self._rotation, 1.0)
         self._steps += 1
         if not keep and (error < NEAR or self._steps > PATIENCE):
             self._place = self._destination()
