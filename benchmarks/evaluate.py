@@ -279,10 +279,13 @@ def rate(found: Evaluation) -> str:
 
 def kinds(refused: dict[str, str]) -> str:
     """How many objects were refused for what reason."""
-    reasons = (("does not stay still", "moves when set down"), ("at its narrowest", "no grasp from above"), ("too heavy", "too heavy"),
-               ("out of reach", "out of reach"), ("no free place", "no place for the robot"))  # fmt: skip
+    reasons = {
+        "does not stay still": "moves when set down", "at its narrowest": "no grasp from above",
+        "too heavy": "too heavy for the arm", "out of reach": "out of reach", "no free place": "no place for the robot",
+    }  # fmt: skip
     counted = Counter(
-        next((short for part, short in reasons if part in message), message[:60]) for message in refused.values()
+        next((short for part, short in reasons.items() if part in message), message[:60])
+        for message in refused.values()
     )
     return ", ".join(f"{count} {what}" for what, count in counted.most_common())
 

@@ -43,6 +43,9 @@ class Simulation:
         wrong = (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)
         self._warnings = [self.data.warning[kind] for kind in wrong]
         self._arm = np.array([int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.arm_joints])
+        self._fingers = np.array(
+            [int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.gripper_joints]
+        )
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
         self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
@@ -93,6 +96,11 @@ class Simulation:
             self._mujoco.mj_step2(model, data)
             self._mujoco.mj_step1(model, data)
         self.state.refresh()
+
+    @property
+    def fingers(self) -> Array:
+        """Positions of the gripper's joints [m or rad]."""
+        return self.data.qpos[self._fingers]
 
     @property
     def broken(self) -> bool:
