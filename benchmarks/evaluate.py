@@ -2,8 +2,8 @@
 
     python benchmarks/evaluate.py [--parts PART ...] [--workers 8] [--out FOLDER]
 
-objects: objects of the catalogue alone, each turned in several ways, with the scripted policy. clutter: scenes of six
-to eight objects from `pat3d suite`, an object of each to pick. random: the random policy on the same cluttered
+objects: objects of the catalogue alone, each turned in several ways, with the scripted policy. clutter: scenes of eight
+to twelve objects from `pat3d suite`, an object of each to pick. random: the random policy on the same cluttered
 episodes. clone: a network trained on demonstrations, and the scripted policy, where the shipped scene's mug stands
 elsewhere than in the demonstrations. replay: a hundred of these episodes again, bit for bit. overhead: what is neither
 physics, rendering nor policy, of the shipped scene's episodes in one process, imports and reading the scene left out;
@@ -51,6 +51,9 @@ LAYOUTS = Perturbation(pose=0.04)
 """Where the mug stands: other draws for training than for testing."""
 
 MUG = Setting(scene="", task="pick:red mug")
+
+CLUTTER = (8, 12)
+"""Fewest and most objects of a cluttered scene."""
 
 SEVERAL = 8
 """Workers that are compared with one."""
@@ -192,12 +195,12 @@ class Benchmark:
         file.write_text("\n".join([*rows, line]) + "\n", encoding="utf-8")
 
     def _cluttered(self) -> list[Setting]:
-        """Scenes of six to eight objects, with an object to pick each; those of a suite, which are proven."""
+        """Scenes of eight to twelve objects, with an object to pick each; those of a suite, which are proven."""
         from pat3d.envs.suites.generate import generate
         from pat3d.envs.suites.request import Request
 
         folder = self.work / "suite"
-        request = Request(tasks=("pick",), scenes=self.options.scenes, objects=(6, 8), picture=0)
+        request = Request(tasks=("pick",), scenes=self.options.scenes, objects=CLUTTER, picture=0)
         if not (folder / "suite.json").is_file():
             generate(str(folder), request, workers=self.options.workers)
         return sorted(suite_settings(str(folder), None)[0], key=lambda one: one.scene)
