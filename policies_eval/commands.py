@@ -188,7 +188,8 @@ def train(options: argparse.Namespace) -> int:
 
 def demonstrate(options: argparse.Namespace) -> int:
     """`pat3d demonstrate`."""
-    from pat3d.policies_eval.demonstrations import demonstrations, write_demonstrations
+    from pat3d.policies_eval.demonstration_files import write_demonstrations
+    from pat3d.policies_eval.demonstrations import demonstrations
 
     settings = _settings_of(options)
     episodes, _ = episodes_from(options)

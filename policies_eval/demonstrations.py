@@ -6,10 +6,8 @@ seen perfect motions does not know how to get back to them (Laskey et al. 2017, 
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -113,33 +111,3 @@ def demonstrations(
         runner.close()
     if not succeeded:
         raise EvaluationError(f"none of {len(episodes)} demonstrations succeeded; choose another scene or task.")
-
-
-def write_demonstrations(
-    shown: Iterable[Demonstration], path: str | os.PathLike[str], settings: RolloutSettings | None = None
-) -> int:
-    """Write demonstrations for robomimic (FILE.hdf5) or as a LeRobotDataset (a new folder); returns how many.
-
-    Raises:
-        EvaluationError: the file or folder cannot be written.
-    """
-    count = 0
-
-    def counted() -> Iterator[Demonstration]:
-        nonlocal count
-        for one in shown:
-            count += 1
-            yield one
-
-    suffix = Path(path).suffix
-    if suffix in (".hdf5", ".h5"):
-        from pat3d.policies_eval.robomimic_file import write_robomimic
-
-        write_robomimic(list(counted()), path)
-    elif suffix:
-        raise EvaluationError(f'demonstrations are FILE.hdf5 or a folder, not "{Path(path).name}".')
-    else:
-        from pat3d.policies_eval.lerobot_file import write_lerobot
-
-        write_lerobot(counted(), path, settings)
-    return count

@@ -11,7 +11,8 @@ import numpy as np
 
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.cloning import features, make_network, save
-from pat3d.policies_eval.demonstrations import Demonstration, demonstrate, write_demonstrations
+from pat3d.policies_eval.demonstration_files import write_demonstrations
+from pat3d.policies_eval.demonstrations import Demonstration, demonstrate
 from pat3d.policies_eval.episodes import Episode
 
 BATCH = 256

@@ -13,7 +13,8 @@ import pyarrow.parquet as pq  # noqa: E402
 
 from pat3d.errors import EvaluationError  # noqa: E402
 from pat3d.policies_eval import lerobot_file  # noqa: E402
-from pat3d.policies_eval.demonstrations import Demonstration, write_demonstrations  # noqa: E402
+from pat3d.policies_eval.demonstration_files import write_demonstrations  # noqa: E402
+from pat3d.policies_eval.demonstrations import Demonstration  # noqa: E402
 from pat3d.policies_eval.episodes import Episode  # noqa: E402
 from pat3d.policies_eval.lerobot_file import write_lerobot  # noqa: E402
 from pat3d.policies_eval.settings import RolloutSettings  # noqa: E402
