@@ -44,8 +44,9 @@ def add_commands(command: Any) -> None:
     replaying.add_argument("folder", metavar="FOLDER", help="what evaluate wrote")
     replaying.add_argument("--episode", type=int, action="append", metavar="N", help="which one; all by default")
     replaying.add_argument("--video", metavar="FILE", help=".mp4, .gif, or a folder for PNG files")
+    replaying.add_argument("--picture", metavar="FILE.png", help="moments of the episode side by side")
     replaying.add_argument("--camera", default="agentview", help="agentview, frontview or wrist (agentview)")
-    replaying.add_argument("--size", default="320x240", metavar="WxH", help="of the video [pixel] (320x240)")
+    replaying.add_argument("--size", default="320x240", metavar="WxH", help="of video and moments [pixel] (320x240)")
 
     training = command("train", "train a small policy on demonstrations of the scripted one")
     _add_episodes(training)
@@ -171,8 +172,8 @@ def replay(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.replay import replay_episodes
 
     return replay_episodes(
-        read_evaluation(options.folder), options.episode, video=options.video, camera=options.camera,
-        size=_size(options.size), target=console(),
+        read_evaluation(options.folder), options.episode, video=options.video, picture=options.picture,
+        camera=options.camera, size=_size(options.size), target=console(),
     )  # fmt: skip
 
 
