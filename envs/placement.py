@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import Grasp, find_grasps, narrowest
+from pat3d.envs.grasp import LOWEST, Grasp, find_grasps, narrowest
 from pat3d.envs.hand import hand_pose, hand_rotation
 from pat3d.envs.kinematics import ArmKinematics
 from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN, LEANING_PAYLOAD, find_leaning_grasps
@@ -166,6 +166,13 @@ def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool, leans: bool) 
             return found
     alone = find_grasps(scene, name, gripper, alone=True)
     if not alone:
+        points = np.concatenate([scene[name].pose.apply(part.vertices) for part in scene[name].asset.parts])
+        height = float(np.ptp(points[:, 2]))
+        if height < LOWEST:
+            raise TaskError(
+                f'"{name}" cannot be taken by {robot}: it is {1e3 * height:.0f} mm high, and the fingers need '
+                f"{1e3 * LOWEST:.0f} mm."
+            )
         raise TaskError(
             f'"{name}" cannot be taken by {robot}: it is {1e3 * narrowest(scene[name]):.0f} mm wide at its narrowest, '
             f"the gripper opens {1e3 * gripper.opening:.0f} mm, and it has no rim or handle that fits."
