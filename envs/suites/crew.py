@@ -18,6 +18,7 @@ from typing import Any
 import pat3d
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.threads import ONE_THREAD
 from pat3d.errors import SuiteError
 
 Unit = tuple[int, int]
@@ -25,7 +26,6 @@ Unit = tuple[int, int]
 
 MAX_WORKERS = 256
 _LOG_TAIL = 2000
-_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +93,7 @@ class Crew:
             process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "pat3d.envs.suites.worker"],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
-                env={**os.environ, **_ONE_THREAD, "PYTHONPATH": path}, start_new_session=True,
+                env={**os.environ, **ONE_THREAD, "PYTHONPATH": path}, start_new_session=True,
             )  # fmt: skip
         self._processes[number], self._units[number] = process, None
         self._send(number, {"folder": str(self._folder.path), "request": self._request.as_dict()})

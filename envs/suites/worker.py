@@ -47,8 +47,10 @@ def _made(folder: SuiteFolder, request: Request, place: int, candidate: int) -> 
 def _prepare(request: Request) -> None:
     """Everything that is slow the first time."""
     from pat3d.envs.robots import make_robot
+    from pat3d.envs.suites.threads import keep_to_one_thread
     from pat3d.kernels import prepare
 
+    keep_to_one_thread()
     make_robot(request.robot)
     prepare("cpu")
 
