@@ -58,5 +58,5 @@ def save_scaling(found: Sequence[tuple[int, float]], bound: float, path: Path) -
     draw.line(points, fill=_OURS, width=2 * _SCALE)
     for (x, y), value in zip(points, times, strict=True):
         draw.ellipse([x - 7, y - 7, x + 7, y + 7], fill=_OURS)
-        draw.text((x, y + 14), f"{value:.3g}", fill=_OURS, font=font, anchor="mt")
+        draw.text((x + 12, y + 6), f"{value:.3g}", fill=_OURS, font=font, anchor="lt")
     save_png(np.asarray(image.resize((_WIDTH, _HEIGHT), Image.Resampling.LANCZOS)), path)
