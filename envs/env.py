@@ -57,7 +57,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         segmentation: whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object.
         start_noise: standard deviation of the robot's posture at the start [rad].
         max_objects: rows of the state's "objects"; None for as many as the scene's moving objects.
-        sleep: leave out objects at rest until something touches them; twice as fast (Panda and Sawyer).
+        sleep: leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer).
         render_mode: "rgb_array", "depth_array" or None.
         render_camera: for `render`.
         render_size: height and width for `render` [pixel].
