@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import Grasp, find_grasps, narrowest
+from pat3d.envs.grasp import Grasp, find_grasps
 from pat3d.envs.kinematics import ArmKinematics
+from pat3d.envs.refusals import why_not
 from pat3d.envs.robots import measure_gripper
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
@@ -144,19 +145,11 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
 
 def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool) -> list[Grasp]:
     gripper = measure_gripper(robot)
-    if not cleared:
-        found = find_grasps(scene, name, gripper)
-        if found:
-            return found[:GRASPS_TRIED]
-    alone = find_grasps(scene, name, gripper, alone=True)
-    if not alone:
-        raise TaskError(
-            f'"{name}" cannot be taken by {robot}: it is {1e3 * narrowest(scene[name]):.0f} mm wide at its narrowest, '
-            f"the gripper opens {1e3 * gripper.opening:.0f} mm, and it has no rim or handle that fits."
-        )
-    if not cleared:
-        raise TaskError(f'"{name}" cannot be taken by {robot}: what stands around it leaves no room for the fingers.')
-    return alone[:GRASPS_TRIED]
+    # Once it is cleared, nothing is in the way but what carries it.
+    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)
+    if not found:
+        raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
+    return found[:GRASPS_TRIED]
 
 
 @dataclass(frozen=True)

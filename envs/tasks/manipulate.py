@@ -12,6 +12,7 @@ from pat3d.envs.grasp import narrowest
 from pat3d.envs.placement import Needs
 from pat3d.envs.predicates import at_rest, inside, on_top
 from pat3d.envs.state import SimState
+from pat3d.envs.tasks.room import has_room, overhang_room
 from pat3d.envs.tasks.task import (
     Judge,
     Task,
@@ -29,12 +30,6 @@ from pat3d.scene import Scene
 
 LIFT = 0.10
 """[m]"""
-
-NARROWEST_BASE = 0.4
-"""Least width of a base as a share of that of what is put on it."""
-
-ROOMY = 0.15
-"""Tops with a half width of at least this [m] carry several things."""
 
 HOLD_SECONDS = 1.0
 REST_SECONDS = 0.5
@@ -229,11 +224,10 @@ def check_move(scene: Scene, target: str, where: str) -> None:
         return
     covering = [name for name in standing_on(scene, where) if name != target]
     top = scene[where].asset.region("on")
-    if top is None or min(top.half_size) < max(0.01, NARROWEST_BASE * narrowest(scene[target]) / 2):
+    if top is None or min(top.half_size) < overhang_room(scene, target):
         raise TaskError(f'"{where}" has no top wide enough for "{target}".')
-    # A tray or a table has room for more; the top of a stack has not.
-    if covering and min(top.half_size) < ROOMY:
-        raise TaskError(f'"{covering[0]}" stands on "{where}" already.')
+    if not has_room(scene, target, where, top, covering):
+        raise TaskError(f'"{covering[0]}" stands on "{where}" already and leaves no room for "{target}".')
 
 
 def _preposition(scene: Scene, where: str) -> str:
