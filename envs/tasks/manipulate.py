@@ -22,6 +22,7 @@ from pat3d.envs.tasks.task import (
     closeness,
     movable,
     origin,
+    point,
     present,
     standing_on,
 )
@@ -47,10 +48,6 @@ class Pick(Task):
 
     target: str
 
-    @property
-    def spec(self) -> str:
-        return f"pick:{self.target}"
-
     def instruction(self, scene: Scene) -> str:
         return f"pick up the {self.target}{origin(scene, self.target)}"
 
@@ -73,7 +70,7 @@ class LiftJudge(Judge):
     def __init__(self, target: str, state: SimState) -> None:
         self._target, self._timer = target, Timer(HOLD_SECONDS)
         start = state.start_centre(target)
-        self._goal = (float(start[0]), float(start[1]), float(start[2]) + LIFT)
+        self._goal = point(start + [0.0, 0.0, LIFT])
 
     def update(self, state: SimState, seconds: float) -> Verdict:
         rise = float(state.centre(self._target)[2] - state.start_centre(self._target)[2])
@@ -104,10 +101,6 @@ class Place(Task):
     target: str
     where: str
 
-    @property
-    def spec(self) -> str:
-        return f"place:{self.target}:{self.where}"
-
     def instruction(self, scene: Scene) -> str:
         return f"put the {self.target} {_preposition(scene, self.where)} the {self.where}"
 
@@ -132,10 +125,6 @@ class Stack(Task):
 
     target: str
     base: str
-
-    @property
-    def spec(self) -> str:
-        return f"stack:{self.target}:{self.base}"
 
     def instruction(self, scene: Scene) -> str:
         return f"stack the {self.target} on the {self.base}"
@@ -185,7 +174,7 @@ class PutJudge(Judge):
             predicates={relation: there, "released": released, "upright": upright},
             progress=1.0 if done else min(progress, 1.0),
             target=self._target,
-            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+            goal=point(goal),
         )
 
 
@@ -202,7 +191,7 @@ def above(scene: Scene, where: str) -> tuple[float, float, float]:
     region = obj.asset.region("in") or obj.asset.region("on")
     points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])
     middle = obj.pose.apply(np.array([region.floor]))[0] if region else centre_of_mass(scene, where)
-    return float(middle[0]), float(middle[1]), float(points[:, 2].max()) + CARRY_HEIGHT
+    return point([*middle[:2], points[:, 2].max() + CARRY_HEIGHT])
 
 
 def check_move(scene: Scene, target: str, where: str) -> None:
