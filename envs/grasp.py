@@ -1,7 +1,7 @@
 """Where a parallel gripper can take an object from above, found on height maps.
 
 The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip;
-between them the object must reach up along the pads. That covers bars, balls and boxes that fit between the fingers as
+between them the object must reach up along the pads, and nothing else may. That covers bars, balls and boxes that fit between the fingers as
 well as the rims of cups and bowls, of which one finger enters the inside.
 """
 
@@ -86,12 +86,11 @@ def find_grasps(
     own = grid.heights([target])
     # What stands on the target or in it comes along and is in the way like anything else.
     others = [obj for obj in scene.objects if obj.name != name and (among is None or obj.name in among)]
-    blocking = np.maximum(grid.heights(others), 0.0)
-    blocking = np.maximum(blocking, own)
+    around = np.maximum(grid.heights(others), 0.0)
     centre = target.pose.apply(np.array([target.asset.mass_properties.centre_of_mass]))[0]
     found: list[Grasp] = []
     for number in range(ANGLES):
-        found += _along(math.pi * number / ANGLES, grid, own, blocking, gripper, centre)
+        found += _along(math.pi * number / ANGLES, grid, own, around, gripper, centre)
     found = _held(found, target, gripper)
     return _apart(sorted(found, key=lambda grasp: -grasp.score), count)
 
@@ -103,9 +102,10 @@ def narrowest(obj: SceneObject) -> float:
     return float(np.ptp(points @ np.stack([np.cos(angles), np.sin(angles)]), axis=0).min())
 
 
-def _along(angle: float, grid: _Grid, own: Array, blocking: Array, gripper: Gripper, centre: Array) -> list[Grasp]:
+def _along(angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array) -> list[Grasp]:
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
-    turned_own, turned_all = grid.turned(own, angle), grid.turned(blocking, angle)
+    turned_own, turned_other = grid.turned(own, angle), grid.turned(around, angle)
+    turned_all = np.maximum(turned_own, turned_other)
     width = _odd(gripper.finger_width + 2 * CLEARANCE)
     thick = _odd(gripper.finger_thickness + 2 * CLEARANCE)
     reach = round((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
@@ -113,6 +113,8 @@ def _along(angle: float, grid: _Grid, own: Array, blocking: Array, gripper: Grip
     column = ndimage.maximum_filter(turned_all, size=(thick, width), mode="nearest")
     below = np.maximum(_shifted(column, reach), _shifted(column, -reach)) + TIP_CLEARANCE
     gap = max(3, 2 * round((gripper.opening / 2 - CLEARANCE) / CELL) + 1)
+    # Nothing else stands between the fingers, which would close on that instead.
+    below = np.maximum(below, ndimage.maximum_filter(turned_other, size=(gap, width), mode="nearest") + TIP_CLEARANCE)
     between = ndimage.maximum_filter(turned_own, size=(gap, 3), mode="nearest")
     hand = (_odd(gripper.hand[0]), _odd(gripper.hand[1]))
     below = np.maximum(below, ndimage.maximum_filter(turned_all, size=hand, mode="nearest") - gripper.palm + CLEARANCE)
