@@ -1,8 +1,8 @@
 """Where a parallel gripper can take an object from above, found on height maps.
 
 The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip;
-between them the object must reach up along the pads, and nothing else may. That covers bars, balls and boxes that fit between the fingers as
-well as the rims of cups and bowls, of which one finger enters the inside.
+between them the object must reach up along the pads, and nothing else may. That covers bars, balls and boxes that fit
+between the fingers as well as the rims of cups and bowls, of which one finger enters the inside.
 """
 
 from __future__ import annotations
