@@ -33,6 +33,8 @@ def _neighbours(scene: Scene, name: str, gripper: Gripper) -> str:
 
 def _in_its_place(obj: SceneObject, carrier: SceneObject, scene: Scene, gripper: Gripper) -> str:
     """Of an object that could be taken if what carries it were not there."""
+    if _covered(obj, carrier):
+        return f'it is under a part of "{carrier.name}", and robots take things from above'
     below = 1e3 * (_rim(carrier) - _height(obj)[1])
     fingers_alone = replace(gripper, hand=(0.0, 0.0))
     if find_grasps(scene, obj.name, fingers_alone, among=(carrier.name,)):
@@ -44,6 +46,17 @@ def _in_its_place(obj: SceneObject, carrier: SceneObject, scene: Scene, gripper:
     if below > 0.0:
         return f'"{carrier.name}" leaves no room for the fingers beside it'
     return f'"{carrier.name}" leaves no room for the fingers below its top'
+
+
+def _covered(obj: SceneObject, carrier: SceneObject) -> bool:
+    """Whether a part of the carrier is above the middle of the object."""
+    middle = obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0]
+    for part in carrier.asset.parts:
+        points = carrier.pose.apply(part.vertices)
+        low, high = points.min(axis=0), points.max(axis=0)
+        if low[2] >= _height(obj)[1] and (low[:2] <= middle[:2]).all() and (middle[:2] <= high[:2]).all():
+            return True
+    return False
 
 
 def _by_itself(obj: SceneObject, gripper: Gripper) -> str:
