@@ -12,6 +12,7 @@ own code, which takes a pseudo-inverse, is asked instead.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
@@ -52,6 +53,10 @@ class OperationalSpace:
             data.M, model.M_rowadr.astype(np.int64), model.M_rownnz.astype(np.int64), model.M_colind.astype(np.int64),
             data.ctrl, np.asarray(actuators, dtype=np.int64), np.ascontiguousarray(limits),
         )  # fmt: skip
+        # Compiled here, so that no step waits for it.
+        before, nothing = data.ctrl.copy(), np.zeros(6)
+        self.apply(np.zeros(3), np.eye(3), nothing, nothing, np.zeros(len(joints)))
+        data.ctrl[:] = before
 
     def apply(self, position: Array, rotation: Array, kp: Array, kd: Array, posture: Array) -> bool:
         """Write the torques that draw the site to a pose into the controls.
@@ -69,7 +74,15 @@ class OperationalSpace:
         return _apply(position, rotation, kp, kd, posture, *self._fixed)
 
 
-@numba.njit(cache=True)
+def _compiled(function: Callable[..., Any]) -> Any:
+    """Compile when it is first called; kept for later processes where there is a folder for that."""
+    try:
+        return numba.njit(cache=True)(function)
+    except RuntimeError:
+        return numba.njit(function)
+
+
+@_compiled
 def _cholesky(a: Array) -> bool:
     """The lower triangle of `a`, shape (n, n), becomes its factor; False where it has none."""
     n = a.shape[0]
@@ -89,7 +102,7 @@ def _cholesky(a: Array) -> bool:
     return True
 
 
-@numba.njit(cache=True)
+@_compiled
 def _solve(factor: Array, b: Array) -> None:
     """`b`, shape (n,), becomes the solution of factor factor^T x = b."""
     n = b.shape[0]
@@ -103,7 +116,7 @@ def _solve(factor: Array, b: Array) -> None:
         b[i] /= factor[i, i]
 
 
-@numba.njit(cache=True)
+@_compiled
 def _apply(
     # Goal
     position, rotation, kp, kd, posture,
