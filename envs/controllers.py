@@ -96,7 +96,7 @@ class RobotController:
             "qpos": [int(joint.qposadr[0]) for joint in joints],
             "qvel": [int(joint.dofadr[0]) for joint in joints],
         }
-        settings = dict(_part_settings(self.kind))
+        settings = dict(part_settings(self.kind))
         if self.kind == "osc":
             settings.update(robot.controller)
         for key in ("type", "interpolation", "ramp_ratio", "gripper"):
@@ -129,7 +129,7 @@ def _operational_space(*arguments: Any) -> Any:
 
 
 @functools.lru_cache(maxsize=len(_CLASSES))
-def _part_settings(kind: str) -> dict[str, Any]:
+def part_settings(kind: str) -> dict[str, Any]:
     """The settings that robosuite has for a kind of controller."""
     name = _CLASSES[kind][2]
     return robosuite_module("controllers").load_part_controller_config(default_controller=name.upper())
