@@ -23,7 +23,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from pat3d.envs.suites.crew import worker_count
 from pat3d.envs.suites.folder import LOG, RECORD, REJECTED, SCENES, read_document
 from pat3d.envs.suites.generate import Status, generate
 from pat3d.envs.suites.manifest import numbers
@@ -60,11 +59,10 @@ def main() -> None:
     request = Request(
         scenes=options.scenes, seed=options.seed, objects=(options.objects, options.objects), picture=picture
     )
-    workers = worker_count(options.workers)
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(options.out or Path(scratch) / "suite")
-        status = generate(str(folder), request, workers=workers, tell=_Progress().tell)
-        took = f"{status.made} scenes with {workers} workers in {status.seconds:.0f} s"
+        status = generate(str(folder), request, workers=options.workers, tell=_Progress().tell)
+        took = f"{status.made} scenes with {status.workers} workers in {status.seconds:.0f} s"
         times = f"target {TARGET} on 2 cores, {status.per_hour / TARGET:.1f} times"
         lines = [f"{took}: {status.per_hour:.0f} an hour ({times})", *report(folder)]
         _print(lines)

@@ -29,11 +29,13 @@ def keep_to_one_thread() -> None:
 
 @contextmanager
 def _on_one_core() -> Iterator[None]:
-    if not hasattr(os, "sched_setaffinity"):
+    try:
+        own = os.sched_getaffinity(0)
+        os.sched_setaffinity(0, {min(own)})
+    except (AttributeError, OSError):
+        # There is no such call here, or it is not allowed.
         yield
         return
-    own = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {min(own)})
     try:
         yield
     finally:
