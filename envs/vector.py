@@ -50,6 +50,16 @@ def make_vector(num_envs: int = 1, device: str = "auto", **kwargs: Any) -> Vecto
     return AsyncVectorEnv([one] * num_envs)
 
 
+def _present(device: str) -> bool:
+    import warp as wp
+
+    try:
+        wp.get_device(device)
+    except (RuntimeError, ValueError):
+        return False
+    return True
+
+
 def _runs_on_gpu(kwargs: dict[str, Any]) -> bool:
     import importlib.util
 
@@ -143,6 +153,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
             loaded, given = load(scene), DEFAULT_TASK if scene is None and task is None else task
         self.task, placement = choose(loaded.scene, given, robot)
         world = compose(loaded.scene, loaded.mjcf, make_robot(robot), placement)
+        if not _present(device):
+            raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')
         sizes = room_for(world, control, control_freq) if room is None else Room(contacts=room[0], rows=room[1])
         require_still(world, loaded.checksum, control, control_freq, device, sizes)
         self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
@@ -281,7 +293,7 @@ def _quats_of(rotations: NDArray[Any]) -> NDArray[Any]:
     """Quaternions (wxyz) of rotation matrices, shape (n, 4), the largest value of each positive."""
     from scipy.spatial.transform import Rotation
 
-    finite = np.isfinite(rotations).all(axis=(1, 2))
+    finite = np.asarray(np.isfinite(rotations).all(axis=(1, 2)))
     quats = Rotation.from_matrix(np.where(finite[:, None, None], rotations, np.eye(3))).as_quat(scalar_first=True)
     rows = np.arange(len(quats))
     largest = quats[rows, np.argmax(np.abs(quats), axis=1)]

@@ -2,8 +2,8 @@
 
 MuJoCo Warp computes in single precision and knows no contact margins beside multi-contact collision. The exported
 contacts are stiffer than single precision can resolve: at rest, surfaces overlap by tenths of a micrometre, and
-coordinates are known to hundredths of one. `in_single_precision` softens the contacts to overlaps of hundredths of a
-millimetre; that what stood still stands still then too is checked on the device before anything else.
+coordinates are known to hundredths of one. `in_single_precision` softens the contacts to overlaps of some ten
+micrometres; that what stood still stands still then too is checked on the device before anything else.
 """
 
 from __future__ import annotations
@@ -15,22 +15,25 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
 
-import mujoco
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.assets.cache import cache_root
 from pat3d.envs.batch.controllers import BatchedController
+from pat3d.envs.batch.kernels import note_peaks, note_touches
 from pat3d.envs.simulation import Simulation
-from pat3d.envs.state import TOUCH
 from pat3d.envs.world import World
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
 
 Array = NDArray[np.float32]
 
-SOLIMP = (0.9, 0.95, 0.001, 0.5, 2.0)
-"""Impedance of the scene's contacts: MuJoCo's own, under which surfaces overlap by g (1 - 0.9) tc^2 = 16 um."""
+SOLREF, SOLIMP = (0.01, 1.0), (0.99, 0.99, 0.001, 0.5, 2.0)
+"""Time constant [s], damping ratio and impedance of the scene's contacts.
+
+A body at rest overlaps with what carries it by g (1 - d) t^2 = 10 um. A smaller impedance d overlaps as much with a
+shorter time constant, but what leans creeps then: friction gives way in proportion to 1 - d.
+"""
 
 CCD_TOLERANCE = 1.0e-6
 """Of collision detection [m]: finer ones are below the rounding of single precision, and no contact is found."""
@@ -55,13 +58,17 @@ OWNERS = 3
 def in_single_precision(model: Any) -> Any:
     """A copy of `model` whose contacts single precision resolves; masses, shapes, friction and time step are the same.
 
-    Contacts of objects get MuJoCo's standard impedance, no margin, and pyramidal friction cones.
+    Contacts lose their margins; stiff ones get `SOLREF` and `SOLIMP`. Friction cones are pyramids: MuJoCo Warp steps
+    them five times as fast as elliptic ones. Boxes collide by their own routine: the general one loses contacts of
+    boxes that overlap by micrometres.
     """
+    mujoco: Any = import_module("mujoco")
     fit = copy.copy(model)
     fit.geom_margin[:], fit.geom_gap[:] = 0.0, 0.0
-    stiff = fit.geom_solimp[:, 0] > SOLIMP[0]
-    fit.geom_solimp[stiff] = SOLIMP
+    stiff = fit.geom_solref[:, 0] < SOLREF[0]
+    fit.geom_solref[stiff], fit.geom_solimp[stiff] = SOLREF, SOLIMP
     fit.opt.ccd_tolerance = CCD_TOLERANCE
+    fit.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_NATIVECCD)
     fit.opt.cone, fit.opt.impratio = mujoco.mjtCone.mjCONE_PYRAMIDAL, 1.0
     fit.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
     fit.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
@@ -90,44 +97,6 @@ def room_for(world: World, control: str, control_freq: float) -> Room:
         contacts=round(SPARE * contacts) + ROBOT_CONTACTS,
         rows=round(SPARE * rows) + ROBOT_CONTACTS * ROWS_PER_CONTACT,
     )
-
-
-@wp.kernel
-def note_peaks(
-    contacts: wp.array[int], pairs: wp.array[int], rows: wp.array[int], position: wp.array2d[wp.float32],
-    peaks: wp.array[int], lost: wp.array[wp.bool],
-):  # fmt: skip
-    """Most contacts, pairs and rows so far, and which worlds are no longer finite."""
-    world = wp.tid()
-    if world == 0:
-        wp.atomic_max(peaks, 0, contacts[0])
-        wp.atomic_max(peaks, 1, pairs[0])
-    wp.atomic_max(peaks, 2, rows[world])
-    for k in range(position.shape[1]):
-        if not wp.isfinite(position[world, k]):
-            lost[world] = True
-
-
-@wp.kernel
-def note_touches(
-    count: wp.array[int], geoms: wp.array[wp.vec2i], distance: wp.array[wp.float32], address: wp.array2d[int],
-    of_world: wp.array[int], owner: wp.array[int], finger: wp.array[int], touching: wp.array3d[wp.bool],
-    pinched: wp.array3d[wp.bool],
-):  # fmt: skip
-    """Whose geoms touch whose in every world, and what either finger touches."""
-    contact = wp.tid()
-    if contact >= count[0] or distance[contact] >= wp.float32(wp.static(TOUCH)) or address[contact, 0] < 0:
-        return
-    world = of_world[contact]
-    first, second = geoms[contact][0], geoms[contact][1]
-    a, b = owner[first], owner[second]
-    if a != b:
-        touching[world, a, b] = True
-        touching[world, b, a] = True
-    if finger[first] >= 0:
-        pinched[world, finger[first], b] = True
-    if finger[second] >= 0:
-        pinched[world, finger[second], a] = True
 
 
 class BatchedPhysics:
@@ -256,7 +225,7 @@ class BatchedPhysics:
     @property
     def lost(self) -> NDArray[np.bool_]:
         """Worlds whose state is no longer finite, shape (worlds,)."""
-        return self._lost.numpy()
+        return self._lost.numpy().astype(np.bool_)
 
     def touches(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Who touches whom, shape (worlds, owners, owners), and what each finger touches, shape (worlds, 2, owners)."""
@@ -268,7 +237,7 @@ class BatchedPhysics:
                 data.nacon, contact.geom, contact.dist, contact.efc_address, contact.worldid, self._owner, self._finger,
                 self._touching, self._pinched,
             ])  # fmt: skip
-        return self._touching.numpy(), self._pinched.numpy()
+        return self._touching.numpy().astype(np.bool_), self._pinched.numpy().astype(np.bool_)
 
 
 def _fingers(world: World) -> NDArray[np.int32]:
