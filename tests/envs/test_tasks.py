@@ -290,14 +290,14 @@ def test_a_board_with_something_on_it_takes_more_as_long_as_there_is_room():
         parse_task("place:cube:board").check(board(0.12, 0.0))
 
 
-def test_what_stands_under_a_shelf_is_refused_because_robots_take_things_from_above():
+def test_what_stands_under_a_shelf_is_refused_because_it_is_covered():
     board, roof = bar("board", (0.4, 0.3, 0.02)), bar("roof", (0.4, 0.3, 0.02))
     above = replace(roof.asset.parts[0], vertices=roof.asset.parts[0].vertices + [0.0, 0.0, 0.4])
     shelf = replace(board, name="shelf", asset=replace(board.asset, parts=(*board.asset.parts, above)))
     cube = bar("cube", (0.05, 0.05, 0.05))
     lifted = replace(cube, pose=Pose(position=(0.0, 0.0, 0.02), quat_wxyz=cube.pose.quat_wxyz))
     scene = Scene(objects=(shelf, lifted), relations=(Relation(child="cube", kind="on", parent="shelf"),))
-    with pytest.raises(TaskError, match='it is under a part of "shelf", and robots take things from above'):
+    with pytest.raises(TaskError, match='it is under a part of "shelf" and cannot be got at from above'):
         place(scene, "Panda", Needs(grasp=("cube",)))
 
 
