@@ -47,6 +47,9 @@ DEPTHS = (0.35, 0.6, 0.95)
 FACING = math.cos(math.radians(30.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
 
+APART = 0.02
+"""Grasps nearer than this to one another [m] count as one where they close alike."""
+
 MAX_SIDE = 2.0
 """Objects wider than this [m] are not examined."""
 
@@ -290,13 +293,13 @@ def _odd(length: float) -> int:
 
 
 def _apart(grasps: list[Grasp], count: int) -> list[Grasp]:
-    """The best `count` that differ by 1 cm or by a quarter of a right angle."""
+    """The best `count` that differ by APART or by a quarter of a right angle."""
     kept: list[Grasp] = []
     for grasp in grasps:
         near = False
         for other in kept:
             turn = abs((grasp.closing - other.closing + math.pi / 2) % math.pi - math.pi / 2)
-            near |= math.dist(grasp.position, other.position) < 0.01 and turn < math.pi / 9
+            near |= math.dist(grasp.position, other.position) < APART and turn < math.pi / 9
         if not near:
             kept.append(grasp)
             if len(kept) == count:

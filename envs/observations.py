@@ -92,6 +92,7 @@ class Observer:
                 f"the scene has {len(world.objects)} moving objects, the observation space {spec.max_objects}; "
                 f"make the environment with max_objects={len(world.objects)} or more."
             )
+        self._mujoco: Any = import_module("mujoco")
         joints = [model.joint(PREFIX + name) for name in world.robot.arm_joints]
         self._positions = np.array([int(joint.qposadr[0]) for joint in joints])
         self._velocities = np.array([int(joint.dofadr[0]) for joint in joints])
@@ -112,7 +113,7 @@ class Observer:
             "joint_vel": data.qvel[self._velocities],
             "gripper_pos": data.qpos[self._fingers],
             "eef_pos": state.hand,
-            "eef_quat": _quat_of(state.hand_rotation),
+            "eef_quat": self._quat_of(state.hand_rotation),
         }
         observation: Observation = {name: np.asarray(value, dtype=np.float32) for name, value in found.items()}
         np.clip(observation["joint_vel"], -FASTEST, FASTEST, out=observation["joint_vel"])
@@ -121,8 +122,9 @@ class Observer:
             count = len(self._bodies)
             objects[:count, :3], objects[:count, 3:] = data.xpos[self._bodies], data.xquat[self._bodies]
             pose = (state.position(verdict.target), state.quat_wxyz(verdict.target), verdict.goal)
-            observation["objects"] = np.clip(objects, -FARTHEST, FARTHEST)
-            observation["target"] = np.clip(np.concatenate(pose), -FARTHEST, FARTHEST).astype(np.float32)
+            target = np.concatenate(pose).astype(np.float32)
+            observation["objects"] = objects.clip(-FARTHEST, FARTHEST, out=objects)
+            observation["target"] = target.clip(-FARTHEST, FARTHEST, out=target)
             return observation
         for camera in spec.cameras:
             picture = pictures.take(
@@ -135,18 +137,16 @@ class Observer:
                 observation[f"{camera}_segmentation"] = picture.segmentation[..., None]
         return observation
 
+    def _quat_of(self, rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Quaternion (wxyz) of a rotation matrix, its largest value positive: it never jumps by a sign alone."""
+        quat = np.zeros(4)
+        self._mujoco.mju_mat2Quat(quat, rotation.reshape(-1))
+        return quat if quat[np.argmax(np.abs(quat))] > 0 else -quat
+
 
 def object_row(observation: Observation, objects: Sequence[str], name: str) -> NDArray[np.float32]:
     """Position [m] and orientation (wxyz) of object `name` in a state observation, shape (7,)."""
     return observation["objects"][list(objects).index(name)]
-
-
-def _quat_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Quaternion (wxyz) of a rotation matrix, its largest value positive, so that it never jumps by a sign alone."""
-    mujoco: Any = import_module("mujoco")
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, rotation.reshape(-1))
-    return quat if quat[np.argmax(np.abs(quat))] > 0 else -quat
 
 
 def _box(low: Any, high: Any) -> spaces.Box:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pat3d.envs.grasp import Grasp, find_grasps
 from pat3d.envs.kinematics import ArmKinematics
 from pat3d.envs.refusals import why_not
-from pat3d.envs.robots import measure_gripper
+from pat3d.envs.robots import PAYLOADS, measure_gripper
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
 
@@ -147,6 +147,11 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
 
 def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool) -> list[Grasp]:
     gripper = measure_gripper(robot)
+    mass = scene[name].asset.mass_properties.mass
+    if mass > PAYLOADS[robot]:
+        raise TaskError(
+            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f}.'
+        )
     # Once it is cleared, nothing is in the way but what carries it.
     found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)
     if not found:

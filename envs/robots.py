@@ -35,6 +35,9 @@ stay 60 mm apart. The Robotiq 140 closes.
 
 ROBOTS = tuple(GRIPPERS)
 
+PAYLOADS = {"Panda": 3.0, "UR5e": 5.0, "Sawyer": 4.0, "IIWA": 7.0}
+"""What every arm carries by its maker's data sheet [kg]."""
+
 INSTALL_HINT = (
     'robots need robosuite: "pip install pat3d[robots]", or without its unused dependencies '
     '"pip install numba opencv-python-headless termcolor" and then "pip install --no-deps robosuite==1.5.2".'

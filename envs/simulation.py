@@ -40,7 +40,13 @@ class Simulation:
         self.period = self.substeps * timestep
         """Length of a control step [s]."""
         self.data = self._mujoco.MjData(self.model)
+        kinds = self._mujoco.mjtWarning
+        wrong = (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)
+        self._warnings = [self.data.warning[kind] for kind in wrong]
         self._arm = np.array([int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.arm_joints])
+        self._fingers = np.array(
+            [int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.gripper_joints]
+        )
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
         self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
@@ -93,8 +99,11 @@ class Simulation:
         self.state.refresh()
 
     @property
+    def fingers(self) -> Array:
+        """Positions of the gripper's joints [m or rad]."""
+        return self.data.qpos[self._fingers]
+
+    @property
     def broken(self) -> bool:
         """Whether the simulation blew up and MuJoCo started it over."""
-        warnings = self._mujoco.mjtWarning
-        kinds = (warnings.mjWARN_BADQPOS, warnings.mjWARN_BADQVEL, warnings.mjWARN_BADQACC)
-        return any(self.data.warning[kind].number for kind in kinds)
+        return any(warning.number for warning in self._warnings)

@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 TOPPLED_DEGREES = 30.0
 """An object that turned its upright axis by more than this since the start has toppled."""
 
+_TOPPLED_COSINE = math.cos(math.radians(TOPPLED_DEGREES))
+
 STILL_SPEED = 0.05
 """Slower than this is at rest [m/s]."""
 
@@ -39,6 +41,7 @@ class SimState:
         self._bodies = [world.bodies[obj.name] for obj in world.scene.objects]
         self._fixed = {number for number, obj in enumerate(world.scene.objects) if obj.fixed} | {SUPPORT, FLOOR}
         self._moving = {name: number for number, name in enumerate(world.objects)}
+        self._moving_bodies = np.array([world.bodies[name] for name in world.objects], dtype=np.int64)
         self._fingers = np.zeros((2, model.ngeom), dtype=bool)
         for side, names in enumerate(world.robot.fingers):
             self._fingers[side, [model.geom(world.prefix + name).id for name in names]] = True
@@ -48,6 +51,7 @@ class SimState:
         self._pinched: list[set[int]] = [set(), set()]
         self._start_centre: dict[str, Array] = {}
         self._start_up: dict[str, Array] = {}
+        self._start_ups = np.zeros((len(world.objects), 3))
 
     @property
     def scene(self) -> Scene:
@@ -61,6 +65,7 @@ class SimState:
         for name in self._number:
             self._start_centre[name] = self.centre(name).copy()
             self._start_up[name] = self.rotation(name)[2].copy()
+        self._start_ups = self._data.xmat[self._moving_bodies, 6:9]
 
     def refresh(self) -> None:
         """Read the contacts of the present state."""
@@ -164,7 +169,9 @@ class SimState:
 
     def toppled(self) -> list[str]:
         """Objects that the robot does not hold and that turned over, or nearly."""
-        return [name for name in self._moving if not self.held(name) and self.tilt(name) > TOPPLED_DEGREES]
+        cosines = (self._data.xmat[self._moving_bodies, 6:9] * self._start_ups).sum(axis=1)
+        leaning = np.flatnonzero(cosines < _TOPPLED_COSINE).tolist()
+        return [name for name in map(self.world.objects.__getitem__, leaning) if not self.held(name)]
 
     def fell(self) -> list[str]:
         """Objects that dropped from the surface of the work."""

@@ -66,6 +66,10 @@ EXAMPLES = {
     "train": """
   pat3d train --episodes 100 --perturb pose=0.04 --out cloned.pt
 """,
+    "demonstrate": """
+  pat3d demonstrate --episodes 100 --perturb pose=0.04 --out mug.hdf5                  for robomimic
+  pat3d demonstrate --suite suites/tabletop --split train --obs rgb --out tabletop     a LeRobotDataset, with films
+""",
 }
 
 

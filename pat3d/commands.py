@@ -189,3 +189,10 @@ def train(options: argparse.Namespace) -> int:
     from pat3d.policies_eval import commands
 
     return commands.train(options)
+
+
+def demonstrate(options: argparse.Namespace) -> int:
+    """`pat3d demonstrate`."""
+    from pat3d.policies_eval import commands
+
+    return commands.demonstrate(options)

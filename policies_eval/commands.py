@@ -21,7 +21,8 @@ def add_commands(command: Any) -> None:
     """Add the commands to a command line; `command` makes a parser from a name and a summary."""
     evaluating = command("evaluate", "let a policy do episodes, and report its success rate and failures")
     evaluating.add_argument("--policy", required=True, metavar="POLICY",
-                            help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt")  # fmt: skip
+                            help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt, "
+                                 "lerobot:FOLDER")  # fmt: skip
     _add_episodes(evaluating)
     evaluating.add_argument("--out", required=True, metavar="FOLDER", help="records; an unfinished run goes on there")
     evaluating.add_argument("--workers", default="1", metavar="N", help="processes, or auto: one a core (1)")
@@ -43,15 +44,23 @@ def add_commands(command: Any) -> None:
     replaying.add_argument("folder", metavar="FOLDER", help="what evaluate wrote")
     replaying.add_argument("--episode", type=int, action="append", metavar="N", help="which one; all by default")
     replaying.add_argument("--video", metavar="FILE", help=".mp4, .gif, or a folder for PNG files")
+    replaying.add_argument("--picture", metavar="FILE.png", help="moments of the episode side by side")
     replaying.add_argument("--camera", default="agentview", help="agentview, frontview or wrist (agentview)")
-    replaying.add_argument("--size", default="320x240", metavar="WxH", help="of the video [pixel] (320x240)")
+    replaying.add_argument("--size", default="320x240", metavar="WxH", help="of video and moments [pixel] (320x240)")
 
     training = command("train", "train a small policy on demonstrations of the scripted one")
     _add_episodes(training)
     training.add_argument("--out", required=True, metavar="FILE.pt", help="checkpoint to write")
     training.add_argument("--epochs", type=int, default=200, help="passes over the demonstrations (200)")
     training.add_argument("--noise", type=float, default=0.3, help="of the hand while it demonstrates (0.3)")
-    training.add_argument("--demonstrations", metavar="FILE.hdf5", help="write them too, as robomimic reads them")
+    training.add_argument("--demonstrations", metavar="PATH", help="write them too: see pat3d demonstrate --out")
+
+    showing = command("demonstrate", "write demonstrations of the scripted policy, for robomimic or LeRobot")
+    _add_episodes(showing)
+    showing.add_argument("--out", required=True, metavar="PATH",
+                         help="FILE.hdf5 as robomimic reads it, or a new folder: a LeRobotDataset v3.0")  # fmt: skip
+    showing.add_argument("--noise", type=float, default=0.3, help="of the hand while it demonstrates (0.3)")
+    _add_settings(showing, ("robot", "obs", "control_freq", "max_steps", "image_size"))
 
 
 def _add_episodes(to: argparse.ArgumentParser) -> None:
@@ -65,7 +74,8 @@ def _add_episodes(to: argparse.ArgumentParser) -> None:
                     help="pose [m], friction, mass, camera, light, words; all 0 by default")  # fmt: skip
 
 
-def _add_settings(to: argparse.ArgumentParser) -> None:
+def _add_settings(to: argparse.ArgumentParser, names: tuple[str, ...] | None = None) -> None:
+    """Options for the settings called `names`, or for all."""
     default = RolloutSettings()
     helps = {
         "robot": "Panda, UR5e, Sawyer or IIWA", "control": "osc, joint_velocity or joint_position",
@@ -73,10 +83,16 @@ def _add_settings(to: argparse.ArgumentParser) -> None:
         "image_size": "of observations [pixel]", "replan": "actions done of a chunk before the policy is asked again",
         "act_seconds": "a policy that thinks for longer hangs [s]",
     }  # fmt: skip
-    for name, text in helps.items():
+    for name in names or helps:
         value = getattr(default, name)
-        to.add_argument(f"--{name.replace('_', '-')}", type=type(value), default=value, help=f"{text} ({value})")
-    to.add_argument("--clip", action="store_true", help="clip actions that are out of range")
+        to.add_argument(f"--{name.replace('_', '-')}", type=type(value), default=value, help=f"{helps[name]} ({value})")
+    if names is None:
+        to.add_argument("--clip", action="store_true", help="clip actions that are out of range")
+
+
+def _settings_of(options: argparse.Namespace) -> RolloutSettings:
+    names = [one.name for one in fields(RolloutSettings)]
+    return RolloutSettings(**{name: getattr(options, name) for name in names if hasattr(options, name)})
 
 
 def episodes_from(options: argparse.Namespace) -> tuple[tuple[Any, ...], dict[str, Any]]:
@@ -106,9 +122,7 @@ def evaluate(options: argparse.Namespace) -> int:
     """`pat3d evaluate`."""
     from pat3d.policies_eval.evaluate import evaluate as run
 
-    settings = RolloutSettings(
-        **{one.name: getattr(options, one.name) for one in fields(RolloutSettings) if hasattr(options, one.name)}
-    )
+    settings = _settings_of(options)
     episodes, source = episodes_from(options)
     workers = _workers(options.workers)
     begun = time.perf_counter()
@@ -158,8 +172,8 @@ def replay(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.replay import replay_episodes
 
     return replay_episodes(
-        read_evaluation(options.folder), options.episode, video=options.video, camera=options.camera,
-        size=_size(options.size), target=console(),
+        read_evaluation(options.folder), options.episode, video=options.video, picture=options.picture,
+        camera=options.camera, size=_size(options.size), target=console(),
     )  # fmt: skip
 
 
@@ -170,6 +184,19 @@ def train(options: argparse.Namespace) -> int:
     episodes, _ = episodes_from(options)
     run(episodes, options.out, epochs=options.epochs, seed=options.seed, noise=options.noise,
         demonstrations=options.demonstrations, target=console())  # fmt: skip
+    return 0
+
+
+def demonstrate(options: argparse.Namespace) -> int:
+    """`pat3d demonstrate`."""
+    from pat3d.policies_eval.demonstration_files import write_demonstrations
+    from pat3d.policies_eval.demonstrations import demonstrations
+
+    settings = _settings_of(options)
+    episodes, _ = episodes_from(options)
+    shown = demonstrations(episodes, noise=options.noise, settings=settings, target=console(stderr=True))
+    count = write_demonstrations(shown, options.out, settings)
+    console().print(f"{options.out}: {count} demonstrations of {len(episodes)}", markup=False, highlight=False)
     return 0
 
 

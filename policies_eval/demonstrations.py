@@ -6,7 +6,7 @@ seen perfect motions does not know how to get back to them (Laskey et al. 2017, 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -70,12 +70,19 @@ class Demonstrator:
 def demonstrate(
     episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
 ) -> list[Demonstration]:
-    """Successful demonstrations of `episodes`.
+    """Successful demonstrations of `episodes`; see `demonstrations`."""
+    return list(demonstrations(episodes, noise=noise, settings=settings, target=target))
+
+
+def demonstrations(
+    episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
+) -> Iterator[Demonstration]:
+    """Successful demonstrations of `episodes`, one after the other.
 
     Args:
         episodes: to do.
         noise: of the hand, in actions.
-        settings: of the environment; state observations.
+        settings: of the environment.
         target: a console for the progress.
 
     Raises:
@@ -84,23 +91,23 @@ def demonstrate(
     if not 0.0 <= noise <= 1.0:
         raise EvaluationError(f"noise is 0 to 1, not {noise}.")
     runner, policy = Runner(settings or RolloutSettings()), Demonstrator(noise)
-    found = []
-    for episode in episodes:
-        result = runner.run(episode, policy)
-        if target is not None:
-            target.print(f"demonstration {episode.index + 1}/{len(episodes)}: {result.outcome}", highlight=False)
-        if result.success:
-            keys = policy.seen[0]
-            found.append(
-                Demonstration(
-                    episode=episode,
-                    instruction=result.instruction,
-                    observations={name: np.stack([seen[name] for seen in policy.seen]) for name in keys},
-                    actions=np.stack(policy.answers),
-                    done=result.actions,
-                )
+    succeeded = 0
+    try:
+        for episode in episodes:
+            result = runner.run(episode, policy)
+            if target is not None:
+                target.print(f"demonstration {episode.index + 1}/{len(episodes)}: {result.outcome}", highlight=False)
+            if not result.success:
+                continue
+            succeeded += 1
+            yield Demonstration(
+                episode=episode,
+                instruction=result.instruction,
+                observations={name: np.stack([seen[name] for seen in policy.seen]) for name in policy.seen[0]},
+                actions=np.stack(policy.answers),
+                done=result.actions,
             )
-    runner.close()
-    if not found:
+    finally:
+        runner.close()
+    if not succeeded:
         raise EvaluationError(f"none of {len(episodes)} demonstrations succeeded; choose another scene or task.")
-    return found

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import multiprocessing
 import os
 import shutil
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
@@ -29,6 +30,9 @@ GRACE_SECONDS = 5.0
 POLL_SECONDS = 0.5
 
 MAX_WORKERS = 512
+
+THREADS = tuple(f"{name}_NUM_THREADS" for name in ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA"))
+"""Variables that say how many threads a process's numerical libraries start."""
 
 Report = Callable[[Result, int, int], None]
 """Called with every new result, the number done and the number wanted."""
@@ -174,7 +178,8 @@ class _Pool:
         process = self._context.Process(
             target=_work, args=(there, self._policy, self._settings, deadline), daemon=True, name="pat3d-evaluate"
         )
-        process.start()
+        with _threads(max(1, _cores() // self._count)):
+            process.start()
         there.close()
         return _Worker(process=process, pipe=here, deadline=deadline)
 
@@ -224,6 +229,22 @@ class _Pool:
         if worker.process.is_alive():
             worker.process.kill()
         worker.process.join(GRACE_SECONDS)
+
+
+@contextlib.contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Numerical libraries of the processes that are started here use `count` threads, where nobody said otherwise."""
+    own = {name: str(count) for name in THREADS if name not in os.environ}
+    os.environ.update(own)
+    try:
+        yield
+    finally:
+        for name in own:
+            del os.environ[name]
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _work(pipe: Connection, policy: str, settings: RolloutSettings, deadline: Any) -> None:

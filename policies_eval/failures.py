@@ -15,6 +15,7 @@ One outcome an episode, the first of these that holds:
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -84,7 +85,7 @@ class Watcher:
         for name in self._targets:
             centre = state.centre(name)
             rise = float(centre[2] - self._start[name][2])
-            self._closest = min(self._closest, float(np.linalg.norm(state.hand - centre)))
+            self._closest = min(self._closest, math.dist(state.hand, centre))
             if state.held(name):
                 self._holding.add(name)
                 self._lost[name], self._grasped = 0, True

@@ -16,7 +16,12 @@ from numpy.typing import NDArray
 from pat3d.errors import EvaluationError, Pat3dError
 from pat3d.policies_eval.policy import EpisodeStart, Policy
 
-FORMS = "random, scripted, ws://HOST:PORT (an openpi policy server), package.module:callable, FILE.pt (pat3d train)"
+FORMS = (
+    "random, scripted, ws://HOST:PORT (an openpi policy server), package.module:callable, FILE.pt (pat3d train), "
+    "lerobot:FOLDER (a checkpoint of LeRobot)"
+)
+
+LEROBOT = "lerobot:"
 
 _CALLABLE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
 
@@ -71,11 +76,20 @@ def make_policy(spec: str) -> Policy:
         from pat3d.policies_eval.cloning import ClonedPolicy
 
         return ClonedPolicy(spec)
+    if spec.startswith(LEROBOT):
+        from pat3d.policies_eval.lerobot_policy import LeRobotPolicy
+
+        return LeRobotPolicy(spec)
     return _imported(spec)
 
 
 def require_known(spec: str) -> None:
     """Raise EvaluationError unless `spec` has the form of a policy, and names a file that is there."""
+    if spec.startswith(LEROBOT):
+        from pat3d.policies_eval.lerobot_policy import require_checkpoint
+
+        require_checkpoint(spec)
+        return
     plain = spec in ("random", "scripted") or spec.startswith(("ws://", "wss://"))
     if spec.endswith(".pt"):
         if not Path(spec).is_file():
@@ -86,6 +100,9 @@ def require_known(spec: str) -> None:
 
 def identity(spec: str) -> dict[str, str]:
     """What tells this policy from another with the same name: the checksum of a checkpoint."""
+    if spec.startswith(LEROBOT):
+        weights = Path(spec.removeprefix(LEROBOT)) / "model.safetensors"
+        return {"checkpoint_sha256": hashlib.sha256(weights.read_bytes()).hexdigest()} if weights.is_file() else {}
     if spec.endswith(".pt") and Path(spec).is_file():
         return {"checkpoint_sha256": hashlib.sha256(Path(spec).read_bytes()).hexdigest()}
     return {}

@@ -15,7 +15,11 @@ from pat3d.policies_eval.manifest import engine
 from pat3d.policies_eval.records import Evaluation
 from pat3d.policies_eval.rollout import Result, Runner
 from pat3d.policies_eval.settings import RolloutSettings
+from pat3d.policies_eval.strip import moments_of, write_strip
 from pat3d.policies_eval.video import write_video
+
+MOMENTS = 4
+"""Of an episode in a picture."""
 
 FILM_RATE = 10.0
 """Pictures a second."""
@@ -66,6 +70,8 @@ class Replayer:
         self, result: Result, steps: Sequence[int], camera: str = "agentview", size: tuple[int, int] = (240, 180)
     ) -> list[NDArray[np.uint8]]:
         """Pictures after chosen steps."""
+        if camera not in CAMERAS:
+            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(CAMERAS)}.')
         frames: list[NDArray[np.uint8]] = []
         step = 0
 
@@ -88,6 +94,7 @@ def replay_episodes(
     episodes: list[int] | None,
     *,
     video: str | None,
+    picture: str | None = None,
     camera: str,
     size: tuple[int, int],
     target: Any,
@@ -98,20 +105,21 @@ def replay_episodes(
         evaluation: the records.
         episodes: indexes; None for all.
         video: where to put a film of the one episode.
-        camera: of the film.
-        size: width and height of the film [pixel].
+        picture: where to put a picture of moments of the one episode.
+        camera: of film and picture.
+        size: width and height of the film, and of each moment [pixel].
         target: a console.
 
     Raises:
-        EvaluationError: no such episode, or a film of several.
+        EvaluationError: no such episode, or a film or picture of several.
     """
 
     def line(text: str) -> None:
         target.print(text, markup=False, highlight=False, soft_wrap=True)
 
     chosen = list(evaluation.results) if not episodes else [evaluation.result(index) for index in episodes]
-    if video is not None and len(chosen) != 1:
-        raise EvaluationError("a film shows one episode: --episode N.")
+    if (video is not None or picture is not None) and len(chosen) != 1:
+        raise EvaluationError("a film or a picture shows one episode: --episode N.")
     now, then = engine(), evaluation.manifest["engine"]
     changed = [f"{name} {then.get(name)} then, {now[name]} now" for name in now if now[name] != then.get(name)]
     if changed:
@@ -122,6 +130,10 @@ def replay_episodes(
             if not result.state_hash:
                 line(f"episode {result.episode.index}: nothing was recorded ({result.reason})")
                 continue
+            if picture is not None:
+                frames = replayer.moments(result, moments_of(result.steps, MOMENTS), camera, size)
+                caption = f"{result.instruction}: {result.outcome.replace('_', ' ')}"
+                line(f"wrote {write_strip([(caption, frames)], picture)}")
             if video is not None:
                 same, frames = replayer.film(result, camera, size)
                 line(f"wrote {write_video(frames, Path(video), FILM_RATE)}, {len(frames)} frames")

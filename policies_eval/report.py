@@ -10,13 +10,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from pat3d.policies_eval.charts import OUTCOME_COLOURS, interval_bar, outcome_bar
 from pat3d.policies_eval.failures import OUTCOMES
 from pat3d.policies_eval.records import Evaluation, write_text
 from pat3d.policies_eval.replay import FILM_RATE, Replayer
 from pat3d.policies_eval.rollout import Result
+from pat3d.policies_eval.strip import moments_of
 from pat3d.policies_eval.summary import Summary
 from pat3d.policies_eval.video import can_write_mp4, write_video
 
@@ -227,8 +226,7 @@ def _caption(result: Result) -> str:
 
 
 def _strip(replayer: Replayer, result: Result) -> str:
-    steps = sorted(set(np.linspace(0, result.steps, MOMENTS).round().astype(int).tolist()))
-    frames = replayer.moments(result, steps)
+    frames = replayer.moments(result, moments_of(result.steps, MOMENTS))
     pictures = "".join(f'<img alt="" src="data:image/jpeg;base64,{_jpeg(frame)}">' for frame in frames)
     return f'{_caption(result)}<div class="strip">{pictures}</div>'
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
 from typing import Any
@@ -126,26 +125,27 @@ class Runner:
         success, broken, fault = False, False, None
         if watch:
             watch(env)
+        guard = _Guard(settings.act_seconds, clock, self._deadline)
         try:
             begin = EpisodeStart(
                 instruction=info["instruction"], task=info["task"], seed=episode.seed, robot=settings.robot,
                 control=settings.control, action_size=size, control_freq=settings.control_freq,
                 env=env if getattr(policy, "privileged", False) else None,
             )  # fmt: skip
-            with _timed(clock, "policy"), _guarded("reset", settings.act_seconds, self._deadline):
-                policy.reset(begin)
-            while len(recorder.actions) < settings.max_steps and not (success or broken):
-                if not pending:
-                    with _timed(clock, "policy"), _guarded("act", settings.act_seconds, self._deadline):
-                        answer = policy.act(observation)
-                    pending = list(checked(answer, size, clip=settings.clip)[: settings.replan])
-                action = pending.pop(0)
-                with _timed(clock, "physics"):
+            with guard:
+                guard.ask("reset", policy.reset, begin)
+                while len(recorder.actions) < settings.max_steps and not (success or broken):
+                    if not pending:
+                        answer = guard.ask("act", policy.act, observation)
+                        pending = list(checked(answer, size, clip=settings.clip)[: settings.replan])
+                    action = pending.pop(0)
+                    start = time.perf_counter()
                     observation, _, success, broken, info = env.step(action)
-                recorder.add(action)
-                watcher.update(info)
-                if watch:
-                    watch(env)
+                    clock["physics"] += time.perf_counter() - start
+                    recorder.add(action)
+                    watcher.update(info)
+                    if watch:
+                        watch(env)
         except PolicyError as caught:
             fault = caught
         return Result(
@@ -213,42 +213,60 @@ class Recorder:
         return self._hash.hexdigest()
 
 
-@contextlib.contextmanager
-def _timed(clock: dict[str, float], name: str) -> Iterator[None]:
-    start = time.perf_counter()
-    try:
-        yield
-    finally:
-        clock[name] += time.perf_counter() - start
+class _Guard:
+    """Times a policy, interrupts it when it hangs, and turns whatever it raises into a PolicyError.
+
+    Args:
+        seconds: that an answer may take [s].
+        clock: whose "policy" grows.
+        deadline: see Runner.
+    """
+
+    def __init__(self, seconds: float, clock: dict[str, float], deadline: Any) -> None:
+        self._seconds, self._clock, self._deadline = seconds, clock, deadline
+        self._alarm = threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer")
+        self._previous: Any = None
+
+    def __enter__(self) -> _Guard:
+        if self._alarm:
+            self._previous = signal.signal(signal.SIGALRM, _interrupt)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._alarm:
+            signal.signal(signal.SIGALRM, self._previous)
+
+    def ask(self, what: str, method: Callable[[Any], Any], value: Any) -> Any:
+        """What `method` of the policy returns for `value`; `what` is its name.
+
+        Raises:
+            PolicyError: it raised, or took too long.
+        """
+        start = time.perf_counter()
+        try:
+            if self._deadline is not None:
+                self._deadline.value = time.monotonic() + self._seconds
+            if self._alarm:
+                signal.setitimer(signal.ITIMER_REAL, self._seconds)
+            return method(value)
+        except PolicyError:
+            raise
+        except PolicyHang:
+            raise PolicyError("hang", f"{what} took longer than {self._seconds:g} s") from None
+        except Pat3dError as error:
+            raise PolicyError(type(error).__name__, str(error)) from error
+        except (Exception, SystemExit) as error:
+            text = str(error)
+            raise PolicyError(
+                type(error).__name__, (text if len(text) < 500 else text[:500] + "...") or what
+            ) from error
+        finally:
+            if self._alarm:
+                signal.setitimer(signal.ITIMER_REAL, 0.0)
+            if self._deadline is not None:
+                self._deadline.value = 0.0
+            self._clock["policy"] += time.perf_counter() - start
 
 
-@contextlib.contextmanager
-def _guarded(what: str, seconds: float, deadline: Any = None) -> Iterator[None]:
-    """Turn whatever a policy raises into a PolicyError, and interrupt it when it hangs."""
-    alarm = threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer")
-
-    def interrupt(*_: Any) -> None:
-        raise PolicyHang
-
-    previous = signal.signal(signal.SIGALRM, interrupt) if alarm else None
-    try:
-        if deadline is not None:
-            deadline.value = time.monotonic() + seconds
-        if alarm:
-            signal.setitimer(signal.ITIMER_REAL, seconds)
-        yield
-    except PolicyError:
-        raise
-    except PolicyHang:
-        raise PolicyError("hang", f"{what} took longer than {seconds:g} s") from None
-    except Pat3dError as error:
-        raise PolicyError(type(error).__name__, str(error)) from error
-    except (Exception, SystemExit) as error:
-        text = str(error)
-        raise PolicyError(type(error).__name__, (text if len(text) < 500 else text[:500] + "...") or what) from error
-    finally:
-        if alarm:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
-            signal.signal(signal.SIGALRM, previous)
-        if deadline is not None:
-            deadline.value = 0.0
+def _interrupt(*_: Any) -> None:
+    raise PolicyHang

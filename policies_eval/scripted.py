@@ -28,9 +28,22 @@ NEAR, EXACT = 0.02, 0.005
 PATIENCE = 45
 """Control steps after which a move is done anyway."""
 
-CLOSE_STEPS, OPEN_STEPS = 12, 8
+CLOSE_STEPS, OPEN_STEPS = (8, 24), 8
+"""Control steps; the fingers close for at least and at most so many, until they stand still."""
+
+STANDING = 2e-4
+"""Fingers that move by less in a control step stand still [m or rad]."""
+
+LIFT_STEP = 0.015
+"""The hand is raised by so much in a control step [m]: what is jerked slips."""
 
 LIFT = 0.15
+"""[m]"""
+
+RISE = 0.13
+"""What is picked up is lifted until its centre has risen by this [m], as what is held by its rim hangs askew."""
+
+HIGHEST_LIFT = 0.35
 """[m]"""
 
 CARRY_CLEARANCE = 0.06
@@ -81,7 +94,7 @@ class ScriptedPolicy:
             grasp = self._found(self._name, tried) or grasp
         self._grasp = grasp
         self._at = np.array(grasp.position) + [0.0, 0.0, self._gripper.tip]
-        self._rotation = self._servo.nearer(grasp.closing)
+        self._rotation, self._height = self._servo.nearer(grasp.closing), LIFT
         self._enter("rise")
 
     def _target(self) -> str:
@@ -155,7 +168,10 @@ class ScriptedPolicy:
 
     def _close(self) -> NDArray[np.float32] | None:
         self._steps += 1
-        if self._steps > CLOSE_STEPS:
+        fingers = self._env.simulation.fingers.copy()
+        standing = self._steps > 1 and float(np.abs(fingers - self._fingers).max()) < STANDING
+        self._fingers = fingers
+        if self._steps > CLOSE_STEPS[1] or (standing and self._steps > CLOSE_STEPS[0]):
             self._offset = self._env.simulation.state.centre(self._name) - self._env.simulation.state.hand
             self._enter("lift")
             return None
@@ -166,7 +182,13 @@ class ScriptedPolicy:
         if self._steps > 12 and not state.touched(self._name):
             return self._retry()
         keep = self._kind == "pick" or (self._kind == "retrieve" and self._name == self._env.task.target)
-        action, error = self._servo.towards(self._at + [0.0, 0.0, LIFT], self._rotation, 1.0)
+        if keep and state.touched(self._name):
+            short = RISE - float(state.centre(self._name)[2] - state.start_centre(self._name)[2])
+            if float(state.hand[2] - self._at[2]) > self._height - NEAR and short > 0.0:
+                self._height = min(self._height + min(short, 0.02), HIGHEST_LIFT)
+        height = min(self._height, LIFT_STEP * (self._steps + 2))
+        action, error = self._servo.towards(self._at + [0.0, 0.0, height], self._rotation, 1.0)
+        error += self._height - height
         self._steps += 1
         if not keep and (error < NEAR or self._steps > PATIENCE):
             self._place = self._destination()

@@ -11,8 +11,8 @@ from pat3d.errors import EvaluationError
 from pat3d.policies_eval.episodes import Setting
 
 
-def suite_settings(folder: str, split: str) -> tuple[tuple[Setting, ...], dict[str, Any]]:
-    """The scenes and tasks of a split, and what identifies them in a manifest.
+def suite_settings(folder: str, split: str | None) -> tuple[tuple[Setting, ...], dict[str, Any]]:
+    """The scenes and tasks of a split (None for all), and what identifies them in a manifest.
 
     Every scene's files are compared with the checksum that the suite keeps of them.
 

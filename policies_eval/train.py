@@ -11,9 +11,9 @@ import numpy as np
 
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.cloning import features, make_network, save
+from pat3d.policies_eval.demonstration_files import write_demonstrations
 from pat3d.policies_eval.demonstrations import Demonstration, demonstrate
 from pat3d.policies_eval.episodes import Episode
-from pat3d.policies_eval.robomimic_file import write_robomimic
 
 BATCH = 256
 RATE = 1e-3
@@ -78,7 +78,7 @@ def train(
         epochs: passes over the demonstrations.
         seed: of the training.
         noise: of the demonstrating hand.
-        demonstrations: HDF5 file for robomimic, if any.
+        demonstrations: file or folder to write them to, if any.
         target: a console for the progress.
     """
     if Path(out).suffix != ".pt":
@@ -86,7 +86,7 @@ def train(
     begun = time.perf_counter()
     shown = demonstrate(episodes, noise=noise, target=target)
     if demonstrations is not None:
-        write_robomimic(shown, demonstrations)
+        write_demonstrations(shown, demonstrations)
     network, error = fit(shown, epochs=epochs, seed=seed, target=target)
     save(network, out, {"demonstrations": len(shown), "epochs": epochs, "error": error, "seed": seed})
     if target is not None:

@@ -64,22 +64,46 @@ def _write_gif(frames: Frames, path: Path, fps: float) -> None:
 
 
 def _write_mp4(frames: Frames, path: Path, fps: float) -> None:
-    try:
-        ffmpeg: Any = import_module("imageio_ffmpeg")
-    except ImportError as error:
-        raise EvaluationError(INSTALL_HINT) from error
-    # H.264 in its common form has pictures of even sizes only.
-    height, width = frames[0].shape[0] // 2 * 2, frames[0].shape[1] // 2 * 2
-    writer = ffmpeg.write_frames(
-        str(path), (width, height), fps=fps, codec="libx264", pix_fmt_out="yuv420p", macro_block_size=2, quality=6,
-        output_params=["-movflags", "+faststart"], ffmpeg_log_level="error",
-    )  # fmt: skip
-    writer.send(None)
+    writer = FilmWriter(path, frames[0].shape[:2], fps)
     try:
         for frame in frames:
-            writer.send(np.ascontiguousarray(frame[:height, :width]))
+            writer.add(frame)
     finally:
         writer.close()
+
+
+class FilmWriter:
+    """An MP4 file that grows by one frame at a time.
+
+    Args:
+        path: of the file.
+        size: height and width [pixel]; an odd last line or column is cut off.
+        fps: frames a second.
+
+    Raises:
+        EvaluationError: imageio-ffmpeg is not installed.
+    """
+
+    def __init__(self, path: Path, size: tuple[int, ...], fps: float) -> None:
+        try:
+            ffmpeg: Any = import_module("imageio_ffmpeg")
+        except ImportError as error:
+            raise EvaluationError(INSTALL_HINT) from error
+        # H.264 in its common form has pictures of even sizes only.
+        self._height, self._width = size[0] // 2 * 2, size[1] // 2 * 2
+        self._writer = ffmpeg.write_frames(
+            str(path), (self._width, self._height), fps=fps, codec="libx264", pix_fmt_out="yuv420p",
+            macro_block_size=2, quality=6, output_params=["-movflags", "+faststart"], ffmpeg_log_level="error",
+        )  # fmt: skip
+        self._writer.send(None)
+
+    def add(self, frame: NDArray[np.uint8]) -> None:
+        """Append a picture, shape (height, width, 3)."""
+        self._writer.send(np.ascontiguousarray(frame[: self._height, : self._width]))
+
+    def close(self) -> None:
+        """Finish the file."""
+        self._writer.close()
 
 
 def _image(frame: NDArray[np.uint8]) -> Any:

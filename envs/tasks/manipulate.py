@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -73,13 +74,14 @@ class LiftJudge(Judge):
         self._goal = point(start + [0.0, 0.0, LIFT])
 
     def update(self, state: SimState, seconds: float) -> Verdict:
-        rise = float(state.centre(self._target)[2] - state.start_centre(self._target)[2])
-        lifted = rise >= LIFT and state.touched(self._target)
+        centre, touched = state.centre(self._target), state.touched(self._target)
+        rise = float(centre[2] - state.start_centre(self._target)[2])
+        lifted = rise >= LIFT and touched
         held = self._timer.update(lifted, seconds)
-        near = closeness(float(np.linalg.norm(state.hand - state.centre(self._target))), 0.2)
+        near = closeness(math.dist(state.hand, centre), 0.2)
         grasped = state.held(self._target)
         progress = (
-            near + float(grasped) + min(max(rise, 0.0) / LIFT, 1.0) * float(state.touched(self._target))
+            near + float(grasped) + min(max(rise, 0.0) / LIFT, 1.0) * float(touched)
             + min(self._timer.held / HOLD_SECONDS, 1.0)
         ) / 4.0  # fmt: skip
         return Verdict(

@@ -6,6 +6,7 @@ the robot has to reach, `begin` starts judging an episode: success is decided on
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
@@ -136,7 +137,7 @@ def point(values: ArrayLike) -> tuple[float, float, float]:
 
 def closeness(distance: float, scale: float) -> float:
     """1 at no distance, falling to nothing over a few `scale` [m]."""
-    return float(1.0 - np.tanh(distance / scale))
+    return 1.0 - math.tanh(distance / scale)
 
 
 def split(spec: str) -> tuple[str, list[str]]:

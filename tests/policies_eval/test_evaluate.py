@@ -150,7 +150,9 @@ def test_hostile_records_are_errors(tmp_path, done):
 
 def test_a_film_shows_one_episode(done, tmp_path, capsys):
     folder = str(done.folder)
-    assert main(["replay", folder, "--episode", "1", "--video", str(tmp_path / "x.gif"), "--size", "64x48"]) == 0
+    arguments = ["replay", folder, "--episode", "1", "--size", "64x48"]
+    assert main([*arguments, "--video", str(tmp_path / "x.gif"), "--picture", str(tmp_path / "x.png")]) == 0
+    assert (tmp_path / "x.png").stat().st_size > 1000
     assert (tmp_path / "x.gif").read_bytes()[:4] == b"GIF8"
     assert "1 of 1 episodes went as recorded" in capsys.readouterr().out
     assert main(["replay", folder, "--episode", "99"]) == 2

@@ -1,0 +1,102 @@
+"""Picture of two episodes: a grasp that succeeds, and one that topples the neighbours of what it should take.
+
+    python benchmarks/cases.py [--out benchmarks/pictures/cases.png]
+
+Both pick the same mug in the same scene from the same start. The first is the scripted policy. The second plans its
+grasp as if the mug stood alone, goes there on a straight line, and tries once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.grasp import find_grasps
+from pat3d.pipeline import generate
+from pat3d.policies_eval.episodes import Setting, episodes_of
+from pat3d.policies_eval.evaluate import evaluate
+from pat3d.policies_eval.policy import EpisodeStart
+from pat3d.policies_eval.replay import Replayer
+from pat3d.policies_eval.scripted import ScriptedPolicy
+from pat3d.policies_eval.settings import RolloutSettings
+from pat3d.policies_eval.strip import write_strip
+
+PROMPT = "A small wooden tray with a red mug, two beer bottles, a pepper mill, a shampoo and a candlestick on it."
+TASK = "pick:red mug"
+
+STEPS = 140
+"""Of an episode."""
+
+SIZE, FINER = (320, 240), 3
+"""Of a moment [pixel], and how many times finer it is drawn along either side."""
+
+COLOURS = 160
+
+
+class Heedless(ScriptedPolicy):
+    """The scripted policy without eyes for anything but its object."""
+
+    def reset(self, episode: EpisodeStart) -> None:
+        """Plan as if the object stood alone."""
+        super().reset(episode)
+        scene = episode.env.scene
+        self._grasps = {name: tuple(find_grasps(scene, name, self._gripper, alone=True)) for name in self._grasps}
+        self._tried = dict.fromkeys(self._grasps, 0)
+        self._begin()
+
+    def _rise(self) -> None:
+        self._enter("descend")
+
+    def _retry(self) -> None:
+        self._enter("give_up")
+
+    def _give_up(self) -> Any:
+        return self._servo.towards(self._at + [0.0, 0.0, 0.15], self._rotation, 1.0)[0]
+
+
+def smaller(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The picture with the mean of FINER x FINER pixels for one."""
+    height, width = image.shape[0] // FINER, image.shape[1] // FINER
+    return image.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3)).round().astype(np.uint8)
+
+
+def main() -> None:
+    """Make the scene, do the episodes, and draw them."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", default=str(Path(__file__).parent / "pictures" / "cases.png"))
+    parser.add_argument("--work", help="folder of scene and records (a temporary one)")
+    parser.add_argument("--camera", default="agentview")
+    options = parser.parse_args()
+    work = Path(options.work or tempfile.mkdtemp(prefix="pat3d-cases-"))
+    if not (work / "scene" / "scene.json").is_file():
+        generate(PROMPT, out=work / "scene")
+    episodes = episodes_of([Setting(scene=str(work / "scene"), task=TASK)], 1)
+    rows = []
+    for policy in (ScriptedPolicy(), Heedless()):
+        found = evaluate(
+            policy, episodes, work / type(policy).__name__, settings=RolloutSettings(max_steps=STEPS), workers=0
+        )
+        result = found.results[0]
+        events = result.events
+        print(f"{type(policy).__name__}: {result.outcome}, {result.steps} steps, toppled: {', '.join(events.toppled)}")
+        replayer = Replayer(found)
+        moments = [0, round(0.2 * result.steps), round(0.5 * result.steps), result.steps]
+        if not result.success:
+            moments = [0, 25, 45, result.steps]
+        drawn = replayer.moments(result, moments, options.camera, (FINER * SIZE[0], FINER * SIZE[1]))
+        frames = [smaller(frame) for frame in drawn]
+        replayer.close()
+        said = (
+            "successful grasp" if result.success else f"attempted grasp that topples {len(events.toppled)} neighbours"
+        )
+        rows.append((said, frames))
+    print(write_strip(rows, options.out, colours=COLOURS), Path(options.out).stat().st_size, "bytes")
+
+
+if __name__ == "__main__":
+    main()
