@@ -155,7 +155,7 @@ class BatchedPhysics:
         single = Simulation(self.world, control, control_freq, sleep=False)
         single.reset()
         home = single.data
-        self._substeps, self.period = single.substeps, single.period
+        self.substeps, self.period = single.substeps, single.period
         self.worlds, self.device = worlds, device
         with wp.ScopedDevice(device):
             try:
@@ -230,7 +230,7 @@ class BatchedPhysics:
         """
         with wp.ScopedDevice(self.device):
             self.controller.set_action(actions)
-            for _ in range(self._substeps):
+            for _ in range(self.substeps):
                 if self._graph is None:
                     self._substep()
                 else:
@@ -239,14 +239,19 @@ class BatchedPhysics:
 
     def require_room(self) -> None:
         """Raise EnvironmentSetupError where the buffers did not hold all contacts since the start."""
-        contacts, pairs, rows = (int(peak) for peak in self._peaks.numpy())
-        need = Room(contacts=-(-max(contacts, pairs) // self.worlds), rows=rows)
+        need = self.peaks
         if need.contacts > self.room.contacts or need.rows > self.room.rows:
             raise EnvironmentSetupError(
                 f"the worlds need room for {need.contacts} contacts and {need.rows} rows each, and have it for "
                 f"{self.room.contacts} and {self.room.rows}; results from here on would be wrong. "
                 f"Make the environment with room=({2 * need.contacts}, {2 * need.rows})."
             )
+
+    @property
+    def peaks(self) -> Room:
+        """The most that the buffers had to hold so far."""
+        contacts, pairs, rows = (int(peak) for peak in self._peaks.numpy())
+        return Room(contacts=-(-max(contacts, pairs) // self.worlds), rows=rows)
 
     @property
     def lost(self) -> NDArray[np.bool_]:
@@ -305,7 +310,8 @@ def require_still(
         UnsettledSceneError: an object moves by 1 mm or 1 degree; names it and its drift.
     """
     engine = f"mujoco_warp {mujoco_warp().__version__} on {wp.get_device(device).name}"
-    kept = cache_root() / "settled" / f"{checksum[:32]}-{engine.replace(' ', '-').replace('/', '-')}.json"
+    place = f"{engine}-{seconds:g}s".replace(" ", "-").replace("/", "-")
+    kept = cache_root() / "settled" / f"{checksum[:32]}-{place}.json"
     moved = _stored(kept)
     if moved is None:
         moved = drift(BatchedPhysics(world, 1, control, control_freq, device, room), seconds)
