@@ -30,11 +30,17 @@ CELL = 0.0025
 CLEARANCE = 0.001
 """Kept between each finger and anything beside it [m]."""
 
-TIP_CLEARANCE = 0.004
+TIP_CLEARANCE = 0.003
 """Kept below the fingertips [m]."""
 
-MIN_BITE = 0.012
+MIN_BITE = 0.005
 """Least height of the object between the pads [m]."""
+
+LOWEST = TIP_CLEARANCE + MIN_BITE
+"""Least height of an object that can be taken from above where it lies [m]."""
+
+SOLID = 0.003
+"""What reaches less than this above the fingertips [m] does not count as between the fingers."""
 
 SQUEEZE = 0.004
 """What is held must be thicker than the closed gripper by this [m]."""
@@ -45,7 +51,7 @@ ANGLES = 16
 DEPTHS = (0.35, 0.6, 0.95)
 """How deep to go between the fingers, as shares of the way to the palm."""
 
-FACING = math.cos(math.radians(30.0))
+FACING = math.cos(math.radians(31.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
 
 APART = 0.02
@@ -191,7 +197,7 @@ def _along(
         tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.palm)
         bite = np.where(np.isfinite(between), between - tip, -np.inf)
         # The middle of what is between the fingers belongs in the middle of the opening.
-        solid = np.where(turned_own > tip + 0.25 * MIN_BITE, 1.0, 0.0)
+        solid = np.where(turned_own > tip + SOLID, 1.0, 0.0)
         amount = ndimage.uniform_filter1d(solid, gap, axis=0, mode="constant") * gap
         off = np.where(amount > 0.5, np.abs(_first_moment(solid, gap)) / np.maximum(amount, 1e-9), np.inf) * CELL
         score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - 3.0 * aside

@@ -183,7 +183,9 @@ class ScriptedPolicy:
             above = np.array([*self._before[:2], self._clear()])
             way = HandPath(self._env).through([(above, self._rotation), (self._before, self._rotation)])
             if way is None:
-                return self._retry()
+                # The hand is led there directly, as far as the arm goes.
+                self._enter("hover")
+                return None
             self._way = deque(way)
         self._steps += 1
         action, error = self._servo.towards(self._way[0][0], self._way[0][1], -1.0)
