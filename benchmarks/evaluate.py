@@ -283,7 +283,8 @@ def rate(found: Evaluation) -> str:
 def kinds(refused: dict[str, str]) -> str:
     """How many objects were refused for what reason."""
     reasons = {
-        "does not stay still": "moves when set down", "at its narrowest": "no grasp from above",
+        "does not stay still": "moves when set down", "at its narrowest": "no place to grasp",
+        "mm high": "too flat",
         "too heavy": "too heavy for the arm", "out of reach": "out of reach", "no free place": "no place for the robot",
     }  # fmt: skip
     counted = Counter(

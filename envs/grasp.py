@@ -1,8 +1,9 @@
-"""Where a parallel gripper can take an object from above, found on height maps.
+"""Where a parallel gripper can take an object, found on height maps.
 
 The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip;
 between them the object must reach up along the pads, and nothing else may. That covers bars, balls and boxes that fit
-between the fingers as well as the rims of cups and bowls, of which one finger enters the inside.
+between the fingers as well as the rims of cups and bowls, of which one finger enters the inside. An approach that leans
+is the same with the scene turned the other way, the ground with it.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from pat3d.assets.asset import ConvexPart
 from pat3d.assets.cover import planes
 from pat3d.assets.regions import height_map
 from pat3d.envs.robots import Gripper
-from pat3d.scene import Scene, SceneObject
+from pat3d.scene import Pose, Scene, SceneObject
 
 Array = NDArray[np.float64]
 
@@ -29,11 +30,17 @@ CELL = 0.0025
 CLEARANCE = 0.001
 """Kept between each finger and anything beside it [m]."""
 
-TIP_CLEARANCE = 0.004
+TIP_CLEARANCE = 0.003
 """Kept below the fingertips [m]."""
 
-MIN_BITE = 0.012
+MIN_BITE = 0.005
 """Least height of the object between the pads [m]."""
+
+LOWEST = TIP_CLEARANCE + MIN_BITE
+"""Least height of an object that can be taken from above where it lies [m]."""
+
+SOLID = 0.003
+"""What reaches less than this above the fingertips [m] does not count as between the fingers."""
 
 SQUEEZE = 0.004
 """What is held must be thicker than the closed gripper by this [m]."""
@@ -44,7 +51,7 @@ ANGLES = 16
 DEPTHS = (0.35, 0.6, 0.95)
 """How deep to go between the fingers, as shares of the way to the palm."""
 
-FACING = math.cos(math.radians(30.0))
+FACING = math.cos(math.radians(31.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
 
 APART = 0.02
@@ -56,46 +63,102 @@ MAX_SIDE = 2.0
 
 @dataclass(frozen=True, kw_only=True)
 class Grasp:
-    """A place where the gripper closes on an object from above."""
+    """A place where the gripper closes on an object."""
 
     position: tuple[float, float, float]
     """Of the fingertips' middle [m] in the world."""
     closing: float
-    """Angle [rad] of the direction in which the fingers close, about z from +x."""
+    """Angle [rad] of the direction in which the fingers close, about z from +x, before the hand leans."""
     bite: float
-    """Height of the object between the fingers [m]."""
+    """Extent of the object between the fingers, along the approach [m]."""
     score: float
     """Higher is better."""
+    lean: float = 0.0
+    """Angle of the approach from straight down [rad]."""
+    heading: float = 0.0
+    """Direction from which a leaning hand comes [rad], about z from +x."""
+
+    @property
+    def turn(self) -> Array:
+        """Rotation of a hand that points down to this one's approach, shape (3, 3)."""
+        return leaning(self.lean, self.heading)
+
+    def lifted(self, height: float) -> Grasp:
+        """The same, `height` [m] further up."""
+        x, y, z = self.position
+        return replace(self, position=(x, y, z + height))
+
+
+def leaning(lean: float, heading: float) -> Array:
+    """Rotation by `lean` [rad] that brings what is above to the side of `heading` [rad], shape (3, 3)."""
+    axis = np.array([-math.sin(heading), math.cos(heading), 0.0])
+    cross = np.array([[0.0, 0.0, axis[1]], [0.0, 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    return np.eye(3) + math.sin(lean) * cross + (1.0 - math.cos(lean)) * (cross @ cross)
 
 
 def find_grasps(
     scene: Scene, name: str, gripper: Gripper, *, among: Collection[str] | None = None, count: int = 12
 ) -> list[Grasp]:
-    """Grasps of object `name` where it stands in `scene`, best first, at most `count`, apart from one another.
+    """Grasps from above of object `name` where it stands in `scene`, best first, apart from one another.
 
     Args:
         scene: objects at rest.
         name: of the object.
         gripper: what it can take.
         among: the other objects that are in the way; None for all.
-        count: of grasps.
+        count: of grasps, at most.
     """
-    target = scene[name]
+    found = search(scene, name, gripper, among=among)
+    return apart(sorted(found, key=lambda grasp: -grasp.score), count)
+
+
+def search(
+    scene: Scene, name: str, gripper: Gripper, *, among: Collection[str] | None = None, lean: float = 0.0,
+    heading: float = 0.0, angles: int = ANGLES, wrist: tuple[float, float] | None = None,
+) -> list[Grasp]:  # fmt: skip
+    """Grasps along one approach, in no order.
+
+    Args:
+        scene: objects at rest.
+        name: of the object.
+        gripper: what it can take.
+        among: see `find_grasps`.
+        lean: see Grasp.
+        heading: see Grasp.
+        angles: directions of closing that are tried over half a turn.
+        wrist: distance from the fingertips and width of what is behind the hand [m]; it is kept free too.
+    """
+    turn = leaning(lean, heading)
+    target = _turned(scene[name], turn) if lean else scene[name]
     low, high = _bounds(target)
     if float((high - low)[:2].max()) > MAX_SIDE:
         return []
-    margin = max(gripper.opening / 2 + gripper.finger_thickness, gripper.hand[0] / 2)
+    margin = max(gripper.opening / 2 + gripper.finger_thickness, gripper.hand[0] / 2, wrist[1] / 2 if wrist else 0.0)
     grid = _Grid.around(low[:2] - margin, high[:2] + margin)
     own = grid.heights([target])
     # What stands on the target or in it comes along and is in the way like anything else.
     others = [obj for obj in scene.objects if obj.name != name and (among is None or obj.name in among)]
-    around = np.maximum(grid.heights(others), 0.0)
+    x, y = grid.world(0.0)
+    ground = -(turn[2, 0] * x + turn[2, 1] * y) / turn[2, 2] if lean else np.zeros(x.shape)
+    around = np.maximum(grid.heights([_turned(obj, turn) for obj in others] if lean else others), ground)
     centre = target.pose.apply(np.array([target.asset.mass_properties.centre_of_mass]))[0]
     found: list[Grasp] = []
-    for number in range(ANGLES):
-        found += _along(math.pi * number / ANGLES, grid, own, around, gripper, centre)
+    for number in range(angles):
+        found += _along(math.pi * number / angles, grid, own, around, gripper, centre, wrist)
     found = _held(found, target, gripper)
-    return _apart(sorted(found, key=lambda grasp: -grasp.score), count)
+    if not lean:
+        return found
+    places = [turn @ np.array(one.position) for one in found]
+    return [
+        replace(one, position=(float(x), float(y), float(z)), lean=lean, heading=heading)
+        for one, (x, y, z) in zip(found, places, strict=True)
+    ]
+
+
+def _turned(obj: SceneObject, turn: Array) -> SceneObject:
+    """An object in the frame of an approach, in which the hand points down."""
+    pose = Pose.from_matrix(turn.T @ obj.pose.rotation, turn.T @ np.array(obj.pose.position))
+    return replace(obj, pose=pose)
 
 
 def narrowest(obj: SceneObject) -> float:
@@ -105,7 +168,10 @@ def narrowest(obj: SceneObject) -> float:
     return float(np.ptp(points @ np.stack([np.cos(angles), np.sin(angles)]), axis=0).min())
 
 
-def _along(angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array) -> list[Grasp]:
+def _along(
+    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array,
+    wrist: tuple[float, float] | None,
+) -> list[Grasp]:  # fmt: skip
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
     turned_own, turned_other = grid.turned(own, angle), grid.turned(around, angle)
     turned_all = np.maximum(turned_own, turned_other)
@@ -121,6 +187,9 @@ def _along(angle: float, grid: _Grid, own: Array, around: Array, gripper: Grippe
     between = ndimage.maximum_filter(turned_own, size=(gap, 3), mode="nearest")
     hand = (_odd(gripper.hand[0]), _odd(gripper.hand[1]))
     below = np.maximum(below, ndimage.maximum_filter(turned_all, size=hand, mode="nearest") - gripper.palm + CLEARANCE)
+    if wrist is not None:
+        across = 2 * (_odd(wrist[1]),)
+        below = np.maximum(below, ndimage.maximum_filter(turned_all, size=across, mode="nearest") - wrist[0])
     x, y = grid.world(angle)
     aside = np.hypot(x - centre[0], y - centre[1])
     found = []
@@ -128,7 +197,7 @@ def _along(angle: float, grid: _Grid, own: Array, around: Array, gripper: Grippe
         tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.palm)
         bite = np.where(np.isfinite(between), between - tip, -np.inf)
         # The middle of what is between the fingers belongs in the middle of the opening.
-        solid = np.where(turned_own > tip + 0.25 * MIN_BITE, 1.0, 0.0)
+        solid = np.where(turned_own > tip + SOLID, 1.0, 0.0)
         amount = ndimage.uniform_filter1d(solid, gap, axis=0, mode="constant") * gap
         off = np.where(amount > 0.5, np.abs(_first_moment(solid, gap)) / np.maximum(amount, 1e-9), np.inf) * CELL
         score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - 3.0 * aside
@@ -292,7 +361,7 @@ def _odd(length: float) -> int:
     return max(1, 2 * round(length / CELL / 2) + 1)
 
 
-def _apart(grasps: list[Grasp], count: int) -> list[Grasp]:
+def apart(grasps: list[Grasp], count: int) -> list[Grasp]:
     """The best `count` that differ by APART or by a quarter of a right angle."""
     kept: list[Grasp] = []
     for grasp in grasps:

@@ -48,6 +48,10 @@ class ArmKinematics:
         self._mujoco.mj_kinematics(self._model, self._data)
         return self._data.site_xpos[self._site].copy(), self._data.site_xmat[self._site].reshape(3, 3).copy()
 
+    def margin(self, joints: Array) -> float:
+        """Least distance of a joint from its limits [rad]."""
+        return float(np.minimum(joints - self._low, self._high - joints).min()) + _LIMIT_MARGIN
+
     def solve(self, position: Array, rotation: Array, start: Array | None = None) -> Array | None:
         """Joint positions [rad] that bring the grip site to `position` [m] and `rotation`; None where none are found.
 

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasp import Grasp, find_grasps
+from pat3d.envs.hand import hand_pose, hand_rotation
 from pat3d.envs.kinematics import ArmKinematics
+from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN, LEANING_PAYLOAD, find_leaning_grasps
 from pat3d.envs.refusals import why_not
 from pat3d.envs.robots import PAYLOADS, measure_gripper
 from pat3d.errors import TaskError
@@ -46,7 +48,11 @@ BASE_RADIUS = 0.16
 HOVER = 0.1
 """The hand gets this far above every grasp [m]."""
 
+LIFTED = 0.15
+"""A leaning hand gets this far above its grasp [m]."""
+
 GRASPS_TRIED = 6
+
 DIRECTIONS = (90.0, 180.0, 0.0, 270.0, 135.0, 45.0, 225.0, 315.0)
 """Where to stand as seen from the work [degrees]: behind it, facing the viewer, first."""
 
@@ -113,7 +119,9 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         TaskError: an object is too wide for the gripper, is blocked, or nothing that is needed is in reach.
     """
     gripper = measure_gripper(robot)
-    grasps = {name: _grasps(scene, name, robot, cleared=needs.cleared) for name in needs.grasp}
+    # What is put somewhere is held from above, so that the hand gets there; what is only picked up need not be.
+    leans = not needs.visit and not needs.cleared
+    grasps = {name: _grasps(scene, name, robot, cleared=needs.cleared, leans=leans) for name in needs.grasp}
     site = _Site.of(scene, needs)
     arm = ArmKinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
@@ -123,9 +131,8 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         frame = _Frame(position, yaw)
         reached: dict[str, tuple[Grasp, ...]] = {}
         for name, found in grasps.items():
-            reached[name] = tuple(
-                one for one in found if _reaches_grasp(arm, frame, one, gripper.tip, gripper.closing_axis)
-            )
+            tried = (_reached(arm, frame, one, gripper.tip, gripper.closing_axis) for one in frame.ordered(found))
+            reached[name] = tuple(one for one in tried if one is not None)
             if not reached[name]:
                 aside, up = math.dist(position[:2], found[0].position[:2]), found[0].position[2] - position[2]
                 farthest[name] = min(farthest.get(name, (math.inf, 0.0, 0.0)), (math.hypot(aside, up), aside, up))
@@ -145,18 +152,20 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     raise TaskError(f"{robot} cannot bring its hand to every point of the task near {site.describe()}.")
 
 
-def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool) -> list[Grasp]:
+def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool, leans: bool) -> list[Grasp]:
     gripper = measure_gripper(robot)
     mass = scene[name].asset.mass_properties.mass
     if mass > PAYLOADS[robot]:
         raise TaskError(
-            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f}.'
+            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
         )
     # Once it is cleared, nothing is in the way but what carries it.
-    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)
+    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)[:GRASPS_TRIED]
+    if not found and leans and mass <= LEANING_PAYLOAD:
+        found = find_leaning_grasps(scene, name, gripper)
     if not found:
         raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
-    return found[:GRASPS_TRIED]
+    return found
 
 
 @dataclass(frozen=True)
@@ -171,26 +180,50 @@ class _Frame:
         x, y, z = point - np.array(self.position)
         return np.array([c * x + s * y, -s * x + c * y, z])
 
+    def ordered(self, grasps: Sequence[Grasp]) -> list[Grasp]:
+        """Grasps from above as they are; of those that lean, the ones first for which the hand comes from the robot."""
 
-def hand_rotation(closing: float, closing_axis: Sequence[float]) -> Array:
-    """Rotation of the grip site, pointing down, whose closing axis lies at angle `closing` [rad]; shape (3, 3)."""
-    down = np.array([0.0, 0.0, -1.0])
-    along = np.array([math.cos(closing), math.sin(closing), 0.0])
-    local = np.array(closing_axis)
-    world = np.stack([along, np.cross(down, along), down], axis=1)
-    own = np.stack([local, np.cross([0.0, 0.0, 1.0], local), [0.0, 0.0, 1.0]], axis=1)
-    return world @ own.T
+        def worth(grasp: Grasp) -> float:
+            x, y = np.array(self.position[:2]) - grasp.position[:2]
+            return grasp.score + math.cos(grasp.heading - math.atan2(y, x))
+
+        return sorted(grasps, key=worth, reverse=True) if any(one.lean for one in grasps) else list(grasps)
+
+    def turned(self, rotation: Array) -> Array:
+        """A rotation of the world as the base sees it, shape (3, 3)."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ rotation
 
 
-def _reaches_grasp(arm: ArmKinematics, frame: _Frame, grasp: Grasp, tip: float, closing_axis: Sequence[float]) -> bool:
-    # The fingertips are below the grip site by `tip` when the hand points down.
-    at = frame.local(np.array(grasp.position) + [0.0, 0.0, tip])
-    for half_turn in (0.0, math.pi):
-        rotation = hand_rotation(grasp.closing - frame.yaw + half_turn, closing_axis)
-        joints = arm.solve(at + [0.0, 0.0, HOVER], rotation)
-        if joints is not None and arm.solve(at, rotation, joints) is not None:
-            return True
-    return False
+def _reached(
+    arm: ArmKinematics, frame: _Frame, grasp: Grasp, tip: float, closing_axis: Sequence[float]
+) -> Grasp | None:
+    """The grasp, with its fingers the way round in which a leaning hand gets there best; None where it does not."""
+    best, most = None, LEANING_MARGIN
+    for half in (0.0, math.pi):
+        back = LEANING_HOVER if grasp.lean else HOVER
+        before = hand_pose(grasp, tip, closing_axis, back=back, half=half)
+        poses = [before, hand_pose(grasp, tip, closing_axis, half=half)]
+        if grasp.lean:
+            # Above the place where the approach begins, and where the object is held up.
+            (x, y, z), rotation = before
+            poses = [
+                (np.array([x, y, z + HOVER]), rotation), *poses,
+                hand_pose(grasp.lifted(LIFTED), tip, closing_axis, half=half),
+            ]  # fmt: skip
+        joints: Array | None = None
+        margin = math.inf
+        for position, rotation in poses:
+            joints = arm.solve(frame.local(position), frame.turned(rotation), joints)
+            if joints is None:
+                break
+            margin = min(margin, arm.margin(joints))
+        else:
+            if not grasp.lean:
+                return grasp
+            if margin > most:
+                best, most = replace(grasp, closing=grasp.closing + half), margin
+    return best
 
 
 def _reaches_point(arm: ArmKinematics, frame: _Frame, point: Array, tip: float) -> bool:

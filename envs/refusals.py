@@ -34,7 +34,7 @@ def _neighbours(scene: Scene, name: str, gripper: Gripper) -> str:
 def _in_its_place(obj: SceneObject, carrier: SceneObject, scene: Scene, gripper: Gripper) -> str:
     """Of an object that could be taken if what carries it were not there."""
     if _covered(obj, carrier):
-        return f'it is under a part of "{carrier.name}", and robots take things from above'
+        return f'it is under a part of "{carrier.name}" and cannot be got at from above'
     below = 1e3 * (_rim(carrier) - _height(obj)[1])
     fingers_alone = replace(gripper, hand=(0.0, 0.0))
     if find_grasps(scene, obj.name, fingers_alone, among=(carrier.name,)):

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasp import Grasp
-from pat3d.envs.placement import HOVER, hand_rotation
+from pat3d.envs.hand import hand_pose
+from pat3d.envs.placement import HOVER
 from pat3d.envs.robots import measure_gripper
 from pat3d.errors import EnvironmentSetupError
 
@@ -51,13 +52,15 @@ class ScriptedPick:
         self._gripper = measure_gripper(env.robot)
         self._phase, self._closing = 0, 0
         self._servo = Servo(env)
-        self._rotation = self._servo.nearer(self._grasp.closing)
+        self._rotation = self._servo.nearer(self._grasp)
 
     def action(self) -> NDArray[np.float32]:
         """The next action, shape (7,)."""
-        at = np.array(self._grasp.position) + [0.0, 0.0, self._gripper.tip]
+        axis = self._gripper.closing_axis
+        at, _ = hand_pose(self._grasp, self._gripper.tip, axis)
+        before, _ = hand_pose(self._grasp, self._gripper.tip, axis, back=HOVER)
         if self._phase == 0:
-            command, error = self._servo.towards(at + [0.0, 0.0, HOVER], self._rotation, -1.0)
+            command, error = self._servo.towards(before, self._rotation, -1.0)
             self._phase += error < 0.012
         elif self._phase == 1:
             command, error = self._servo.towards(at, self._rotation, -1.0)
@@ -97,10 +100,15 @@ class Servo:
         error = float(np.linalg.norm(move)) + 0.05 * float(np.linalg.norm(turn))
         return command.astype(np.float32), error
 
-    def nearer(self, closing: float) -> Array:
-        """Of the two hand rotations that close along one line, that with the shorter turn."""
+    def nearer(self, grasp: Grasp) -> Array:
+        """Of the two rotations of the hand that close along one line, that with the shorter turn.
+
+        A grasp that leans knows its own: for the other one the wrist may not turn far enough.
+        """
+        if grasp.lean:
+            return hand_pose(grasp, 0.0, self._axis)[1]
         now = self._env.simulation.state.hand_rotation
-        both = [hand_rotation(closing + half, self._axis) for half in (0.0, math.pi)]
+        both = [hand_pose(grasp, 0.0, self._axis, half=half)[1] for half in (0.0, math.pi)]
         return max(both, key=lambda rotation: float(np.trace(rotation @ now.T)))
 
 

@@ -99,6 +99,11 @@ class Simulation:
         self.state.refresh()
 
     @property
+    def arm(self) -> Array:
+        """Positions of the arm's joints [rad]."""
+        return self.data.qpos[self._arm]
+
+    @property
     def fingers(self) -> Array:
         """Positions of the gripper's joints [m or rad]."""
         return self.data.qpos[self._fingers]

@@ -11,6 +11,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,9 @@ GRACE_SECONDS = 5.0
 POLL_SECONDS = 0.5
 
 MAX_WORKERS = 512
+
+LOOK_AHEAD = 20_000
+"""Episodes among which a worker looks for one in the world that it has compiled."""
 
 THREADS = tuple(f"{name}_NUM_THREADS" for name in ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA"))
 """Variables that say how many threads a process's numerical libraries start."""
@@ -120,9 +124,11 @@ def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> Reco
 
 
 def _here(policy: Policy, todo: Sequence[Episode], settings: RolloutSettings, keep: Callable[[Result], None]) -> None:
-    runner = Runner(settings)
+    runner, queue, about = Runner(settings), deque(todo), ("", "")
     try:
-        for episode in todo:
+        while queue:
+            episode = next_episode(queue, about)
+            about = (episode.scene, episode.task)
             keep(runner.run(episode, policy))
     finally:
         runner.close()
@@ -137,7 +143,18 @@ class _Worker:
     deadline: Any
     """Time by which the policy has to answer, 0 while it is not asked; written by the worker."""
     episode: Episode | None = None
+    about: tuple[str, str] = ("", "")
+    """Scene and task of its last episode, whose world it has compiled."""
     begun: float = field(default_factory=time.monotonic)
+
+
+def next_episode(queue: deque[Episode], about: tuple[str, str]) -> Episode:
+    """Take the first episode of `queue` with the scene and the task in `about` if there is one, else the first."""
+    for number, episode in enumerate(islice(queue, LOOK_AHEAD)):
+        if (episode.scene, episode.task) == about:
+            del queue[number]
+            return episode
+    return queue.popleft()
 
 
 class _Pool:
@@ -150,7 +167,6 @@ class _Pool:
 
     def run(self, todo: Sequence[Episode], keep: Callable[[Result], None]) -> None:
         queue = deque(todo)
-        # Episodes of one scene one after the other, as worlds are compiled once for each.
         workers = [self._start() for _ in range(self._count)]
         try:
             while queue or any(worker.episode for worker in workers):
@@ -184,7 +200,8 @@ class _Pool:
         return _Worker(process=process, pipe=here, deadline=deadline)
 
     def _give(self, worker: _Worker, queue: deque[Episode]) -> None:
-        worker.episode = queue.popleft()
+        worker.episode = next_episode(queue, worker.about)
+        worker.about = (worker.episode.scene, worker.episode.task)
         worker.begun = time.monotonic()
         try:
             worker.pipe.send(worker.episode)

@@ -7,6 +7,7 @@ the object there, lowers it, lets go and withdraws. When it notices that the han
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasp import Grasp
+from pat3d.envs.hand import hand_pose
+from pat3d.envs.hand_path import HandPath
+from pat3d.envs.leaning import LEANING_HOVER, find_leaning_grasps
 from pat3d.envs.placement import HOVER
 from pat3d.envs.robots import measure_gripper
 from pat3d.envs.scripted import Servo
@@ -24,6 +28,9 @@ Array = NDArray[np.float64]
 
 NEAR, EXACT = 0.02, 0.005
 """Errors at which a move on the way, and one that matters, is done [m]."""
+
+ON_THE_WAY = 0.04
+"""The same, of a pose that is only passed [m]."""
 
 PATIENCE = 45
 """Control steps after which a move is done anyway."""
@@ -93,8 +100,10 @@ class ScriptedPolicy:
         if state.tilt(self._name) > LEANING_DEGREES:
             grasp = self._found(self._name, tried) or grasp
         self._grasp = grasp
-        self._at = np.array(grasp.position) + [0.0, 0.0, self._gripper.tip]
-        self._rotation, self._height = self._servo.nearer(grasp.closing), LIFT
+        self._at, _ = hand_pose(grasp, self._gripper.tip, self._gripper.closing_axis)
+        back = LEANING_HOVER if grasp.lean else HOVER
+        self._before, _ = hand_pose(grasp, self._gripper.tip, self._gripper.closing_axis, back=back)
+        self._rotation, self._height = self._servo.nearer(grasp), LIFT
         self._enter("rise")
 
     def _target(self) -> str:
@@ -120,9 +129,8 @@ class ScriptedPolicy:
         # About the centre of mass, which is known exactly at the start and now.
         centre = pose.apply(np.array([self._env.scene[name].asset.mass_properties.centre_of_mass]))[0]
         position = flat @ (np.array(grasp.position) - centre) + state.centre(name)
-        return replace(
-            grasp, position=(float(position[0]), float(position[1]), float(position[2])), closing=grasp.closing + yaw
-        )
+        at = (float(position[0]), float(position[1]), float(position[2]))
+        return replace(grasp, position=at, closing=grasp.closing + yaw, heading=grasp.heading + yaw)
 
     def _found(self, name: str, tried: int) -> Grasp | None:
         """A grasp searched on the present poses."""
@@ -134,7 +142,10 @@ class ScriptedPolicy:
             replace(obj, pose=Pose.from_matrix(state.rotation(obj.name), state.position(obj.name)))
             for obj in scene.objects
         )
-        found = find_grasps(replace(scene, objects=objects), name, self._gripper)
+        present = replace(scene, objects=objects)
+        found = find_grasps(present, name, self._gripper)
+        if not found and self._kind == "pick":
+            found = find_leaning_grasps(present, name, self._gripper)
         return found[tried % len(found)] if found else None
 
     # Phases: each returns the next action, or None after it has entered another phase.
@@ -153,15 +164,42 @@ class ScriptedPolicy:
     def _rise(self) -> NDArray[np.float32] | None:
         """Straight up first where the way to the grasp is low."""
         hand = self._env.simulation.state.hand
-        above = self._at[2] + HOVER
-        if hand[2] > above - 0.02 or np.hypot(*(hand - self._at)[:2]) < 0.03:
-            self._enter("hover")
+        above, then = self._at[2] + HOVER, "hover"
+        if self._grasp.lean:
+            above, then = self._clear(), "over"
+        if hand[2] > above - 0.02 or (not self._grasp.lean and np.hypot(*(hand - self._at)[:2]) < 0.03):
+            self._enter(then)
             return None
-        return self._go(np.array([hand[0], hand[1], above]), -1.0, NEAR, "hover")
+        return self._go(np.array([hand[0], hand[1], above]), -1.0, NEAR, then)
+
+    def _clear(self) -> float:
+        """A height for the hand [m] above the object and above where a leaning approach begins."""
+        top = float(self._env.simulation.state.points(self._name)[:, 2].max())
+        return max(top + HOVER, self._before[2] + HOVER)
+
+    def _over(self) -> NDArray[np.float32] | None:
+        """To where a leaning approach begins, from above, on a way that the joints can go while the hand turns."""
+        if self._steps == 0:
+            above = np.array([*self._before[:2], self._clear()])
+            way = HandPath(self._env).through([(above, self._rotation), (self._before, self._rotation)])
+            if way is None:
+                # The hand is led there directly, as far as the arm goes.
+                self._enter("hover")
+                return None
+            self._way = deque(way)
+        self._steps += 1
+        action, error = self._servo.towards(self._way[0][0], self._way[0][1], -1.0)
+        if error < ON_THE_WAY or self._steps > PATIENCE:
+            self._way.popleft()
+            self._steps = 1
+            if not self._way:
+                self._enter("hover")
+                return None
+        return action
 
     def _hover(self) -> NDArray[np.float32] | None:
         # Fingers that come down beside their place push what they should take.
-        return self._go(self._at + [0.0, 0.0, HOVER], -1.0, 0.006, "descend")
+        return self._go(self._before, -1.0, 0.006, "descend")
 
     def _descend(self) -> NDArray[np.float32] | None:
         return self._go(self._at, -1.0, EXACT, "close")

@@ -42,7 +42,7 @@ def has_room(scene: Scene, target: str, where: str, top: Region, covering: list[
 def _spots(top: Region, margin: float) -> Array:
     """Points of a floor that are `margin` [m] inside its edge, in the frame of its object [m], shape (n, 2)."""
     half = np.maximum(np.array(top.half_size[:2]) - margin, 0.0)
-    x, y = (np.linspace(-side, side, 2 * int(side / _CELL) + 1) for side in half)
+    x, y = (_CELL * np.arange(-int(side / _CELL), int(side / _CELL) + 1) for side in half)
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     if top.shape == "disc":
         points = points[np.linalg.norm(points, axis=1) <= half[0] + 1e-9]

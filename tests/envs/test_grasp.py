@@ -72,8 +72,19 @@ def test_a_wall_beside_the_bar_forbids_that_side_alone():
     assert find_grasps(boxed, "cube", GRIPPER, among=())
 
 
-def test_a_sheet_too_low_for_the_pads_is_no_grasp():
-    assert not find_grasps(Scene(objects=(bar("card", (0.05, 0.05, 0.008)),)), "card", GRIPPER)
+@pytest.mark.parametrize(("height", "found"), [(0.004, False), (0.0075, False), (0.009, True), (0.02, True)])
+def test_a_sheet_too_low_for_the_pads_is_no_grasp(height, found):
+    assert bool(find_grasps(Scene(objects=(bar("card", (0.05, 0.05, height)),)), "card", GRIPPER)) == found
+
+
+def test_a_sheet_is_refused_for_its_height_and_a_block_for_its_width():
+    pytest.importorskip("robosuite")
+    from pat3d.envs.placement import Needs, place
+    from pat3d.errors import TaskError
+
+    for size, said in (((0.05, 0.05, 0.004), "is 4 mm high"), ((0.1, 0.12, 0.1), "100 mm wide")):
+        with pytest.raises(TaskError, match=said):
+            place(Scene(objects=(bar("thing", size),)), "Panda", Needs(grasp=("thing",)))
 
 
 def test_something_thinner_than_the_closed_gripper_slips_through():

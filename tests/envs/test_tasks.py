@@ -17,6 +17,7 @@ from pat3d.assets.catalogue.registry import make
 from pat3d.envs.placement import Needs, place
 from pat3d.envs.predicates import inside, on_top
 from pat3d.envs.tasks.registry import TASKS, parse_task, possible_tasks
+from pat3d.envs.tasks.room import NARROWEST_BASE
 from pat3d.errors import TaskError
 from pat3d.layout.predicates import check_relations
 from pat3d.scene import Pose, Relation, Scene, SceneObject
@@ -289,12 +290,21 @@ def test_a_board_with_something_on_it_takes_more_as_long_as_there_is_room():
         parse_task("place:cube:board").check(board(0.12, 0.0))
 
 
-def test_what_stands_under_a_shelf_is_refused_because_robots_take_things_from_above():
+def test_what_stands_under_a_shelf_is_refused_because_it_is_covered():
     board, roof = bar("board", (0.4, 0.3, 0.02)), bar("roof", (0.4, 0.3, 0.02))
     above = replace(roof.asset.parts[0], vertices=roof.asset.parts[0].vertices + [0.0, 0.0, 0.4])
     shelf = replace(board, name="shelf", asset=replace(board.asset, parts=(*board.asset.parts, above)))
     cube = bar("cube", (0.05, 0.05, 0.05))
     lifted = replace(cube, pose=Pose(position=(0.0, 0.0, 0.02), quat_wxyz=cube.pose.quat_wxyz))
     scene = Scene(objects=(shelf, lifted), relations=(Relation(child="cube", kind="on", parent="shelf"),))
-    with pytest.raises(TaskError, match='it is under a part of "shelf", and robots take things from above'):
-        place(scene, "Panda", Needs(grasp=("cube",)))
+    with pytest.raises(TaskError, match='it is under a part of "shelf" and cannot be got at from above'):
+        place(scene, "Panda", Needs(grasp=("cube",), visit=((0.3, 0.0, 0.2),)))
+
+
+@pytest.mark.parametrize("base", ["cube", "block", "cylinder", "can", "soda can", "soap", "sponge"])
+def test_a_top_with_nothing_on_it_has_room_for_the_widest_that_it_may_carry(base):
+    bottom = _put(base, (0.0, 0.0, 0.0))
+    widest = 2 * min(bottom.asset.region("on").half_size) / NARROWEST_BASE
+    for width in (0.5 * widest, 0.9 * widest, 0.99 * widest):
+        scene = Scene(objects=(bottom, bar("brick", (width, width, 0.05), (0.5, 0.0))))
+        parse_task(f"stack:brick:{base}").check(scene)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
+from collections import deque
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from pat3d.errors import EvaluationError
 from pat3d.policies_eval import evaluate as module
 from pat3d.policies_eval.compare import compare_evaluations, show_leaderboard, verdict
 from pat3d.policies_eval.episodes import Setting, episodes_of
-from pat3d.policies_eval.evaluate import evaluate
+from pat3d.policies_eval.evaluate import evaluate, next_episode
 from pat3d.policies_eval.policies import RandomPolicy
 from pat3d.policies_eval.records import read_evaluation
 from pat3d.policies_eval.report import write_report
@@ -83,6 +84,16 @@ class Freezes:
 
     def act(self, observation):
         return np.zeros(7)
+
+
+def test_a_worker_stays_with_its_scene_while_there_are_episodes_of_it():
+    queue = deque(episodes_of([Setting(scene=name, task="pick:a") for name in "xyz"], 7))
+    taken, about = [], ("", "")
+    while queue:
+        episode = next_episode(queue, about)
+        taken.append(episode.index)
+        about = (episode.scene, episode.task)
+    assert taken == [0, 3, 6, 1, 4, 2, 5]
 
 
 def test_a_worker_that_hangs_or_dies_is_a_policy_error_and_the_run_goes_on(tmp_path, monkeypatch):
