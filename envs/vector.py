@@ -10,8 +10,9 @@ from gymnasium.vector import AsyncVectorEnv, AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from pat3d.envs.arguments import number, one_of, whole
 from pat3d.envs.controllers import CONTROLS
-from pat3d.envs.env import Source, choose
+from pat3d.envs.env import REWARDS, Source, choose
 from pat3d.envs.loading import DEFAULT_TASK, load
 from pat3d.envs.observations import FARTHEST, FASTEST, ObservationSpec
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
@@ -131,16 +132,12 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         from pat3d.envs.batch.physics import BatchedPhysics, Room, require_still, room_for
         from pat3d.envs.batch.state import BatchState
 
-        if num_envs < 1 or max_episode_steps < 1:
-            raise EnvironmentSetupError("num_envs and max_episode_steps are at least 1.")
+        num_envs, max_episode_steps = whole("num_envs", num_envs, 1), whole("max_episode_steps", max_episode_steps, 1)
+        one_of("reward", reward, REWARDS)
+        one_of("control", control, CONTROLS)
+        start_noise = number("start_noise", start_noise, 0.0, 0.5, "rad")
         if obs != "state":
             raise EnvironmentSetupError(f'on a GPU there is no observation "{obs}", only "state".')
-        if reward not in ("sparse", "dense"):
-            raise EnvironmentSetupError(f'no reward "{reward}". Valid: sparse, dense.')
-        if control not in CONTROLS:
-            raise EnvironmentSetupError(f'no control "{control}". Controls: {", ".join(CONTROLS)}.')
-        if not (np.isfinite(start_noise) and 0.0 <= start_noise <= 0.5):
-            raise EnvironmentSetupError(f"start_noise is 0 to 0.5 rad, not {start_noise}.")
         chosen = Selection.of(suite, split, index, scene, task)
         if chosen is not None:
             if index is None:
