@@ -222,8 +222,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         lost = self.physics.lost
         going = np.ones(self.num_envs, dtype=bool)
         going[fresh] = False
-        for number in np.flatnonzero(going & ~lost).tolist():
-            self._verdicts[number] = self._judges[number].update(self.state.worlds[number], self.physics.period)
+        for env in np.flatnonzero(going & ~lost).tolist():
+            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], self.physics.period)
         self._steps[going] += 1
         success = np.array([verdict.success for verdict in self._all()]) & going & ~lost
         truncated = going & ~success & (lost | (self._steps >= self._limit))
@@ -247,12 +247,12 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self.state.refresh()
         self.state.begin(worlds)
         self._ended[worlds], self._steps[worlds] = False, 0
-        for number in worlds.tolist():
-            self._judges[number] = self.task.begin(self.state.worlds[number])
-            self._verdicts[number] = self._judges[number].update(self.state.worlds[number], 0.0)
+        for env in worlds.tolist():
+            self._judges[env] = self.task.begin(self.state.worlds[env])
+            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], 0.0)
 
     def _all(self) -> list[Verdict]:
-        return [self._verdicts[number] for number in range(self.num_envs)]
+        return [self._verdicts[env] for env in range(self.num_envs)]
 
     def _observations(self) -> Observations:
         state = self.state
