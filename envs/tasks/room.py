@@ -46,7 +46,7 @@ def _spots(top: Region, margin: float) -> Array:
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     if top.shape == "disc":
         points = points[np.linalg.norm(points, axis=1) <= half[0] + 1e-9]
-    return points + np.array(top.floor[:2])
+    return np.asarray(points + np.array(top.floor[:2]), dtype=np.float64)
 
 
 def _outline(scene: Scene, name: str, frame: str) -> Array:
