@@ -45,7 +45,9 @@ class Heedless(ScriptedPolicy):
         """Plan as if the object stood alone."""
         super().reset(episode)
         scene = episode.env.scene
-        self._grasps = {name: tuple(find_grasps(scene, name, self._gripper, alone=True)) for name in self._grasps}
+        self._grasps = {
+            name: tuple(find_grasps(scene, name, self._gripper, among=(scene.parent(name),))) for name in self._grasps
+        }
         self._tried = dict.fromkeys(self._grasps, 0)
         self._begin()
 

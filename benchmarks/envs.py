@@ -1,8 +1,10 @@
 """Control steps a second of PAT3D-v0 against robosuite's own Lift: one core, Panda, state observations, equal rates.
 
-    python benchmarks/envs.py [--scene FOLDER] [--rounds 5]
+    python benchmarks/envs.py [--scene FOLDER] [--rounds 5] [--rate 20]
 
-The two take turns, so that a busy machine slows both.
+Without --scene: the shipped scene, and one of ten objects that is made on the spot. Environments take turns and the
+processor's time is what counts, so that other work on the machine slows all alike. By default objects at rest sleep
+until something touches them; the rows with sleep=False step everything all the time.
 """
 
 from __future__ import annotations
@@ -10,52 +12,98 @@ from __future__ import annotations
 import argparse
 import logging
 import statistics
+import tempfile
 import time
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import pat3d
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.robots import quiet_robosuite
+from pat3d.envs.scripted import ScriptedPick
 
 STEPS = 60
 RESETS = 20
 
+TEN = (
+    "A wooden tray with a red mug, a green apple, a banana and a blue bowl on it, a stack of two books beside it, "
+    "a yellow cube, a soda can and a salt shaker."
+)
+"""Ten objects, of which five touch the ground and one another in 70 points."""
+
 
 def main() -> None:
-    """Print one table."""
+    """Print a table for every scene."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scene", default=None, help="scene folder; the shipped scene by default")
+    parser.add_argument("--scene", default=None, help="scene folder")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--rate", type=float, default=20.0, help="actions a second")
     options = parser.parse_args()
-    ours = TabletopEnv(options.scene, control_freq=options.rate)
-    theirs = _lift(options.rate)
-    random = np.random.default_rng(0)
-    actions = random.uniform(-0.3, 0.3, (STEPS, 7)).astype(np.float32)
-    ours.reset(seed=0)
-    theirs.reset()
-    rates: dict[str, list[float]] = {"PAT3D-v0": [], "robosuite Lift": []}
-    resets: dict[str, list[float]] = {"PAT3D-v0": [], "robosuite Lift": []}
-    for _ in range(options.rounds):
-        for name, env in (("PAT3D-v0", ours), ("robosuite Lift", theirs)):
-            env.reset()
-            env.step(actions[0])
-            start = time.perf_counter()
-            for action in actions:
-                env.step(action)
-            rates[name].append(STEPS / (time.perf_counter() - start))
-            count = RESETS if env is ours else 3
-            start = time.perf_counter()
-            for _ in range(count):
-                env.reset()
-            resets[name].append(1e3 * (time.perf_counter() - start) / count)
-    print(f"scene: {len(ours.objects)} moving objects, {ours.simulation.model.ngeom} geoms, {options.rate:g} actions/s")
-    for name in rates:
-        rate, reset = statistics.median(rates[name]), statistics.median(resets[name])
-        print(f"{name:16s} {rate:8.1f} control steps/s   reset {reset:8.2f} ms")
-    ratio = statistics.median(a / b for a, b in zip(*rates.values(), strict=True))
-    print(f"ratio            {ratio:8.2f}")
+    with tempfile.TemporaryDirectory() as scratch:
+        scenes = [options.scene] if options.scene else [None, str(Path(scratch) / "ten")]
+        if not options.scene:
+            pat3d.generate(TEN, out=scenes[1], seed=0)
+        for scene in scenes:
+            _table(scene, options.rounds, options.rate)
+
+
+def _table(scene: str | None, rounds: int, rate: float) -> None:
+    ours = TabletopEnv(scene, control_freq=rate)
+    awake = TabletopEnv(scene, control_freq=rate, sleep=False)
+    theirs = _lift(rate)
+    actions = np.random.default_rng(0).uniform(-0.3, 0.3, (STEPS, 7)).astype(np.float32)
+    runs: dict[str, Callable[[], float]] = {
+        "robosuite Lift": lambda: _random(theirs, actions),
+        "PAT3D-v0": lambda: _random(ours, actions),
+        "PAT3D-v0, sleep=False": lambda: _random(awake, actions),
+        "PAT3D-v0, a scripted pick": lambda: _pick(ours),
+        "... with sleep=False": lambda: _pick(awake),
+    }
+    rates: dict[str, list[float]] = {name: [] for name in runs}
+    for _ in range(rounds):
+        for name, run in runs.items():
+            rates[name].append(run())
+    contacts = awake.simulation.data.ncon
+    print(f"\n{scene or 'shipped scene'}: {len(ours.objects)} moving objects, {ours.simulation.model.ngeom} geoms, "
+          f"{contacts} contacts, {rate:g} actions/s")  # fmt: skip
+    for name, found in rates.items():
+        ratio = statistics.median(a / b for a, b in zip(found, rates["robosuite Lift"], strict=True))
+        print(f"{name:28s} {statistics.median(found):8.1f} control steps/s   ratio {ratio:5.2f}", flush=True)
+    print(f"{'reset':28s} PAT3D-v0 {_reset(ours, RESETS):.2f} ms, Lift {_reset(theirs, 3):.0f} ms", flush=True)
+    theirs.close()
+
+
+def _random(env: Any, actions: Any) -> float:
+    """Control steps a second of processor time while the arm wanders about."""
+    env.reset()
+    env.step(actions[0])
+    start = time.process_time()
+    for action in actions:
+        env.step(action)
+    return len(actions) / (time.process_time() - start)
+
+
+def _pick(env: TabletopEnv) -> float:
+    """The same while the arm picks something up."""
+    env.reset(seed=0)
+    hand, spent = ScriptedPick(env), 0.0
+    for _ in range(STEPS):
+        action = hand.action()
+        start = time.process_time()
+        env.step(action)
+        spent += time.process_time() - start
+    return STEPS / spent
+
+
+def _reset(env: Any, count: int) -> float:
+    """Of processor time [ms]."""
+    start = time.process_time()
+    for _ in range(count):
+        env.reset()
+    return 1e3 * (time.process_time() - start) / count
 
 
 def _lift(rate: float) -> Any:

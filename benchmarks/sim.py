@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import warp as wp
+from scaling_plot import save_scaling
 from sim_scenes import DENSITY, Pile, blobs, pile, tower
 
 from pat3d.sim.model import Model, ModelBuilder
@@ -32,6 +33,9 @@ WARM_UP = 2
 """Frames before the clock starts: modules load and graphs are recorded in them."""
 
 PARTS = ("one", "many", "scaling", "gradients", "mujoco")
+
+LARGEST_EXPONENT = 1.2
+"""With which the cost of a frame may grow with the number of bodies."""
 
 STILL = 1e-4
 """Motion of a frame under which the peer's bodies count as resting, three times in a row [m]."""
@@ -141,8 +145,8 @@ def many_worlds(device: str, python: str, worlds: int = 1024) -> list[Row]:
     return [row]
 
 
-def scaling(device: str) -> list[tuple[int, float, float]]:
-    """Bodies, ms a frame and iterations a frame of ever larger piles."""
+def scaling(device: str, plot: Path | None = None) -> list[tuple[int, float, float]]:
+    """Bodies, ms a frame and iterations a frame of ever larger piles; the picture of it goes to `plot`."""
     found = []
     for count in (10, 30, 100, 300, 1000):
         times, iterations = frame_times(pile(count), device, 30)
@@ -151,6 +155,8 @@ def scaling(device: str) -> list[tuple[int, float, float]]:
     slope = np.polyfit(np.log([f[0] for f in found]), np.log([f[1] for f in found]), 1)[0]
     last = np.log(found[-1][1] / found[-2][1]) / np.log(found[-1][0] / found[-2][0])
     print(f"exponent {slope:.2f} over all sizes, {last:.2f} between the last two")
+    if plot is not None:
+        save_scaling([(count, milliseconds) for count, milliseconds, _ in found], LARGEST_EXPONENT, plot)
     return found
 
 
@@ -229,6 +235,7 @@ def main() -> None:
     parser.add_argument("--libuipc", metavar="PYTHON", default=sys.executable, help="interpreter that has pyuipc")
     parser.add_argument("--only", nargs="+", choices=PARTS, help="parts to run (all that fit)")
     parser.add_argument("--prompts", type=Path, default=Path(__file__).parent / "prompts.txt", help="for the CPU")
+    parser.add_argument("--plot", type=Path, help="PNG of the cost over the number of bodies")
     options = parser.parse_args()
     gpu = options.device == "cuda"
     parts = options.only or (("one", "many", "scaling", "gradients") if gpu else ("gradients", "mujoco"))
@@ -238,7 +245,7 @@ def main() -> None:
     if "many" in parts:
         many_worlds(options.device, options.libuipc)
     if "scaling" in parts:
-        scaling(options.device)
+        scaling(options.device, options.plot)
     if "gradients" in parts:
         gradients(options.device)
     if "mujoco" in parts:

@@ -51,6 +51,11 @@ class RobotController:
         self._finger_reach = (
             finger_targets(model, robot, np.ones(len(robot.gripper_actuators)), prefix) - self._finger_middle
         )
+        self._operational: Any = None
+        if kind == "osc":
+            joints = [model.joint(prefix + name).id for name in robot.arm_joints]
+            site = model.site(prefix + robot.grip_site).id
+            self._operational = _operational_space(model, data, joints, site, self._arm_actuators, self._limits)
         self._arm = self._new_arm()
 
     @property
@@ -66,12 +71,20 @@ class RobotController:
 
     def set_action(self, action: Array) -> None:
         """Take an action, shape (size,), at the start of a control step; positions must be up to date."""
-        self._arm.set_goal(action[:-1])
+        arm = self._arm
+        arm.set_goal(action[:-1])
+        if self._operational is not None:
+            # The base is bolted down, so the goal stays where it is in the world until the next action.
+            self._goal = (arm.origin_pos + arm.origin_ori @ arm.goal_pos, arm.origin_ori @ arm.goal_ori)
+            self._gains = (arm.kp, arm.kd, np.ascontiguousarray(arm.initial_joint))
         fingers = np.asarray(self._gripper.format_action(action[-1:]), dtype=np.float64)
         self._data.ctrl[self._finger_actuators] = self._finger_middle + self._finger_reach * fingers
 
     def control(self) -> None:
         """Write the torques of this physics step; positions and velocities must be up to date."""
+        if self._operational is not None and self._operational.apply(*self._goal, *self._gains):
+            self._arm.new_update = True
+            return
         torques = np.clip(self._arm.run_controller(), self._limits[0], self._limits[1])
         self._data.ctrl[self._arm_actuators] = torques
 
@@ -83,7 +96,7 @@ class RobotController:
             "qpos": [int(joint.qposadr[0]) for joint in joints],
             "qvel": [int(joint.dofadr[0]) for joint in joints],
         }
-        settings = dict(_part_settings(self.kind))
+        settings = dict(part_settings(self.kind))
         if self.kind == "osc":
             settings.update(robot.controller)
         for key in ("type", "interpolation", "ramp_ratio", "gripper"):
@@ -108,8 +121,15 @@ class RobotController:
         return arm
 
 
+def _operational_space(*arguments: Any) -> Any:
+    """An `OperationalSpace`; numba, which compiles it, comes with robosuite."""
+    from pat3d.envs.operational_space import OperationalSpace
+
+    return OperationalSpace(*arguments)
+
+
 @functools.lru_cache(maxsize=len(_CLASSES))
-def _part_settings(kind: str) -> dict[str, Any]:
+def part_settings(kind: str) -> dict[str, Any]:
     """The settings that robosuite has for a kind of controller."""
     name = _CLASSES[kind][2]
     return robosuite_module("controllers").load_part_controller_config(default_controller=name.upper())

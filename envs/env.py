@@ -10,6 +10,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.observations import Observation, ObservationSpec, Observer
 from pat3d.envs.pictures import Pictures
@@ -57,7 +58,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         segmentation: whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object.
         start_noise: standard deviation of the robot's posture at the start [rad].
         max_objects: rows of the state's "objects"; None for as many as the scene's moving objects.
-        sleep: leave out objects at rest until something touches them; twice as fast (Panda and Sawyer).
+        sleep: leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer).
         render_mode: "rgb_array", "depth_array" or None.
         render_camera: for `render`.
         render_size: height and width for `render` [pixel].
@@ -93,16 +94,19 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         render_camera: str = "agentview",
         render_size: tuple[int, int] = (480, 640),
     ) -> None:
-        _one_of("reward", reward, REWARDS)
-        _one_of("camera", render_camera, CAMERAS)
+        one_of("reward", reward, REWARDS)
+        one_of("camera", render_camera, CAMERAS)
         if render_mode is not None:
-            _one_of("render mode", render_mode, RENDER_MODES)
-        if not (np.isfinite(start_noise) and 0.0 <= start_noise <= 0.5):
-            raise EnvironmentSetupError(f"start_noise is 0 to 0.5 rad, not {start_noise}.")
+            one_of("render mode", render_mode, RENDER_MODES)
+        self._start_noise, self._sleep = number("start_noise", start_noise, 0.0, 0.5, "rad"), sleep
+        height, width = picture_size("image_size", image_size)
+        control_freq = number("control_freq", control_freq, 0.1, 1000.0, "actions a second")
+        if max_objects is not None:
+            whole("max_objects", max_objects, 1)
         self.robot, self.control, self.reward, self.control_freq = robot, control, reward, control_freq
-        self.render_mode, self._render_camera, self._render_size = render_mode, render_camera, render_size
+        self.render_mode, self._render_camera = render_mode, render_camera
+        self._render_size = picture_size("render_size", render_size)
         self.metadata = {**TabletopEnv.metadata, "render_fps": round(control_freq)}  # type: ignore[misc]
-        self._start_noise, self._sleep = start_noise, sleep
         make_robot(robot)
         self._kept: dict[tuple[str, str], tuple[Task, Simulation]] = {}
         self._pictures: Pictures | None = None
@@ -118,9 +122,9 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             moving = sum(not obj.fixed for obj in self._loaded.scene.objects)
         self._spec = ObservationSpec(
             kind=obs,
-            cameras=tuple(cameras),
-            height=image_size[0],
-            width=image_size[1],
+            cameras=names("camera", cameras, CAMERAS),
+            height=height,
+            width=width,
             segmentation=segmentation,
             max_objects=moving if max_objects is None else max_objects,
         )
@@ -169,7 +173,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self._start_noise
         self.simulation.reset(noise)
-        return self._begin()
+        observation, info = self._begin()
+        return observation, {**info, "placement": self.placement.describe()}
 
     def restart(self) -> tuple[Observation, dict[str, Any]]:
         """Begin the episode in the present state, after something in the simulation was changed on purpose."""
@@ -241,7 +246,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 
     def _enter(self, loaded: LoadedScene, task: str | Task | None) -> None:
         """Make `task` in `loaded` what the next episode is about; nothing changes where that is impossible."""
-        name = task.spec if isinstance(task, Task) else task or ""
+        name = task.spec if isinstance(task, Task) else str(task or "")
         key = (loaded.checksum, name)
         if key not in self._kept:
             chosen, placement = choose(loaded.scene, task, self.robot)
@@ -277,6 +282,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
     """The task and where the robot stands for it; without a task, the first object that can be picked."""
     if task is not None:
+        if not isinstance(task, Task | str):
+            raise EnvironmentSetupError(f'a task is text such as "pick:red mug", or a task, not {type(task).__name__}.')
         chosen = task if isinstance(task, Task) else parse_task(task)
         chosen.check(scene)
         return chosen, place(scene, robot, chosen.needs(scene))
@@ -290,8 +297,3 @@ def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Pla
         except TaskError as error:
             reasons.append(str(error))
     raise TaskError("nothing in the scene can be picked: " + " ".join(reasons))
-
-
-def _one_of(what: str, value: str, valid: Sequence[str]) -> None:
-    if value not in valid:
-        raise EnvironmentSetupError(f'no {what} "{value}". Valid: {", ".join(valid)}.')

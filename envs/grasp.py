@@ -1,15 +1,15 @@
 """Where a parallel gripper can take an object, found on height maps.
 
 The fingers come down on both sides of something: where each of them goes, everything must be lower than its tip;
-between them the object must reach up along the pads. That covers bars, balls and boxes that fit between the fingers as
-well as the rims of cups and bowls, of which one finger enters the inside. An approach that leans is the same with the
-scene turned the other way, the ground with it.
+between them the object must reach up along the pads, and nothing else may. That covers bars, balls and boxes that fit
+between the fingers as well as the rims of cups and bowls, of which one finger enters the inside. An approach that leans
+is the same with the scene turned the other way, the ground with it.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,7 +20,7 @@ from pat3d.assets.asset import ConvexPart
 from pat3d.assets.cover import planes
 from pat3d.assets.regions import height_map
 from pat3d.envs.robots import Gripper
-from pat3d.scene import GROUND, Pose, Scene, SceneObject
+from pat3d.scene import Pose, Scene, SceneObject
 
 Array = NDArray[np.float64]
 
@@ -96,23 +96,25 @@ def leaning(lean: float, heading: float) -> Array:
     return np.eye(3) + math.sin(lean) * cross + (1.0 - math.cos(lean)) * (cross @ cross)
 
 
-def find_grasps(scene: Scene, name: str, gripper: Gripper, *, alone: bool = False, count: int = 12) -> list[Grasp]:
+def find_grasps(
+    scene: Scene, name: str, gripper: Gripper, *, among: Collection[str] | None = None, count: int = 12
+) -> list[Grasp]:
     """Grasps from above of object `name` where it stands in `scene`, best first, apart from one another.
 
     Args:
         scene: objects at rest.
         name: of the object.
         gripper: what it can take.
-        alone: leave out every other object except what carries this one.
+        among: the other objects that are in the way; None for all.
         count: of grasps, at most.
     """
-    found = search(scene, name, gripper, alone=alone)
+    found = search(scene, name, gripper, among=among)
     return apart(sorted(found, key=lambda grasp: -grasp.score), count)
 
 
 def search(
-    scene: Scene, name: str, gripper: Gripper, *, alone: bool = False, lean: float = 0.0, heading: float = 0.0,
-    angles: int = ANGLES, wrist: tuple[float, float] | None = None,
+    scene: Scene, name: str, gripper: Gripper, *, among: Collection[str] | None = None, lean: float = 0.0,
+    heading: float = 0.0, angles: int = ANGLES, wrist: tuple[float, float] | None = None,
 ) -> list[Grasp]:  # fmt: skip
     """Grasps along one approach, in no order.
 
@@ -120,7 +122,7 @@ def search(
         scene: objects at rest.
         name: of the object.
         gripper: what it can take.
-        alone: see `find_grasps`.
+        among: see `find_grasps`.
         lean: see Grasp.
         heading: see Grasp.
         angles: directions of closing that are tried over half a turn.
@@ -134,20 +136,15 @@ def search(
     margin = max(gripper.opening / 2 + gripper.finger_thickness, gripper.hand[0] / 2, wrist[1] / 2 if wrist else 0.0)
     grid = _Grid.around(low[:2] - margin, high[:2] + margin)
     own = grid.heights([target])
-    others = [obj for obj in scene.objects if obj.name != name]
-    if alone:
-        others = [obj for obj in others if obj.name == scene.parent(name)]
-    carried = _carried_by(scene, name)
     # What stands on the target or in it comes along and is in the way like anything else.
-    others = [obj for obj in others if obj.name not in carried or not alone]
+    others = [obj for obj in scene.objects if obj.name != name and (among is None or obj.name in among)]
     x, y = grid.world(0.0)
     ground = -(turn[2, 0] * x + turn[2, 1] * y) / turn[2, 2] if lean else np.zeros(x.shape)
-    blocking = np.maximum(grid.heights([_turned(obj, turn) for obj in others] if lean else others), ground)
-    blocking = np.maximum(blocking, own)
+    around = np.maximum(grid.heights([_turned(obj, turn) for obj in others] if lean else others), ground)
     centre = target.pose.apply(np.array([target.asset.mass_properties.centre_of_mass]))[0]
     found: list[Grasp] = []
     for number in range(angles):
-        found += _along(math.pi * number / angles, grid, own, blocking, gripper, centre, wrist)
+        found += _along(math.pi * number / angles, grid, own, around, gripper, centre, wrist)
     found = _held(found, target, gripper)
     if not lean:
         return found
@@ -172,11 +169,12 @@ def narrowest(obj: SceneObject) -> float:
 
 
 def _along(
-    angle: float, grid: _Grid, own: Array, blocking: Array, gripper: Gripper, centre: Array,
+    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array,
     wrist: tuple[float, float] | None,
 ) -> list[Grasp]:  # fmt: skip
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
-    turned_own, turned_all = grid.turned(own, angle), grid.turned(blocking, angle)
+    turned_own, turned_other = grid.turned(own, angle), grid.turned(around, angle)
+    turned_all = np.maximum(turned_own, turned_other)
     width = _odd(gripper.finger_width + 2 * CLEARANCE)
     thick = _odd(gripper.finger_thickness + 2 * CLEARANCE)
     reach = round((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
@@ -184,6 +182,8 @@ def _along(
     column = ndimage.maximum_filter(turned_all, size=(thick, width), mode="nearest")
     below = np.maximum(_shifted(column, reach), _shifted(column, -reach)) + TIP_CLEARANCE
     gap = max(3, 2 * round((gripper.opening / 2 - CLEARANCE) / CELL) + 1)
+    # Nothing else stands between the fingers, which would close on that instead.
+    below = np.maximum(below, ndimage.maximum_filter(turned_other, size=(gap, width), mode="nearest") + TIP_CLEARANCE)
     between = ndimage.maximum_filter(turned_own, size=(gap, 3), mode="nearest")
     hand = (_odd(gripper.hand[0]), _odd(gripper.hand[1]))
     below = np.maximum(below, ndimage.maximum_filter(turned_all, size=hand, mode="nearest") - gripper.palm + CLEARANCE)
@@ -345,18 +345,6 @@ class _Grid:
 def _bounds(obj: SceneObject) -> tuple[Array, Array]:
     points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])
     return points.min(axis=0), points.max(axis=0)
-
-
-def _carried_by(scene: Scene, name: str) -> set[str]:
-    """Every object that stands on or in `name`, directly or not."""
-    carried = set()
-    for obj in scene.objects:
-        above = obj.name
-        while above != GROUND:
-            above = scene.parent(above)
-            if above == name:
-                carried.add(obj.name)
-    return carried
 
 
 def _shifted(values: Array, cells: int) -> Array:

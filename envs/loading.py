@@ -112,8 +112,20 @@ def _export(scene: Scene, folder: Path | None) -> Path:
     key = whole.hexdigest()
     target = cache_root() / "mjcf" / key[:32]
     if not (target / "scene.xml").is_file():
-        write_mjcf(scene, target)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=target.parent) as temporary:
+            write_mjcf(scene, Path(temporary) / "mjcf")
+            _adopt(Path(temporary) / "mjcf", target)
     return target / "scene.xml"
+
+
+def _adopt(fresh: Path, target: Path) -> None:
+    """Move a finished export to its place; where another process was first, its files, which are the same, stay."""
+    try:
+        fresh.rename(target)
+    except OSError:
+        if not (target / "scene.xml").is_file():
+            raise
 
 
 def _require_settled(mjcf: Path, checksum: str) -> None:

@@ -13,10 +13,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import LOWEST, Grasp, find_grasps, narrowest
+from pat3d.envs.grasp import Grasp, find_grasps
 from pat3d.envs.hand import hand_pose, hand_rotation
 from pat3d.envs.kinematics import ArmKinematics
 from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN, LEANING_PAYLOAD, find_leaning_grasps
+from pat3d.envs.refusals import why_not
 from pat3d.envs.robots import PAYLOADS, measure_gripper
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
@@ -125,7 +126,7 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     arm = ArmKinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
     comfortable = float(np.hypot(hand[0], hand[1])) + 0.1
-    farthest: dict[str, float] = {}
+    farthest: dict[str, tuple[float, float, float]] = {}
     for position, yaw in site.candidates(comfortable):
         frame = _Frame(position, yaw)
         reached: dict[str, tuple[Grasp, ...]] = {}
@@ -133,16 +134,18 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
             tried = (_reached(arm, frame, one, gripper.tip, gripper.closing_axis) for one in frame.ordered(found))
             reached[name] = tuple(one for one in tried if one is not None)
             if not reached[name]:
-                farthest[name] = min(farthest.get(name, math.inf), math.dist(position[:2], found[0].position[:2]))
+                aside, up = math.dist(position[:2], found[0].position[:2]), found[0].position[2] - position[2]
+                farthest[name] = min(farthest.get(name, (math.inf, 0.0, 0.0)), (math.hypot(aside, up), aside, up))
                 break
         else:
             if all(_reaches_point(arm, frame, np.array(point), gripper.tip) for point in needs.visit):
                 return site.placement(arm, frame, reached, gripper.tip)
     if farthest:
-        name, distance = max(farthest.items(), key=lambda item: item[1])
+        name, (_, aside, up) = max(farthest.items(), key=lambda item: item[1])
+        height = f"{abs(up):.2f} m {'above' if up > 0.0 else 'below'}"
         raise TaskError(
-            f'"{name}" is out of reach of {robot}: at best {distance:.2f} m from a base that has room to stand; '
-            f"choose another object or a smaller scene."
+            f'"{name}" is out of reach of {robot}: at best {aside:.2f} m beside and {height} a base that has room to '
+            f"stand; choose another object or a smaller scene."
         )
     if not any(True for _ in site.candidates(comfortable)):
         raise TaskError(f"{robot} finds no free place to stand near {site.describe()}.")
@@ -156,30 +159,13 @@ def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool, leans: bool) 
         raise TaskError(
             f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
         )
-    if not cleared:
-        found = find_grasps(scene, name, gripper)
-        if found:
-            return found[:GRASPS_TRIED]
-    if leans and mass <= LEANING_PAYLOAD:
+    # Once it is cleared, nothing is in the way but what carries it.
+    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)[:GRASPS_TRIED]
+    if not found and leans and mass <= LEANING_PAYLOAD:
         found = find_leaning_grasps(scene, name, gripper)
-        if found:
-            return found
-    alone = find_grasps(scene, name, gripper, alone=True)
-    if not alone:
-        points = np.concatenate([scene[name].pose.apply(part.vertices) for part in scene[name].asset.parts])
-        height = float(np.ptp(points[:, 2]))
-        if height < LOWEST:
-            raise TaskError(
-                f'"{name}" cannot be taken by {robot}: it is {1e3 * height:.0f} mm high, and the fingers need '
-                f"{1e3 * LOWEST:.0f} mm."
-            )
-        raise TaskError(
-            f'"{name}" cannot be taken by {robot}: it is {1e3 * narrowest(scene[name]):.0f} mm wide at its narrowest, '
-            f"the gripper opens {1e3 * gripper.opening:.0f} mm, and it has no rim or handle that fits."
-        )
-    if not cleared:
-        raise TaskError(f'"{name}" cannot be taken by {robot}: what stands around it leaves no room for the fingers.')
-    return alone[:GRASPS_TRIED]
+    if not found:
+        raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
+    return found
 
 
 @dataclass(frozen=True)

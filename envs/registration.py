@@ -26,7 +26,10 @@ def register_with_gymnasium() -> None:
 def _register(gymnasium: Any) -> None:
     # A half-imported Gymnasium has no registry yet.
     if hasattr(gymnasium, "register") and ENV_ID not in gymnasium.registry:
-        gymnasium.register(id=ENV_ID, entry_point="pat3d.envs.env:TabletopEnv", max_episode_steps=MAX_EPISODE_STEPS)
+        gymnasium.register(
+            id=ENV_ID, entry_point="pat3d.envs.env:TabletopEnv", vector_entry_point="pat3d.envs.vector:make_vector",
+            max_episode_steps=MAX_EPISODE_STEPS,
+        )  # fmt: skip
 
 
 class _AfterImport:

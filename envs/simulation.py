@@ -30,13 +30,14 @@ class Simulation:
         if sleep and not (self.model.eq_type == self._mujoco.mjtEq.mjEQ_TENDON).any():
             self.model.opt.enableflags |= int(self._mujoco.mjtEnableBit.mjENBL_SLEEP)
         timestep = float(self.model.opt.timestep)
-        self._substeps = round(1.0 / (control_freq * timestep)) if control_freq > 0 else 0
-        if self._substeps < 1 or abs(self._substeps * timestep * control_freq - 1.0) > 1e-9:
+        # Physics steps of a control step.
+        self.substeps = round(1.0 / (control_freq * timestep)) if control_freq > 0 else 0
+        if self.substeps < 1 or abs(self.substeps * timestep * control_freq - 1.0) > 1e-9:
             raise EnvironmentSetupError(
                 f"{control_freq} actions a second is no whole number of time steps of {timestep} s; "
                 "valid are 500, 250, 125, 100, 50, 25, 20, 10, ..."
             )
-        self.period = self._substeps * timestep
+        self.period = self.substeps * timestep
         """Length of a control step [s]."""
         self.data = self._mujoco.MjData(self.model)
         kinds = self._mujoco.mjtWarning
@@ -91,7 +92,7 @@ class Simulation:
         """One control step with `action`, shape (controller.size,)."""
         model, data = self.model, self.data
         self.controller.set_action(action)
-        for _ in range(self._substeps):
+        for _ in range(self.substeps):
             self.controller.control()
             self._mujoco.mj_step2(model, data)
             self._mujoco.mj_step1(model, data)

@@ -158,6 +158,15 @@ class Attempts:
         attempt = self._attempt(0)
         return attempt if attempt.failures else self._checked(attempt)
 
+    def layout(self) -> Scene:
+        """The first layout: objects at poses where nothing touches.
+
+        Raises:
+            LayoutError: there is none.
+        """
+        made_of = key_of(versions(), self.order.fingerprint, self.seed, self.seed)
+        return self._laid_out(0, self.seed, {"layout": made_of})[0]
+
     def _attempt(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.errors import SimulationError
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene import Pose, Scene
 
@@ -47,35 +48,57 @@ def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = sile
     Raises:
         SimulationError: objects intersect at the start, the state degenerates.
     """
+    return come_to_rest_together([scene], device=device, progress=progress)[0]
+
+
+def come_to_rest_together(
+    scenes: Sequence[Scene], *, device: str = "cpu", progress: Progress = silent
+) -> tuple[Rest, ...]:
+    """Settle scenes side by side, a world each; frames, steps and iterations of the records are the whole batch's.
+
+    Raises:
+        SimulationError: as `come_to_rest`, of any of the scenes; or they ask for different settling friction.
+    """
     from pat3d.sim.model import ModelBuilder, poses_from_states
     from pat3d.sim.settling import SettleOptions, settle
 
+    if len({scene.settling_friction for scene in scenes}) != 1:
+        raise SimulationError("scenes that settle together need one settling friction.")
     builder = ModelBuilder()
-    builder.add_scene(scene)
+    for scene in scenes:
+        builder.new_world()
+        builder.add_scene(scene)
     model = builder.finalize(device)
-    options = SettleOptions(friction=scene.settling_friction)
+    options = SettleOptions(friction=scenes[0].settling_friction)
 
     def tell(phase: str, step: int, motion: float) -> None:
         progress(Event(stage=phase, step=step, motion=motion))
 
     progress(Event(stage="settling", step=0))
     found = settle(model, options, tell, throw=False)
-    poses = [
-        obj.initial_pose if obj.fixed else pose
-        for obj, pose in zip(scene.objects, poses_from_states(model, found.q), strict=True)
-    ]
-    return Rest(
-        poses=tuple(poses),
-        states=np.concatenate([found.trajectory, found.q[None].astype(np.float32)]),
-        centres=model.centres,
-        record={
-            "at_rest": bool(found.at_rest.all()),
-            "status": found.status[0].value,
-            "unconverged_steps": int(found.unconverged.max()),
-            "residual": float(found.residual.max()),
-            "frames": found.frames,
-            "polish_steps": found.polish_steps,
-            "newton_iterations": found.newton_iterations,
-            "time_step": options.time_step,
-        },
-    )
+    poses = poses_from_states(model, found.q)
+    states = np.concatenate([found.trajectory, found.q[None].astype(np.float32)])
+    rests = []
+    for world, scene in enumerate(scenes):
+        bodies = slice(first := sum(len(one.objects) for one in scenes[:world]), first + len(scene.objects))
+        rests.append(
+            Rest(
+                poses=tuple(
+                    obj.initial_pose if obj.fixed else pose
+                    for obj, pose in zip(scene.objects, poses[bodies], strict=True)
+                ),
+                states=states[:, bodies],
+                centres=model.centres[bodies],
+                record={
+                    "at_rest": bool(found.at_rest[world]),
+                    "status": found.status[world].value,
+                    "unconverged_steps": int(found.unconverged[world]),
+                    "residual": float(found.residual[world]),
+                    "frames": found.frames,
+                    "polish_steps": found.polish_steps,
+                    "newton_iterations": found.newton_iterations,
+                    "time_step": options.time_step,
+                },
+            )
+        )
+    return tuple(rests)

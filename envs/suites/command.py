@@ -33,6 +33,9 @@ def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     making.add_argument("--objects", default="5-8", metavar="N or N-M", help="objects of a scene (5-8)")
     making.add_argument("--robot", default="Panda", help="that must be able to do the tasks (Panda)")
     making.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
+    making.add_argument("--ray", metavar="ADDRESS", help="let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto")
+    making.add_argument("--limit", type=float, default=300.0, metavar="SECONDS",
+                        help="for one scene; one that takes longer twice is replaced (300)")  # fmt: skip
     making.add_argument("--picture", type=int, default=320, metavar="PIXELS",
                         help="width of the scenes' pictures; 0 for none (320)")  # fmt: skip
     checking = verbs.add_parser("check", help="prove a suite again: files, splits, stillness in MuJoCo")
@@ -53,17 +56,20 @@ def _generate(options: argparse.Namespace) -> int:
     from pat3d.envs.suites.generate import generate
     from pat3d.envs.suites.suite import Suite
 
+    worker_count(options.workers)
+
     request = Request(
         tasks=tuple(name.strip() for name in options.tasks.split(",")), scenes=options.scenes, seed=options.seed,
         objects=_range(options.objects), robot=options.robot, picture=options.picture,
     )  # fmt: skip
-    workers = worker_count(options.workers)
     with _progress() as tell:
-        status = generate(options.folder, request, workers=workers, tell=tell)
+        status = generate(
+            options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
+        )
     _summary(Suite.open(options.folder))
     if status.made:
         console().print(f"\n{status.made} scenes in {status.seconds:.0f} s: {status.per_hour:.0f} an hour with "
-                        f"{workers} workers", markup=False)  # fmt: skip
+                        f"{status.workers} workers", markup=False)  # fmt: skip
     return 0
 
 

@@ -46,14 +46,16 @@ class Composer:
 
     def item(
         self, parent: str = GROUND, kind: SupportKind = "on", *, moved: bool = False,
-        groups: tuple[str, ...] = (FLAT, STANDING, PLAIN), width: float = 1.0, colour: str | None = None,
+        groups: tuple[str, ...] = (FLAT, STANDING, PLAIN), width: float = 1.0, height: float = 0.0,
+        colour: str | None = None,
     ) -> str:  # fmt: skip
-        """Add something a gripper takes, at most `width` [m] wide; returns its name."""
+        """Add something a gripper takes, at most `width` and at least `height` [m]; returns its name."""
         if colour is not None or self.coloured_only:
             groups = tuple(group for group in groups if group != PLAIN)
         fitting = [
             item.noun for item in ITEMS
-            if item.noun in self._nouns[moved] and item.group in groups and item.width <= width
+            if item.noun in self._nouns[moved] and item.group in groups
+            and item.width <= width and item.height >= height
         ]  # fmt: skip
         if not fitting:
             raise ExhaustedError
@@ -93,7 +95,8 @@ class Composer:
         # The grammar reads a bowl of fruit as a fruit bowl.
         groups = (FLAT, STANDING) if container.noun == "bowl" else (FLAT, STANDING, PLAIN)
         kind: SupportKind = "in" if container.kind == "in" else "on"
-        return self.item(name, kind, moved=moved, groups=groups, width=container.width)
+        height = container.lowest if moved else 0.0
+        return self.item(name, kind, moved=moved, groups=groups, width=container.width, height=height)
 
     def tower(self, height: int, *, parent: str = GROUND) -> str:
         """Add flat things one upon another; returns the topmost."""

@@ -1,31 +1,21 @@
-"""Worker processes and what they are asked to do."""
+"""Whoever makes the units of a run, and what they are asked to do: the bookkeeping that every kind of crew shares."""
 
 from __future__ import annotations
 
-import json
 import os
-import signal
-import subprocess
-import sys
-import threading
+import time
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from pathlib import Path
-from queue import Empty, SimpleQueue
 from typing import Any
 
-import pat3d
-from pat3d.envs.suites.folder import SuiteFolder
-from pat3d.envs.suites.request import Request
 from pat3d.errors import SuiteError
 
 Unit = tuple[int, int]
 """Place and candidate, both from 0."""
 
 MAX_WORKERS = 256
-_LOG_TAIL = 2000
-_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,18 +27,26 @@ class Answer:
     """What it was doing; None while it got ready."""
     said: dict[str, Any] = field(default_factory=dict)
     """Empty where it ended without a word."""
-    ended: int | None = None
-    """Its exit status; negative for a signal."""
+    ended: str = ""
+    """How it ended, in words; empty while it lives."""
+    late: bool = False
+    """Whether it was ended because its unit took too long."""
+    last_words: str = ""
+    """The end of the log of one that ended."""
 
 
-def worker_count(asked: str) -> int:
+def worker_count(asked: str, cores: int | None = None) -> int:
     """How many workers "auto" or a number in words means.
+
+    Args:
+        asked: by the user.
+        cores: what "auto" means; by default, the cores that this process may use.
 
     Raises:
         SuiteError: it means nothing.
     """
     if asked == "auto":
-        return min(_cores(), MAX_WORKERS)
+        return min(_cores() if cores is None else cores, MAX_WORKERS)
     if asked.isdecimal() and 1 <= int(asked) <= MAX_WORKERS:
         return int(asked)
     raise SuiteError(f'--workers is "auto" or a number from 1 to {MAX_WORKERS}, not "{asked}".')
@@ -61,43 +59,29 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class Crew:
+class Crew(ABC):
     """Workers of one run; each has at most one unit at a time."""
 
-    def __init__(self, folder: SuiteFolder, request: Request) -> None:
-        self._folder, self._request = folder, request
-        self._answers: SimpleQueue[Answer] = SimpleQueue()
-        self._processes: dict[int, subprocess.Popen[str]] = {}
+    def __init__(self) -> None:
         self._units: dict[int, Unit | None] = {}
+        """What every living worker does."""
+        self._since: dict[int, float] = {}
+        """When it began [s]."""
         self._ready: set[int] = set()
-        self._next = 0
+        self._stopped: dict[int, float] = {}
+        """After how long those were stopped whose unit took too long [s]."""
+        self._hired = 0
 
     @property
     def size(self) -> int:
         """Workers that live."""
-        return len(self._processes)
-
-    @property
-    def pids(self) -> tuple[int, ...]:
-        """Process ids of the workers."""
-        return tuple(process.pid for process in self._processes.values())
+        return len(self._units)
 
     def hire(self) -> None:
         """Start a worker; it says when it is ready."""
-        number, self._next = self._next, self._next + 1
-        self._folder.work.mkdir(parents=True, exist_ok=True)
-        # The same pat3d as here, and nothing from the folder one happens to be in.
-        root = str(Path(pat3d.__file__).resolve().parents[1])
-        path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
-        with self._log(number).open("wb") as log:
-            process = subprocess.Popen(
-                [sys.executable, "-P", "-m", "pat3d.envs.suites.worker"],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
-                env={**os.environ, **_ONE_THREAD, "PYTHONPATH": path}, start_new_session=True,
-            )  # fmt: skip
-        self._processes[number], self._units[number] = process, None
-        self._send(number, {"folder": str(self._folder.path), "request": self._request.as_dict()})
-        threading.Thread(target=self._listen, args=(number, process), daemon=True).start()
+        number, self._hired = self._hired, self._hired + 1
+        self._units[number] = None
+        self._start(number)
 
     def idle(self) -> list[int]:
         """Workers that are ready and have nothing to do."""
@@ -105,36 +89,42 @@ class Crew:
 
     def give(self, worker: int, unit: Unit) -> None:
         """Let an idle worker make a unit."""
-        self._units[worker] = unit
-        self._send(worker, {"place": unit[0], "candidate": unit[1]})
+        self._units[worker], self._since[worker] = unit, time.monotonic()
+        self._order(worker, unit)
 
     def busy(self) -> bool:
-        """Whether anybody makes a unit or gets ready."""
-        return any(unit is not None or number not in self._ready for number, unit in self._units.items())
+        """Whether anybody makes a unit."""
+        return any(unit is not None for unit in self._units.values())
+
+    def stop_those_over(self, limit: float) -> None:
+        """Kill the workers that have been at their unit for more than `limit` [s]; their end is answered like any."""
+        now = time.monotonic()
+        for number, unit in self._units.items():
+            if unit is not None and number not in self._stopped and now - self._since[number] > limit:
+                self._stopped[number] = limit
+                self._kill(number)
 
     def answer(self, seconds: float) -> Answer | None:
         """The next answer, or None if there is none within `seconds`."""
-        try:
-            found = self._answers.get(timeout=seconds)
-        except Empty:
+        found = self._next(seconds)
+        if found is None:
             return None
-        if found.ended is not None:
-            self._processes.pop(found.worker, None)
-            self._ready.discard(found.worker)
-            return Answer(worker=found.worker, unit=self._units.pop(found.worker, None), ended=found.ended)
-        unit = self._units.get(found.worker)
-        if "ready" in found.said:
-            self._ready.add(found.worker)
+        number, said, ended = found
+        unit = self._units.get(number)
+        if ended:
+            del self._units[number]
+            self._ready.discard(number)
+            limit = self._stopped.pop(number, None)
+            if limit is not None:
+                ended = f"was not done after {limit:g} s and was ended"
+            return Answer(
+                worker=number, unit=unit, ended=ended, late=limit is not None, last_words=self._last_words(number)
+            )
+        if "ready" in said:
+            self._ready.add(number)
         else:
-            self._units[found.worker] = None
-        return Answer(worker=found.worker, unit=unit, said=found.said)
-
-    def last_words(self, worker: int) -> str:
-        """The end of a worker's log."""
-        try:
-            return self._log(worker).read_text(encoding="utf-8", errors="replace")[-_LOG_TAIL:].strip()
-        except OSError:
-            return ""
+            self._units[number] = None
+        return Answer(worker=number, unit=unit, said=said)
 
     @contextmanager
     def dismissed_at_end(self) -> Iterator[Crew]:
@@ -142,41 +132,28 @@ class Crew:
         try:
             yield self
         finally:
-            for process in self._processes.values():
-                process.kill()
-            for process in self._processes.values():
-                process.wait()
+            self._dismiss()
 
-    def _log(self, number: int) -> Path:
-        return self._folder.work / f"worker-{number}.log"
+    @abstractmethod
+    def _start(self, number: int) -> None:
+        """Start worker `number`."""
 
-    def _send(self, number: int, message: dict[str, Any]) -> None:
-        stream = self._processes[number].stdin
-        try:
-            if stream is not None:
-                stream.write(json.dumps(message) + "\n")
-                stream.flush()
-        except OSError:
-            # It has ended; its listener says so.
-            return
+    @abstractmethod
+    def _order(self, number: int, unit: Unit) -> None:
+        """Tell a worker its unit."""
 
-    def _listen(self, number: int, process: subprocess.Popen[str]) -> None:
-        if process.stdout is not None:
-            for line in process.stdout:
-                try:
-                    said = json.loads(line)
-                except ValueError:
-                    # Cut off in the middle: it is ending.
-                    break
-                self._answers.put(Answer(worker=number, unit=None, said=said))
-        self._answers.put(Answer(worker=number, unit=None, ended=process.wait()))
+    @abstractmethod
+    def _next(self, seconds: float) -> tuple[int, dict[str, Any], str] | None:
+        """Who said something, what, and how it ended (empty if it has not), if anyone does within `seconds`."""
 
+    @abstractmethod
+    def _kill(self, number: int) -> None:
+        """End a worker at once."""
 
-def how_it_ended(status: int) -> str:
-    """An exit status in words."""
-    if status < 0:
-        try:
-            return f"was killed by {signal.Signals(-status).name}"
-        except ValueError:
-            return f"was killed by signal {-status}"
-    return f"ended with status {status}"
+    @abstractmethod
+    def _dismiss(self) -> None:
+        """End every worker and release what the crew holds."""
+
+    def _last_words(self, number: int) -> str:
+        """The end of an ended worker's log."""
+        return ""

@@ -6,10 +6,11 @@ import json
 import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
-from pat3d.envs.suites.crew import Answer, Crew, Unit, how_it_ended
+from pat3d.envs.suites.crew import Answer, Crew, Unit, worker_count
 from pat3d.envs.suites.folder import LOG, MANIFEST, SuiteFolder, read_document, write_document
 from pat3d.envs.suites.manifest import begin_manifest, finish_manifest
 from pat3d.envs.suites.request import Request
@@ -20,6 +21,9 @@ CANDIDATES = 30
 
 DEATHS = 2
 """Of workers over the same unit before it is rejected."""
+
+LIMIT = 300.0
+"""For a unit, unless another limit is given [s]; most take one or two."""
 
 FAILED_STARTS = 3
 """Workers that may end before they are ready."""
@@ -57,33 +61,67 @@ class Status:
 Watcher = Callable[[Status], None]
 
 
-def generate(path: str, request: Request, *, workers: int, tell: Watcher = lambda status: None) -> Status:
+def generate(
+    path: str, request: Request, *, workers: int | str = "auto", limit: float = LIMIT, ray: str | None = None,
+    tell: Watcher = lambda status: None,
+) -> Status:  # fmt: skip
     """Make the suite `request` in the folder `path`, or what is missing of it.
+
+    Args:
+        path: of the suite's folder.
+        request: what to make.
+        workers: how many; "auto" for one a core, of this machine or of the cluster.
+        limit: for one unit [s]; a worker that takes longer is ended, and a unit that did so twice is rejected.
+        ray: address of the Ray cluster whose machines work; None for processes of this one.
+        tell: told how far the run is.
 
     Returns:
         How it ended.
 
     Raises:
-        SuiteError: the folder is in use, holds another suite, or a place finds no scene.
+        SuiteError: the folder is in use, holds another suite, a place finds no scene, or there is no such cluster.
         ExportError: it cannot be written.
         EnvironmentSetupError: there is no such robot, or robosuite is not installed.
     """
     from pat3d.envs.robots import make_robot
 
     make_robot(request.robot)
+    if not limit > 0.0:
+        raise SuiteError(f"the time limit for a scene must be positive, got {limit:g} s.")
     folder = SuiteFolder(path)
     folder.check_usable()
     with folder.locked():
         folder.clear_work()
         if (folder.path / MANIFEST).exists():
             _check_same(folder, request)
-        run = _Run(folder, request, workers, tell)
+        run = _Run(folder, request, limit, tell)
         if run.pending:
-            begin_manifest(folder, request)
-            run.work()
+            with _connected(ray) as cluster:
+                count = worker_count(str(workers), None if cluster is None else max(cluster.cores, 1))
+                begin_manifest(folder, request)
+                run.work(_crew(folder, request, cluster), count)
         finish_manifest(folder, request)
         folder.clear_work()
     return run.status("")
+
+
+def _connected(address: str | None) -> Any:
+    """The cluster at `address` for as long as a block lasts; None for no address."""
+    if address is None:
+        return nullcontext()
+    from pat3d.envs.suites.ray_crew import Cluster
+
+    return Cluster(address)
+
+
+def _crew(folder: SuiteFolder, request: Request, cluster: Any) -> Crew:
+    if cluster is None:
+        from pat3d.envs.suites.local_crew import LocalCrew
+
+        return LocalCrew(folder, request)
+    from pat3d.envs.suites.ray_crew import RayCrew
+
+    return RayCrew(folder, request, cluster)
 
 
 def _check_same(folder: SuiteFolder, request: Request) -> None:
@@ -114,8 +152,8 @@ def _check_same(folder: SuiteFolder, request: Request) -> None:
 class _Run:
     """The queue of one run and the workers at it."""
 
-    def __init__(self, folder: SuiteFolder, request: Request, workers: int, tell: Watcher) -> None:
-        self.folder, self.request, self.workers, self.tell = folder, request, workers, tell
+    def __init__(self, folder: SuiteFolder, request: Request, limit: float, tell: Watcher) -> None:
+        self.folder, self.request, self.limit, self.tell = folder, request, limit, tell
         done, rejected = folder.done(), folder.rejected()
         self.pending: deque[Unit] = deque(
             (place, rejected.get(place, 0)) for place in range(request.scenes) if place not in done
@@ -125,21 +163,21 @@ class _Run:
         self._deaths: dict[Unit, int] = {}
         self._failed_starts = 0
         self._began: float | None = None
+        self._crew: Crew | None = None
 
     def status(self, note: str) -> Status:
         """How far the run is."""
         seconds = 0.0 if self._began is None else time.perf_counter() - self._began
-        crew = getattr(self, "_crew", None)
         return Status(
             done=self.done, total=self.request.scenes, rejected=self.rejected, made=self.made, seconds=seconds,
-            workers=crew.size if crew is not None else 0, note=note,
+            workers=self._crew.size if self._crew is not None else 0, note=note,
         )  # fmt: skip
 
-    def work(self) -> None:
+    def work(self, crew: Crew, workers: int) -> None:
         """Until nothing is pending."""
         self._check_candidates()
-        self._crew = Crew(self.folder, self.request)
-        with self._crew.dismissed_at_end() as crew:
+        self._crew = crew
+        with crew.dismissed_at_end():
             # The first one compiles the simulator's kernels where that is needed; the others find them compiled.
             crew.hire()
             self.tell(self.status("preparing the simulator"))
@@ -149,13 +187,13 @@ class _Run:
                         crew.give(worker, self.pending.popleft())
                 answer = crew.answer(_TICK)
                 if answer is not None:
-                    self._take(answer)
+                    self._take(crew, answer, workers)
+                crew.stop_those_over(self.limit)
                 self.tell(self.status("" if self._began is not None else "preparing the simulator"))
 
-    def _take(self, answer: Answer) -> None:
-        crew = self._crew
-        if answer.ended is not None:
-            self._buried(answer)
+    def _take(self, crew: Crew, answer: Answer, workers: int) -> None:
+        if answer.ended:
+            self._buried(crew, answer)
         elif "fatal" in answer.said:
             raise SuiteError(
                 f"a worker had to stop: {answer.said['fatal']} What is finished is kept; run the same command again."
@@ -164,7 +202,7 @@ class _Run:
             self._failed_starts = 0
             if self._began is None:
                 self._began = time.perf_counter()
-                for _ in range(min(self.workers, len(self.pending)) - 1):
+                for _ in range(min(workers, len(self.pending)) - 1):
                     crew.hire()
         else:
             self._log(answer.said)
@@ -174,15 +212,12 @@ class _Run:
                 self.done += 1
                 self.made += 1
 
-    def _buried(self, answer: Answer) -> None:
+    def _buried(self, crew: Crew, answer: Answer) -> None:
         """A worker is gone; what it did is done by another, unless that has killed one before."""
-        crew = self._crew
-        how = how_it_ended(answer.ended or 0)
         if answer.unit is None:
             self._failed_starts += 1
             if self._failed_starts >= FAILED_STARTS:
-                words = crew.last_words(answer.worker)
-                raise SuiteError(f"workers end before they are ready: the last one {how}. {words}")
+                raise SuiteError(f"workers end before they are ready: the last one {answer.ended}. {answer.last_words}")
         else:
             deaths = self._deaths[answer.unit] = self._deaths.get(answer.unit, 0) + 1
             place, candidate = answer.unit
@@ -195,10 +230,11 @@ class _Run:
             elif deaths < DEATHS:
                 self.pending.appendleft(answer.unit)
             else:
-                message = f"{deaths} workers died over it; the last one {how}. {crew.last_words(answer.worker)}"
+                message = f"{deaths} workers died over it; the last one {answer.ended}. {answer.last_words}"
                 document = {
                     "place": place, "candidate": candidate, "split": self.request.split_of(place),
-                    "kind": self.request.task_of(place), "reason": "worker", "message": message,
+                    "kind": self.request.task_of(place), "reason": "time limit" if answer.late else "worker",
+                    "message": message.strip(),
                 }  # fmt: skip
                 write_document(self.folder.rejection(place, candidate), document)
                 self._again(place, candidate)

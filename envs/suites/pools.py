@@ -20,6 +20,8 @@ class Item:
     """FLAT: coloured, carries others. STANDING: coloured, carries nothing. PLAIN: has the colour that it has."""
     width: float
     """Longest horizontal extent [m]."""
+    height: float
+    """At least [m]."""
     materials: tuple[str, ...] = ()
     """Materials that may be named instead of its own."""
 
@@ -27,40 +29,40 @@ class Item:
 _VARIED = ("wood", "rubber", "metal", "plastic")
 
 ITEMS = (
-    Item(noun="cube", group=FLAT, width=0.05, materials=_VARIED),
-    Item(noun="block", group=FLAT, width=0.08, materials=_VARIED),
-    Item(noun="cylinder", group=FLAT, width=0.05, materials=_VARIED),
-    Item(noun="can", group=FLAT, width=0.075),
-    Item(noun="soda can", group=FLAT, width=0.065),
-    Item(noun="soap", group=FLAT, width=0.08),
-    Item(noun="sponge", group=FLAT, width=0.11),
-    Item(noun="salt shaker", group=STANDING, width=0.055, materials=("porcelain", "metal", "wood")),
-    Item(noun="pepper mill", group=STANDING, width=0.06, materials=("wood", "metal", "plastic")),
-    Item(noun="spray can", group=STANDING, width=0.075),
-    Item(noun="toy car", group=STANDING, width=0.14, materials=("plastic", "metal", "wood")),
-    Item(noun="tape measure", group=STANDING, width=0.10),
-    Item(noun="soap dispenser", group=STANDING, width=0.075),
-    Item(noun="shampoo", group=STANDING, width=0.085),
-    Item(noun="bottle", group=STANDING, width=0.075, materials=("plastic", "metal", "glass")),
-    Item(noun="stapler", group=STANDING, width=0.15),
-    Item(noun="puzzle cube", group=PLAIN, width=0.06),
-    Item(noun="apple", group=PLAIN, width=0.08),
-    Item(noun="lemon", group=PLAIN, width=0.085),
-    Item(noun="lime", group=PLAIN, width=0.075),
-    Item(noun="orange", group=PLAIN, width=0.075),
-    Item(noun="peach", group=PLAIN, width=0.07),
-    Item(noun="plum", group=PLAIN, width=0.05),
-    Item(noun="tomato", group=PLAIN, width=0.075),
-    Item(noun="onion", group=PLAIN, width=0.075),
-    Item(noun="potato", group=PLAIN, width=0.10),
-    Item(noun="banana", group=PLAIN, width=0.21),
-    Item(noun="egg", group=PLAIN, width=0.06),
-    Item(noun="mushroom", group=PLAIN, width=0.05),
-    Item(noun="strawberry", group=PLAIN, width=0.045),
-    Item(noun="cupcake", group=PLAIN, width=0.075),
-    Item(noun="muffin", group=PLAIN, width=0.085),
-    Item(noun="cheese", group=PLAIN, width=0.125),
-    Item(noun="milk carton", group=PLAIN, width=0.075),
+    Item(noun="cube", group=FLAT, width=0.05, height=0.045, materials=_VARIED),
+    Item(noun="block", group=FLAT, width=0.08, height=0.045, materials=_VARIED),
+    Item(noun="cylinder", group=FLAT, width=0.05, height=0.055, materials=_VARIED),
+    Item(noun="can", group=FLAT, width=0.075, height=0.105),
+    Item(noun="soda can", group=FLAT, width=0.065, height=0.115),
+    Item(noun="soap", group=FLAT, width=0.08, height=0.02),
+    Item(noun="sponge", group=FLAT, width=0.11, height=0.025),
+    Item(noun="salt shaker", group=STANDING, width=0.055, height=0.075, materials=("porcelain", "metal", "wood")),
+    Item(noun="pepper mill", group=STANDING, width=0.06, height=0.185, materials=("wood", "metal", "plastic")),
+    Item(noun="spray can", group=STANDING, width=0.075, height=0.185),
+    Item(noun="toy car", group=STANDING, width=0.14, height=0.05, materials=("plastic", "metal", "wood")),
+    Item(noun="tape measure", group=STANDING, width=0.10, height=0.065),
+    Item(noun="soap dispenser", group=STANDING, width=0.075, height=0.165),
+    Item(noun="shampoo", group=STANDING, width=0.085, height=0.185),
+    Item(noun="bottle", group=STANDING, width=0.075, height=0.22, materials=("plastic", "metal", "glass")),
+    Item(noun="stapler", group=STANDING, width=0.15, height=0.055),
+    Item(noun="puzzle cube", group=PLAIN, width=0.06, height=0.055),
+    Item(noun="apple", group=PLAIN, width=0.08, height=0.075),
+    Item(noun="lemon", group=PLAIN, width=0.085, height=0.055),
+    Item(noun="lime", group=PLAIN, width=0.075, height=0.045),
+    Item(noun="orange", group=PLAIN, width=0.075, height=0.065),
+    Item(noun="peach", group=PLAIN, width=0.07, height=0.065),
+    Item(noun="plum", group=PLAIN, width=0.05, height=0.055),
+    Item(noun="tomato", group=PLAIN, width=0.075, height=0.055),
+    Item(noun="onion", group=PLAIN, width=0.075, height=0.07),
+    Item(noun="potato", group=PLAIN, width=0.10, height=0.05),
+    Item(noun="banana", group=PLAIN, width=0.21, height=0.03),
+    Item(noun="egg", group=PLAIN, width=0.06, height=0.04),
+    Item(noun="mushroom", group=PLAIN, width=0.05, height=0.035),
+    Item(noun="strawberry", group=PLAIN, width=0.045, height=0.035),
+    Item(noun="cupcake", group=PLAIN, width=0.075, height=0.08),
+    Item(noun="muffin", group=PLAIN, width=0.085, height=0.065),
+    Item(noun="cheese", group=PLAIN, width=0.125, height=0.05),
+    Item(noun="milk carton", group=PLAIN, width=0.075, height=0.235),
 )
 
 
@@ -76,13 +78,15 @@ class Container:
     width: float
     """Of the widest item [m]."""
     coloured: bool = True
+    lowest: float = 0.0
+    """Height of the lowest item that fingers take out of it [m]: the hand stays above the rim."""
 
 
 CONTAINERS = (
     Container(noun="bowl", kind="in", room=1, width=0.075),
     Container(noun="fruit bowl", kind="in", room=3, width=0.085, coloured=False),
-    Container(noun="basket", kind="in", room=3, width=0.125, coloured=False),
-    Container(noun="pot", kind="in", room=3, width=0.085),
+    Container(noun="basket", kind="in", room=3, width=0.125, coloured=False, lowest=0.085),
+    Container(noun="pot", kind="in", room=3, width=0.085, lowest=0.095),
     Container(noun="tray", kind="on", room=4, width=0.15),
     Container(noun="plate", kind="on", room=2, width=0.075),
     Container(noun="cutting board", kind="on", room=3, width=0.10, coloured=False),

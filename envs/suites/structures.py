@@ -89,7 +89,9 @@ def _stack_from(kind: str) -> Callable[[Composer], str]:
         c.places.append(base)
         width = min(source[1].width, STACKED_WIDTH)
         carried = "in" if source[1].kind == "in" else "on"
-        return f"stack:{c.item(source[0], carried, moved=True, groups=(FLAT, STANDING), width=width)}:{base}"
+        lowest = source[1].lowest
+        moved = c.item(source[0], carried, moved=True, groups=(FLAT, STANDING), width=width, height=lowest)
+        return f"stack:{moved}:{base}"
 
     return build
 

@@ -28,7 +28,7 @@ def main() -> int:
     try:
         order = units.get()
         folder, request = SuiteFolder(order["folder"]), Request.from_dict(order["request"], "worker")
-        _prepare(request)
+        prepare_for(request)
         _say(out, {"ready": True})
         while True:
             unit = units.get()
@@ -44,11 +44,13 @@ def _made(folder: SuiteFolder, request: Request, place: int, candidate: int) -> 
     return make_unit(folder, request, place, candidate)
 
 
-def _prepare(request: Request) -> None:
+def prepare_for(request: Request) -> None:
     """Everything that is slow the first time."""
     from pat3d.envs.robots import make_robot
+    from pat3d.envs.suites.threads import keep_to_one_thread
     from pat3d.kernels import prepare
 
+    keep_to_one_thread()
     make_robot(request.robot)
     prepare("cpu")
 

@@ -21,6 +21,7 @@ from pat3d.envs.tasks.task import (
     closeness,
     movable,
     origin,
+    point,
     present,
     standing_on,
 )
@@ -37,10 +38,6 @@ class Sort(Task):
 
     kind: ClassVar[str] = "sort"
     form: ClassVar[str] = "sort"
-
-    @property
-    def spec(self) -> str:
-        return "sort"
 
     def instruction(self, scene: Scene) -> str:
         homes = sorted(set(self.pairs(scene).values()))
@@ -106,7 +103,7 @@ class _SortJudge(Judge):
             predicates={**{f'"{name}" sorted': there for name, there in sorted_.items()}, "released": resting},
             progress=1.0 if done else min(progress, 1.0),
             target=target,
-            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+            goal=point(goal),
         )
 
 
@@ -118,10 +115,6 @@ class Unload(Task):
     form: ClassVar[str] = "unload:CONTAINER"
 
     container: str
-
-    @property
-    def spec(self) -> str:
-        return f"unload:{self.container}"
 
     def instruction(self, scene: Scene) -> str:
         inner = any(rel.parent == self.container and rel.kind == "in" for rel in scene.relations)
@@ -161,7 +154,7 @@ class _UnloadJudge(Judge):
         done = self._timer.update(not within and not fell and resting, seconds)
         target = max(within or self._contents, key=lambda name: float(state.centre(name)[2]))
         start = state.start_centre(target)
-        goal = np.array([start[0], start[1], start[2] + 0.15])
+        goal = start + [0.0, 0.0, 0.15]
         progress = (len(self._contents) - len(within) - len(fell)) / len(self._contents)
         if within:
             progress += _approach(state, target, goal) / len(self._contents)
@@ -170,7 +163,7 @@ class _UnloadJudge(Judge):
             predicates={"empty": not within, "released": resting, "nothing fell": not fell},
             progress=1.0 if done else float(np.clip(progress, 0.0, 1.0)),
             target=target,
-            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+            goal=point(goal),
         )
 
 
@@ -182,10 +175,6 @@ class Retrieve(Task):
     form: ClassVar[str] = "retrieve:OBJECT"
 
     target: str
-
-    @property
-    def spec(self) -> str:
-        return f"retrieve:{self.target}"
 
     def instruction(self, scene: Scene) -> str:
         on = standing_on(scene, self.target)

@@ -13,6 +13,7 @@ from pat3d.envs.grasp import narrowest
 from pat3d.envs.placement import Needs
 from pat3d.envs.predicates import at_rest, inside, on_top
 from pat3d.envs.state import SimState
+from pat3d.envs.tasks.room import has_room, overhang_room
 from pat3d.envs.tasks.task import (
     Judge,
     Task,
@@ -22,6 +23,7 @@ from pat3d.envs.tasks.task import (
     closeness,
     movable,
     origin,
+    point,
     present,
     standing_on,
 )
@@ -30,12 +32,6 @@ from pat3d.scene import Scene
 
 LIFT = 0.10
 """[m]"""
-
-NARROWEST_BASE = 0.4
-"""Least width of a base as a share of that of what is put on it."""
-
-ROOMY = 0.15
-"""Tops with a half width of at least this [m] carry several things."""
 
 HOLD_SECONDS = 1.0
 REST_SECONDS = 0.5
@@ -52,10 +48,6 @@ class Pick(Task):
     form: ClassVar[str] = "pick:OBJECT"
 
     target: str
-
-    @property
-    def spec(self) -> str:
-        return f"pick:{self.target}"
 
     def instruction(self, scene: Scene) -> str:
         return f"pick up the {self.target}{origin(scene, self.target)}"
@@ -79,7 +71,7 @@ class LiftJudge(Judge):
     def __init__(self, target: str, state: SimState) -> None:
         self._target, self._timer = target, Timer(HOLD_SECONDS)
         start = state.start_centre(target)
-        self._goal = (float(start[0]), float(start[1]), float(start[2]) + LIFT)
+        self._goal = point(start + [0.0, 0.0, LIFT])
 
     def update(self, state: SimState, seconds: float) -> Verdict:
         centre, touched = state.centre(self._target), state.touched(self._target)
@@ -111,10 +103,6 @@ class Place(Task):
     target: str
     where: str
 
-    @property
-    def spec(self) -> str:
-        return f"place:{self.target}:{self.where}"
-
     def instruction(self, scene: Scene) -> str:
         return f"put the {self.target} {_preposition(scene, self.where)} the {self.where}"
 
@@ -139,10 +127,6 @@ class Stack(Task):
 
     target: str
     base: str
-
-    @property
-    def spec(self) -> str:
-        return f"stack:{self.target}:{self.base}"
 
     def instruction(self, scene: Scene) -> str:
         return f"stack the {self.target} on the {self.base}"
@@ -192,7 +176,7 @@ class PutJudge(Judge):
             predicates={relation: there, "released": released, "upright": upright},
             progress=1.0 if done else min(progress, 1.0),
             target=self._target,
-            goal=(float(goal[0]), float(goal[1]), float(goal[2])),
+            goal=point(goal),
         )
 
 
@@ -209,7 +193,7 @@ def above(scene: Scene, where: str) -> tuple[float, float, float]:
     region = obj.asset.region("in") or obj.asset.region("on")
     points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])
     middle = obj.pose.apply(np.array([region.floor]))[0] if region else centre_of_mass(scene, where)
-    return float(middle[0]), float(middle[1]), float(points[:, 2].max()) + CARRY_HEIGHT
+    return point([*middle[:2], points[:, 2].max() + CARRY_HEIGHT])
 
 
 def check_move(scene: Scene, target: str, where: str) -> None:
@@ -231,11 +215,10 @@ def check_move(scene: Scene, target: str, where: str) -> None:
         return
     covering = [name for name in standing_on(scene, where) if name != target]
     top = scene[where].asset.region("on")
-    if top is None or min(top.half_size) < max(0.01, NARROWEST_BASE * narrowest(scene[target]) / 2):
+    if top is None or min(top.half_size) < overhang_room(scene, target):
         raise TaskError(f'"{where}" has no top wide enough for "{target}".')
-    # A tray or a table has room for more; the top of a stack has not.
-    if covering and min(top.half_size) < ROOMY:
-        raise TaskError(f'"{covering[0]}" stands on "{where}" already.')
+    if not has_room(scene, target, where, top, covering):
+        raise TaskError(f'"{covering[0]}" stands on "{where}" already and leaves no room for "{target}".')
 
 
 def _preposition(scene: Scene, where: str) -> str:

@@ -36,7 +36,7 @@ def possible_tasks(scene: Scene) -> Iterator[Task]:
     """Every task that the scene's tree and sizes allow; whether a robot reaches it is decided by its placement."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
-        count = len(fields(kind))  # type: ignore[arg-type]
+        count = len(fields(kind))
         combinations = (
             [()] if count == 0 else [(a,) for a in names] if count == 1 else [(a, b) for a in names for b in names]
         )

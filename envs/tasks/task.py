@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pat3d.envs.placement import Needs
 from pat3d.envs.state import SimState
@@ -46,8 +46,9 @@ class Judge(ABC):
         """Judge the present state, `seconds` after the last one (0 right after the reset)."""
 
 
+@dataclass(frozen=True, kw_only=True)
 class Task(ABC):
-    """Something to do in a scene."""
+    """Something to do in a scene; its fields are the names of the objects that it is about."""
 
     kind: ClassVar[str]
     """First word of the task's specification."""
@@ -55,9 +56,9 @@ class Task(ABC):
     """How the specification is written, for messages."""
 
     @property
-    @abstractmethod
     def spec(self) -> str:
         """The text from which `parse_task` makes this task again."""
+        return ":".join((self.kind, *(str(getattr(self, one.name)) for one in fields(self))))
 
     @abstractmethod
     def instruction(self, scene: Scene) -> str:
@@ -126,6 +127,12 @@ def centre_of_mass(scene: Scene, name: str) -> Array:
     """Of an object at rest [m], shape (3,)."""
     obj = scene[name]
     return obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0]
+
+
+def point(values: ArrayLike) -> tuple[float, float, float]:
+    """Three numbers as plain data."""
+    x, y, z = np.asarray(values, dtype=np.float64)
+    return float(x), float(y), float(z)
 
 
 def closeness(distance: float, scale: float) -> float:

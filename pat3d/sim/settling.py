@@ -60,7 +60,7 @@ class SettleOptions:
     """[s]"""
     max_frames: int = 300
     """Artificial time steps of the drop."""
-    max_polish_steps: int = 200
+    max_polish_steps: int = 400
     """Steps of the polish before giving up."""
     d_hat: float = 1.0e-3
     """Barrier activation distance while dropping [m]."""

@@ -243,6 +243,34 @@ def test_vector_environments_run_in_processes_of_their_own():
     vector.close()
 
 
+@pytest.mark.parametrize("mode", ["NEXT_STEP", "SAME_STEP"])
+@pytest.mark.parametrize("vectorization", ["sync", "async"])
+def test_vector_environments_begin_anew_when_their_mode_says(vectorization, mode):
+    """Episodes of two steps: what follows the second is a reset, at once or at the next step, as the metadata tell."""
+    wanted = gymnasium.vector.AutoresetMode[mode]
+    vector = gymnasium.make_vec(
+        "PAT3D-v0", num_envs=2, vectorization_mode=vectorization, max_episode_steps=2,
+        vector_kwargs={"autoreset_mode": wanted},
+    )  # fmt: skip
+    assert vector.metadata["autoreset_mode"] == wanted
+    start, _ = vector.reset(seed=[1, 2])
+    away = np.full((2, 7), 0.8, dtype=np.float32)
+    _, _, _, first, _ = vector.step(away)
+    second, _, _, ended, info = vector.step(away)
+    assert (first.tolist(), ended.tolist()) == ([False, False], [True, True])
+    moved = np.linalg.norm(second["eef_pos"] - start["eef_pos"], axis=1)
+    third, reward, _, again, _ = vector.step(away)
+    if mode == "SAME_STEP":
+        assert "final_obs" in info
+        assert not again.any()
+    else:
+        assert (moved > 0.01).all()
+        assert not reward.any()
+        assert not again.any()
+        assert not np.array_equal(third["joint_pos"], start["joint_pos"]), "another posture at the start"
+    vector.close()
+
+
 def test_another_scene_can_be_entered_at_reset(env, tmp_path, breakfast):
     """The shipped scene without its bowl: one object fewer, the rows beyond it are zero."""
     from dataclasses import replace
@@ -287,6 +315,13 @@ def test_a_scene_with_more_objects_than_the_space_is_refused_and_nothing_changes
         ({"obs": "rgb", "cameras": ("ceiling",)}, "Cameras: agentview, frontview, wrist"),
         ({"control_freq": 33.0}, "whole number of time steps"),
         ({"start_noise": float("nan")}, "0 to 0.5"),
+        ({"start_noise": "little"}, "0 to 0.5 rad, not 'little'"),
+        ({"control_freq": "fast"}, "0.1 to 1000 actions a second"),
+        ({"task": 7}, "a task is text"),
+        ({"obs": "rgb", "cameras": ()}, "at least one camera"),
+        ({"obs": "rgb", "image_size": 64}, "height and width, 8 to 2048 pixels each, not 64"),
+        ({"render_size": (0, 640)}, "render_size is height and width"),
+        ({"max_objects": 0}, "whole number from 1"),
     ],
 )
 def test_a_wrong_argument_is_answered_with_what_is_valid(arguments, message):

@@ -69,7 +69,7 @@ def test_a_wall_beside_the_bar_forbids_that_side_alone():
     ends = [bar(f"end {side}", (0.02, 0.07, 0.1), (side * 0.045, 0.0)) for side in (-1, 1)]
     boxed = Scene(objects=(*scene.objects, *ends))
     assert not find_grasps(boxed, "cube", GRIPPER)
-    assert find_grasps(boxed, "cube", GRIPPER, alone=True)
+    assert find_grasps(boxed, "cube", GRIPPER, among=())
 
 
 @pytest.mark.parametrize(("height", "found"), [(0.004, False), (0.0075, False), (0.009, True), (0.02, True)])

@@ -8,7 +8,9 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,15 +23,15 @@ gymnasium = pytest.importorskip("gymnasium")
 import pat3d  # noqa: E402, F401
 from pat3d.cli import main  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
-from pat3d.envs.suites.folder import LOG, MANIFEST, RECORD, SuiteFolder  # noqa: E402
+from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder  # noqa: E402
 from pat3d.envs.suites.generate import generate  # noqa: E402
 from pat3d.envs.suites.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.page import page  # noqa: E402
-from pat3d.envs.suites.request import Request  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
+from tests.envs.suites import SMALL, files_of  # noqa: E402
 
-REQUEST = Request(tasks=("pick", "stack"), scenes=4, objects=(4, 6), picture=64, seed=3)
+REQUEST = SMALL
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +77,7 @@ def test_a_run_killed_and_started_again_makes_the_same_suite_bit_for_bit(made, t
     assert status.made == 4 - len(kept)
     assert all((scenes.scene(place) / RECORD).stat().st_mtime_ns == then for place, then in kept.items())
     page_of_its_own = {"index.html"}
-    assert _files(folder, page_of_its_own) == _files(made, page_of_its_own)
+    assert files_of(folder, page_of_its_own) == files_of(made, page_of_its_own)
     assert not scenes.work.exists()
 
 
@@ -126,6 +128,36 @@ def test_a_worker_that_cannot_write_stops_the_run_and_nothing_is_lost(copy):
     (copy / "scenes").unlink()
     (copy / "aside").rename(copy / "scenes")
     assert folder.done() == {0, 2, 3}
+
+
+def test_a_scene_that_hangs_is_ended_and_recorded_and_another_takes_its_place(tmp_path):
+    """Whoever begins the first candidate of scene 1 is stopped by the system and never goes on by itself."""
+    folder, over = SuiteFolder(tmp_path / "hanging"), threading.Event()
+    hung: set[int] = set()
+
+    def hang() -> None:
+        while not over.wait(0.005):
+            for scratch in folder.work.glob("*-000001-00"):
+                pid = int(scratch.name.split("-")[0])
+                hung.add(pid)
+                with suppress(ProcessLookupError):
+                    # What one that has been ended left behind.
+                    os.kill(pid, signal.SIGSTOP)
+
+    thread = threading.Thread(target=hang)
+    thread.start()
+    try:
+        status = generate(str(folder.path), replace(REQUEST, scenes=2, picture=0), workers=1, limit=6.0)
+    finally:
+        over.set()
+        thread.join()
+    assert status.done == 2
+    assert len(hung) == 2, "it is tried twice"
+    assert not any(_alive(pid) for pid in hung)
+    rejection = json.loads(folder.rejection(1, 0).read_text())
+    assert rejection["reason"] == "time limit"
+    assert "was not done after 6 s" in rejection["message"]
+    assert Suite.open(folder.path).document["scenes"][1]["candidate"] >= 1
 
 
 def test_every_scene_is_proven_and_the_manifest_says_so(made):
@@ -224,12 +256,6 @@ def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
     document = Suite.open(made).document
     scenes = [{**document["scenes"][0], "prompt": "<script>"}, *document["scenes"][1:]]
     assert "<script>" not in page("x", {**document, "scenes": scenes})
-
-
-def _files(folder, without):
-    """Contents of all files but the log and those named."""
-    paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name not in {LOG, ".lock", *without})
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
 def _workers_of(pid):

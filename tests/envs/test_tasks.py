@@ -13,12 +13,14 @@ pytest.importorskip("gymnasium")
 
 import mujoco
 
+from pat3d.assets.catalogue.registry import make
 from pat3d.envs.placement import Needs, place
 from pat3d.envs.predicates import inside, on_top
 from pat3d.envs.tasks.registry import TASKS, parse_task, possible_tasks
+from pat3d.envs.tasks.room import NARROWEST_BASE
 from pat3d.errors import TaskError
 from pat3d.layout.predicates import check_relations
-from pat3d.scene import Pose, Relation, Scene
+from pat3d.scene import Pose, Relation, Scene, SceneObject
 from tests.envs.test_grasp import bar
 
 ALOFT = 0.5
@@ -234,3 +236,75 @@ def test_an_object_out_of_reach_is_refused_with_the_distance(breakfast):
     crowded = Scene(objects=(*breakfast.objects, *around), relations=breakfast.relations)
     with pytest.raises(TaskError, match=r"out of reach|no free place"):
         place(crowded, "Panda", Needs(grasp=("red mug",)))
+
+
+def _put(noun: str, position, name: str | None = None) -> SceneObject:
+    asset, pose = make(noun), Pose(position=position)
+    return SceneObject(name=name or noun, phrase=noun, asset=asset, pose=pose, initial_pose=pose)
+
+
+def test_what_lies_too_deep_in_a_pot_is_refused_for_its_depth_and_not_for_its_width():
+    """A strawberry 40 mm wide on the floor of a pot: the rim keeps the hand up. A pepper mill sticks out of it."""
+    pot = _put("pot", (0.0, 0.0, 0.0))
+    region = pot.asset.region("in")
+    floor = np.array(region.floor) + [0.0, 0.0, 1e-4]
+
+    def scene(noun: str) -> Scene:
+        return Scene(
+            objects=(pot, _put(noun, tuple(floor))), relations=(Relation(child=noun, kind="in", parent="pot"),)
+        )
+
+    below = 1e3 * (region.height - make("strawberry").size[2])
+    with pytest.raises(TaskError, match=rf'its top is {below:.0f} mm below the rim of "pot"'):
+        place(scene("strawberry"), "Panda", Needs(grasp=("strawberry",)))
+    assert place(scene("pepper mill"), "Panda", Needs(grasp=("pepper mill",))).grasps["pepper mill"]
+
+
+def test_a_neighbour_that_is_in_the_way_is_named_and_one_that_is_not_is_not():
+    cube = bar("cube", (0.05, 0.05, 0.05))
+    walls = [bar(f"wall {x} {y}", (0.05, 0.05, 0.12), (x * 0.052, y * 0.052)) for x, y in ((-1, 0), (0, 1), (0, -1))]
+    last = bar("pillar", (0.05, 0.05, 0.12), (0.052, 0.0))
+    far = bar("post", (0.05, 0.05, 0.12), (0.6, 0.0))
+    with pytest.raises(TaskError, match="what stands around it leaves no room for the fingers"):
+        place(Scene(objects=(cube, *walls, last, far)), "Panda", Needs(grasp=("cube",)))
+    ends = [bar(f"end {y}", (0.3, 0.05, 0.12), (0.0, y * 0.052)) for y in (-1, 1)]
+    near = [bar("pillar", (0.02, 0.05, 0.12), (0.036, 0.0)), bar("post", (0.05, 0.05, 0.12), (0.6, 0.0))]
+    with pytest.raises(TaskError, match='"pillar" leaves no room for the fingers'):
+        place(Scene(objects=(bar("cube", (0.05, 0.05, 0.11)), *ends, *near)), "Panda", Needs(grasp=("cube",)))
+
+
+def test_a_board_with_something_on_it_takes_more_as_long_as_there_is_room():
+    def board(size: float, x: float) -> Scene:
+        plum = bar("plum", (0.05, 0.05, 0.05), (x, 0.0))
+        lifted = Pose(position=(x, 0.0, 0.02), quat_wxyz=plum.pose.quat_wxyz)
+        return Scene(
+            objects=(
+                bar("board", (size, size, 0.02)), replace(plum, pose=lifted, initial_pose=lifted),
+                bar("cube", (0.05, 0.05, 0.05), (0.5, 0.0)),
+            ),
+            relations=(Relation(child="plum", kind="on", parent="board"),),
+        )  # fmt: skip
+
+    parse_task("place:cube:board").check(board(0.3, -0.1))
+    with pytest.raises(TaskError, match='"plum" stands on "board" already and leaves no room for "cube"'):
+        parse_task("place:cube:board").check(board(0.12, 0.0))
+
+
+def test_what_stands_under_a_shelf_is_refused_because_it_is_covered():
+    board, roof = bar("board", (0.4, 0.3, 0.02)), bar("roof", (0.4, 0.3, 0.02))
+    above = replace(roof.asset.parts[0], vertices=roof.asset.parts[0].vertices + [0.0, 0.0, 0.4])
+    shelf = replace(board, name="shelf", asset=replace(board.asset, parts=(*board.asset.parts, above)))
+    cube = bar("cube", (0.05, 0.05, 0.05))
+    lifted = replace(cube, pose=Pose(position=(0.0, 0.0, 0.02), quat_wxyz=cube.pose.quat_wxyz))
+    scene = Scene(objects=(shelf, lifted), relations=(Relation(child="cube", kind="on", parent="shelf"),))
+    with pytest.raises(TaskError, match='it is under a part of "shelf" and cannot be got at from above'):
+        place(scene, "Panda", Needs(grasp=("cube",), visit=((0.3, 0.0, 0.2),)))
+
+
+@pytest.mark.parametrize("base", ["cube", "block", "cylinder", "can", "soda can", "soap", "sponge"])
+def test_a_top_with_nothing_on_it_has_room_for_the_widest_that_it_may_carry(base):
+    bottom = _put(base, (0.0, 0.0, 0.0))
+    widest = 2 * min(bottom.asset.region("on").half_size) / NARROWEST_BASE
+    for width in (0.5 * widest, 0.9 * widest, 0.99 * widest):
+        scene = Scene(objects=(bottom, bar("brick", (width, width, 0.05), (0.5, 0.0))))
+        parse_task(f"stack:brick:{base}").check(scene)

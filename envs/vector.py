@@ -1,0 +1,297 @@
+"""The environments behind gymnasium.make_vec("PAT3D-v0"): many copies of one scene on a GPU, processes on CPUs."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AsyncVectorEnv, AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from pat3d.envs.arguments import number, one_of, whole
+from pat3d.envs.controllers import CONTROLS
+from pat3d.envs.env import REWARDS, Source, choose
+from pat3d.envs.loading import DEFAULT_TASK, load
+from pat3d.envs.observations import FARTHEST, FASTEST, ObservationSpec
+from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
+from pat3d.envs.robots import make_robot
+from pat3d.envs.suites.selection import Selection
+from pat3d.envs.tasks.task import Judge, Task, Verdict
+from pat3d.envs.world import PREFIX, compose
+from pat3d.errors import EnvironmentSetupError
+
+Observations = dict[str, NDArray[np.float32]]
+
+DEVICES = ("auto", "cuda", "cpu")
+
+
+def make_vector(num_envs: int = 1, device: str = "auto", **kwargs: Any) -> VectorEnv:
+    """The entry point of gymnasium.make_vec("PAT3D-v0", num_envs).
+
+    Args:
+        num_envs: number of environments.
+        device: "cuda" for MuJoCo Warp, "cpu" for a process each, "auto" for a GPU where there is one, MuJoCo Warp is
+            installed and the environment is one that it runs: one scene and state observations.
+        kwargs: as `pat3d.envs.env.TabletopEnv` takes them; on a GPU as `BatchedTabletopEnv` does.
+
+    Raises:
+        EnvironmentSetupError: no such device, or an argument is not valid there; says what is.
+    """
+    if device not in DEVICES:
+        raise EnvironmentSetupError(f'no device "{device}". Valid: {", ".join(DEVICES)}.')
+    if device == "cuda" or (device == "auto" and _runs_on_gpu(kwargs)):
+        return BatchedTabletopEnv(num_envs, device="cuda", **kwargs)
+    steps = kwargs.pop("max_episode_steps", MAX_EPISODE_STEPS)
+
+    def one() -> gymnasium.Env[Any, Any]:
+        return gymnasium.make(f"pat3d:{ENV_ID}", max_episode_steps=steps, **kwargs)
+
+    return AsyncVectorEnv([one] * num_envs)
+
+
+def _present(device: str) -> bool:
+    import warp as wp
+
+    try:
+        wp.get_device(device)
+    except (RuntimeError, ValueError):
+        return False
+    return True
+
+
+def _runs_on_gpu(kwargs: dict[str, Any]) -> bool:
+    import importlib.util
+
+    if importlib.util.find_spec("mujoco_warp") is None or kwargs.get("obs", "state") != "state":
+        return False
+    several = kwargs.get("suite") is not None and kwargs.get("index") is None
+    if several or set(kwargs) - set(BatchedTabletopEnv.PARAMETERS) or kwargs.get("control") == "joint_velocity":
+        return False
+    import warp as wp
+
+    return wp.is_cuda_available()
+
+
+class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
+    """Copies of one scene with one task on MuJoCo Warp; observations are the states of `TabletopEnv`, stacked.
+
+    An environment that ends is reset by the next step, whose action it ignores. `info` holds, an entry for each
+    environment: success, progress, lost (the simulation failed), predicates (a dict), and toppled and touched (a column
+    for each of `objects`).
+
+    Args:
+        num_envs: number of copies.
+        device: Warp's name of the device.
+        scene: as for `TabletopEnv`.
+        task: likewise.
+        robot: Panda, Sawyer, ... that MuJoCo Warp supports.
+        suite: with `index`, the scene and the task.
+        split: of the suite.
+        index: of the scene among those of the split.
+        obs: "state".
+        control: "osc" or "joint_position".
+        reward: "sparse" or "dense".
+        control_freq: actions a second [1/s].
+        start_noise: standard deviation of the robot's posture at the start [rad].
+        max_episode_steps: after which an episode is truncated.
+        room: contacts and rows of constraints that each world has buffers for; measured where None.
+
+    Raises:
+        UnsettledSceneError: the scene moves when MuJoCo or MuJoCo Warp runs it.
+        TaskError: the task cannot be done in the scene by this robot; says why.
+        EnvironmentSetupError: an argument is not valid, or MuJoCo Warp is missing; says what to do.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # type: ignore[misc]
+
+    PARAMETERS: ClassVar[tuple[str, ...]] = (
+        "scene", "task", "robot", "suite", "split", "index", "obs", "control", "reward", "control_freq", "start_noise",
+        "max_episode_steps", "room",
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        num_envs: int,
+        device: str = "cuda",
+        scene: Source = None,
+        task: str | Task | None = None,
+        robot: str = "Panda",
+        suite: str | None = None,
+        split: str | None = None,
+        index: int | None = None,
+        obs: str = "state",
+        control: Literal["osc", "joint_position"] = "osc",
+        reward: Literal["sparse", "dense"] = "sparse",
+        control_freq: float = 20.0,
+        start_noise: float = 0.02,
+        max_episode_steps: int = MAX_EPISODE_STEPS,
+        room: tuple[int, int] | None = None,
+    ) -> None:
+        from pat3d.envs.batch.physics import BatchedPhysics, Room, require_still, room_for
+        from pat3d.envs.batch.state import BatchState
+
+        num_envs, max_episode_steps = whole("num_envs", num_envs, 1), whole("max_episode_steps", max_episode_steps, 1)
+        one_of("reward", reward, REWARDS)
+        one_of("control", control, CONTROLS)
+        start_noise = number("start_noise", start_noise, 0.0, 0.5, "rad")
+        if obs != "state":
+            raise EnvironmentSetupError(f'on a GPU there is no observation "{obs}", only "state".')
+        chosen = Selection.of(suite, split, index, scene, task)
+        if chosen is not None:
+            if index is None:
+                raise EnvironmentSetupError(
+                    "on a GPU all environments have the same scene: give its index in the suite, or use "
+                    'vectorization_mode="async".'
+                )
+            loaded, given = chosen.first()
+        else:
+            loaded, given = load(scene), DEFAULT_TASK if scene is None and task is None else task
+        self.task, placement = choose(loaded.scene, given, robot)
+        world = compose(loaded.scene, loaded.mjcf, make_robot(robot), placement)
+        if not _present(device):
+            raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')
+        sizes = room_for(world, control, control_freq) if room is None else Room(contacts=room[0], rows=room[1])
+        require_still(world, loaded.checksum, control, control_freq, device, sizes)
+        self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
+        self.state = BatchState(self.physics)
+        self.num_envs, self._reward, self._noise = num_envs, reward, start_noise
+        self._limit = max_episode_steps
+        spec = ObservationSpec(
+            kind="state", cameras=("agentview",), height=8, width=8, segmentation=False, max_objects=len(world.objects)
+        )
+        self.single_observation_space = spec.space(world)
+        self.single_action_space = gymnasium.spaces.Box(-1.0, 1.0, (self.physics.controller.size,), np.float32)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        model, named = world.model, world.robot
+        self._joints = np.array([int(model.joint(PREFIX + name).qposadr[0]) for name in named.arm_joints])
+        self._speeds = np.array([int(model.joint(PREFIX + name).dofadr[0]) for name in named.arm_joints])
+        self._fingers = np.array([int(model.joint(PREFIX + name).qposadr[0]) for name in named.gripper_joints])
+        self._site = int(model.site(PREFIX + named.grip_site).id)
+        self._bodies = np.array([world.bodies[name] for name in world.objects], dtype=np.int64)
+        self._judges: dict[int, Judge] = {}
+        self._verdicts: dict[int, Verdict] = {}
+        self._generators: list[np.random.Generator] = []
+        self._ended = np.zeros(num_envs, dtype=bool)
+        self._steps = np.zeros(num_envs, dtype=np.int64)
+
+    @property
+    def objects(self) -> tuple[str, ...]:
+        """Names of the rows of the observation "objects"."""
+        return self.physics.world.objects
+
+    @property
+    def instruction(self) -> str:
+        """The task as one tells it to a person."""
+        return self.task.instruction(self.physics.world.scene)
+
+    def reset(
+        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observations, dict[str, Any]]:
+        """Start an episode in every environment; environment k has seed + k, or the k-th seed of a list."""
+        if options:
+            raise EnvironmentSetupError(f"no reset options here, got {', '.join(sorted(options))}.")
+        if isinstance(seed, list) and len(seed) != self.num_envs:
+            raise EnvironmentSetupError(f"{self.num_envs} environments need as many seeds, got {len(seed)}.")
+        if seed is not None or not self._generators:
+            seeds = (
+                seed if isinstance(seed, list) else [None if seed is None else seed + k for k in range(self.num_envs)]
+            )
+            self._generators = [np.random.default_rng(one) for one in seeds]
+        self._judges, self._verdicts = {}, {}
+        self._start(np.arange(self.num_envs))
+        return self._observations(), self._info()
+
+    def step(
+        self, actions: NDArray[np.float32]
+    ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Do an action in every environment."""
+        if not self._judges:
+            raise gymnasium.error.ResetNeeded("reset the environments before their first step.")
+        values = np.asarray(actions, dtype=np.float32)
+        if values.shape != self.action_space.shape or not np.isfinite(values).all():
+            raise EnvironmentSetupError(f"actions are finite numbers of shape {self.action_space.shape}.")
+        fresh = np.flatnonzero(self._ended)
+        self.physics.step(np.clip(values, -1.0, 1.0))
+        if len(fresh):
+            self._start(fresh)
+        else:
+            self.state.refresh()
+        lost = self.physics.lost
+        going = np.ones(self.num_envs, dtype=bool)
+        going[fresh] = False
+        for env in np.flatnonzero(going & ~lost).tolist():
+            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], self.physics.period)
+        self._steps[going] += 1
+        success = np.array([verdict.success for verdict in self._all()]) & going & ~lost
+        truncated = going & ~success & (lost | (self._steps >= self._limit))
+        if self._reward == "sparse":
+            rewards = success.astype(np.float64)
+        else:
+            rewards = np.where(going, [verdict.progress for verdict in self._all()], 0.0)
+        self._ended = success | truncated
+        return self._observations(), rewards, success, truncated, {**self._info(), "lost": lost}
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Nothing is left open: the device's memory goes with this object."""
+
+    def _start(self, worlds: NDArray[np.int64]) -> None:
+        """Begin episodes in `worlds`."""
+        count = len(self._joints)
+        # Three standard deviations at most: a start posture that touches something is no start.
+        draws = np.array([self._generators[k].standard_normal(count) for k in worlds.tolist()])
+        self.physics.reset(worlds, np.clip(draws, -3.0, 3.0) * self._noise)
+        self.physics.restart()
+        self.state.refresh()
+        self.state.begin(worlds)
+        self._ended[worlds], self._steps[worlds] = False, 0
+        for env in worlds.tolist():
+            self._judges[env] = self.task.begin(self.state.worlds[env])
+            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], 0.0)
+
+    def _all(self) -> list[Verdict]:
+        return [self._verdicts[env] for env in range(self.num_envs)]
+
+    def _observations(self) -> Observations:
+        state = self.state
+        names = list(self.objects)
+        target = np.array([names.index(verdict.target) for verdict in self._all()])
+        goals = np.array([verdict.goal for verdict in self._all()])
+        objects = np.concatenate([state.xpos[:, self._bodies], state.xquat[:, self._bodies]], axis=2)
+        found = {
+            "joint_pos": state.qpos[:, self._joints],
+            "joint_vel": np.clip(state.qvel[:, self._speeds], -FASTEST, FASTEST),
+            "gripper_pos": state.qpos[:, self._fingers],
+            "eef_pos": state.site_xpos[:, self._site],
+            "eef_quat": _quats_of(state.site_xmat[:, self._site].reshape(-1, 3, 3)),
+            "objects": np.clip(objects, -FARTHEST, FARTHEST),
+            "target": np.clip(
+                np.concatenate([objects[np.arange(self.num_envs), target], goals], axis=1), -FARTHEST, FARTHEST
+            ),
+        }
+        return {name: np.nan_to_num(np.asarray(value, dtype=np.float32)) for name, value in found.items()}
+
+    def _info(self) -> dict[str, Any]:
+        verdicts = self._all()
+        return {
+            "success": np.array([verdict.success for verdict in verdicts]),
+            "progress": np.array([verdict.progress for verdict in verdicts]),
+            "predicates": {
+                name: np.array([verdict.predicates[name] for verdict in verdicts]) for name in verdicts[0].predicates
+            },
+            "toppled": self.state.toppled(),
+            "touched": self.state.touched(),
+        }
+
+
+def _quats_of(rotations: NDArray[Any]) -> NDArray[Any]:
+    """Quaternions (wxyz) of rotation matrices, shape (n, 4), the largest value of each positive."""
+    from scipy.spatial.transform import Rotation
+
+    finite = np.asarray(np.isfinite(rotations).all(axis=(1, 2)))
+    quats = Rotation.from_matrix(np.where(finite[:, None, None], rotations, np.eye(3))).as_quat(scalar_first=True)
+    rows = np.arange(len(quats))
+    largest = quats[rows, np.argmax(np.abs(quats), axis=1)]
+    return quats * np.where(largest < 0, -1.0, 1.0)[:, None]

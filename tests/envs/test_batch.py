@@ -1,0 +1,216 @@
+"""Many worlds on MuJoCo Warp: the same code as on a GPU, on the CPU, against robosuite and against MuJoCo."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("robosuite")
+gymnasium = pytest.importorskip("gymnasium")
+mujoco = pytest.importorskip("mujoco")
+pytest.importorskip("mujoco_warp")
+wp = pytest.importorskip("warp")
+
+from gymnasium.vector import AsyncVectorEnv, AutoresetMode  # noqa: E402
+
+from pat3d.envs.batch import physics as batch_physics  # noqa: E402
+from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
+from pat3d.envs.batch.physics import Room, in_single_precision, require_still  # noqa: E402
+from pat3d.envs.env import TabletopEnv  # noqa: E402
+from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
+from pat3d.errors import EnvironmentSetupError, UnsettledSceneError  # noqa: E402
+from pat3d.pipeline import generate  # noqa: E402
+
+WORLDS = 3
+SINGLE = 1e-5
+"""Torques computed from single-precision states differ by a few rounding errors of 6e-8, times the arm's 40 N m range
+over the torques' size and the conditioning of its inertia."""
+
+
+@pytest.fixture(scope="module")
+def block(tmp_path_factory):
+    """The folder of a scene with one wooden block: what MuJoCo Warp steps quickly on a CPU too."""
+    folder = tmp_path_factory.mktemp("batch") / "block"
+    generate("a wooden block", out=folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def envs(block):
+    """Three environments whose episodes end after three steps."""
+    made = BatchedTabletopEnv(WORLDS, device="cpu", scene=block, max_episode_steps=3)
+    yield made
+    made.close()
+
+
+def mirrored(data: Any, control: Any = None) -> Any:
+    """MuJoCo's state as MuJoCo Warp holds it, in every world."""
+
+    def array(values, dtype):
+        repeated = np.broadcast_to(values, (WORLDS, *np.shape(values)))
+        return wp.array(np.ascontiguousarray(repeated), dtype=dtype, device="cpu")
+
+    return SimpleNamespace(
+        nworld=WORLDS, qpos=array(data.qpos, wp.float32), qvel=array(data.qvel, wp.float32),
+        qfrc_bias=array(data.qfrc_bias, wp.float32), M=array(data.M[None], wp.float32),
+        ctrl=array(data.ctrl, wp.float32) if control is None else control,
+        site_xpos=array(data.site_xpos, wp.vec3), site_xmat=array(data.site_xmat.reshape(-1, 3, 3), wp.mat33),
+        xanchor=array(data.xanchor, wp.vec3), xaxis=array(data.xaxis, wp.vec3),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("robot", "kind"), [("Panda", "osc"), ("UR5e", "osc"), ("Sawyer", "osc"), ("Panda", "joint_position")]
+)
+def test_torques_are_those_of_robosuite_s_controllers(robot, kind):
+    env = TabletopEnv(robot=robot, control=kind, sleep=False)
+    env.reset(seed=0)
+    simulation = env.simulation
+    model, data = simulation.model, simulation.data
+    arm = [int(model.joint("robot/" + name).qposadr[0]) for name in simulation.world.robot.arm_joints]
+    ours = BatchedController(simulation.world, mirrored(data), kind)
+    ours.reset(np.arange(WORLDS), np.tile(data.qpos[arm], (WORLDS, 1)))
+    assert ours.size == simulation.controller.size
+    random = np.random.default_rng(1)
+    for action in random.uniform(-1, 1, (3, ours.size)):
+        simulation.controller.set_action(action)
+        ours._data = mirrored(data, ours._data.ctrl)
+        ours.set_action(np.tile(action, (WORLDS, 1)))
+        for _ in range(10):
+            ours._data = mirrored(data, ours._data.ctrl)
+            ours._mass = ours._data.M.reshape((WORLDS, -1))
+            ours.control()
+            simulation.controller.control()
+            np.testing.assert_allclose(
+                ours._data.ctrl.numpy(), np.tile(data.ctrl, (WORLDS, 1)), atol=SINGLE * np.abs(data.ctrl).max()
+            )
+            mujoco.mj_step2(model, data)
+            mujoco.mj_step1(model, data)
+
+
+def test_single_precision_changes_contacts_and_nothing_else(env):
+    model = env.simulation.model
+    fit = in_single_precision(model)
+    for name in ("body_mass", "body_inertia", "geom_friction", "geom_size", "geom_condim", "mesh_vert", "dof_damping"):
+        np.testing.assert_array_equal(getattr(fit, name), getattr(model, name))
+    assert fit.opt.timestep == model.opt.timestep
+    assert not fit.geom_margin.any()
+    assert model.geom_margin.any()
+
+
+def test_softer_contacts_hold_the_shipped_scene_in_double_precision_too(env):
+    """Time constant 10 ms, impedance 0.99: bodies sink by g (1 - d) t^2 = 10 um, times what they carry."""
+    from pat3d.envs.simulation import Simulation
+
+    world = env.simulation.world
+    simulation = Simulation(replace(world, model=in_single_precision(world.model)), "osc", 20.0, sleep=False)
+    simulation.reset()
+    bodies = [world.bodies[name] for name in world.objects]
+    before = simulation.data.xpos[bodies].copy()
+    for _ in range(40):
+        simulation.step(np.zeros(7))
+    assert np.linalg.norm(simulation.data.xpos[bodies] - before, axis=1).max() < 2e-4
+
+
+def test_observations_are_in_their_spaces_and_seeds_give_the_same_episode(envs):
+    first, info = envs.reset(seed=7)
+    assert envs.observation_space.contains(first)
+    assert len(np.unique(first["joint_pos"], axis=0)) == WORLDS
+    assert info["success"].shape == (WORLDS,)
+    assert info["touched"].shape == info["toppled"].shape == (WORLDS, len(envs.objects))
+    action = np.full(envs.action_space.shape, 0.2, dtype=np.float32)
+    then, *_ = envs.step(action)
+    again, _ = envs.reset(seed=7)
+    later, *_ = envs.step(action)
+    for name in first:
+        np.testing.assert_array_equal(first[name], again[name])
+        np.testing.assert_array_equal(then[name], later[name])
+
+
+def test_an_ended_environment_is_reset_by_the_next_step(envs):
+    assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
+    start, _ = envs.reset(seed=3)
+    still = np.zeros(envs.action_space.shape, dtype=np.float32)
+    for _ in range(2):
+        assert not envs.step(still)[3].any()
+    assert envs.step(still)[3].all()
+    fresh, rewards, success, truncated, _ = envs.step(np.ones_like(still))
+    assert not (success | truncated).any()
+    assert not rewards.any()
+    # Drawn anew, within three standard deviations of the same posture, and nothing of the action is in it.
+    assert not np.array_equal(fresh["joint_pos"], start["joint_pos"])
+    assert np.abs(fresh["joint_pos"] - start["joint_pos"]).max() < 6 * 0.02
+    assert np.abs(fresh["joint_vel"]).max() == 0
+
+
+def test_a_world_moves_as_the_environment_of_one_does(block):
+    """The hand goes the same way; contacts, which differ, play no part before anything is touched."""
+    one = TabletopEnv(block, sleep=False, start_noise=0.0)
+    many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
+    alone, _ = one.reset(seed=0)
+    together, _ = many.reset(seed=0)
+    np.testing.assert_allclose(together["eef_pos"][1], alone["eef_pos"], atol=1e-6)
+    for action in np.random.default_rng(0).uniform(-0.5, 0.5, (4, 7)).astype(np.float32):
+        alone, *_ = one.step(action)
+        together, *_ = many.step(np.tile(action, (2, 1)))
+    # 100 time steps in single precision.
+    np.testing.assert_allclose(together["eef_pos"][1], alone["eef_pos"], atol=1e-4)
+    np.testing.assert_allclose(together["joint_pos"][0], alone["joint_pos"], atol=1e-3)
+    np.testing.assert_allclose(together["objects"][0], alone["objects"], atol=1e-4)
+
+
+def test_buffers_that_overflow_are_an_error_that_says_the_size_needed(block):
+    """A block on the ground has four contacts."""
+    small = BatchedTabletopEnv(1, device="cpu", scene=block, room=(2, 60))
+    small.reset()
+    with pytest.raises(EnvironmentSetupError, match=r"room=\(8, \d+\)"):
+        small.step(np.zeros((1, 7), dtype=np.float32))
+
+
+def test_a_scene_that_moves_in_single_precision_is_refused_by_name_the_second_time_too(env, monkeypatch, tmp_path):
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path))
+    tried = []
+
+    def fallen(physics, seconds):
+        tried.append(seconds)
+        return {"red mug": (12.0, 3.0), "banana": (0.1, 0.1)}
+
+    monkeypatch.setattr(batch_physics, "drift", fallen)
+    monkeypatch.setattr(batch_physics, "BatchedPhysics", lambda *_: None)
+    for _ in range(2):
+        with pytest.raises(UnsettledSceneError, match=r'"red mug" by 12 mm and 3 degrees\.'):
+            require_still(env.simulation.world, "0" * 64, "osc", 20.0, "cpu", Room(contacts=9, rows=9))
+    assert len(tried) == 1
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"device": "tpu"}, 'no device "tpu"'),
+        ({"device": "cuda", "obs": "rgb"}, 'only "state"'),
+        ({"device": "cuda", "control": "levitation"}, "osc, joint_velocity, joint_position"),
+        ({"device": "cuda", "reward": "huge"}, "sparse, dense"),
+        ({"device": "cuda", "start_noise": float("nan")}, "0 to 0.5"),
+        ({"num_envs": 0, "device": "cuda"}, "whole number from 1"),
+    ],
+)
+def test_arguments_that_are_not_valid_are_refused_with_what_is(wrong, says):
+    with pytest.raises(EnvironmentSetupError, match=says):
+        make_vector(**{"num_envs": 1, **wrong})
+
+
+@pytest.mark.skipif(wp.is_cuda_available(), reason="there is a GPU")
+def test_without_a_gpu_there_are_processes_and_asking_for_one_is_an_error():
+    with pytest.raises(EnvironmentSetupError, match="no device"):
+        make_vector(2, device="cuda")
+    vector = gymnasium.make_vec("PAT3D-v0", num_envs=2, control_freq=10.0)
+    try:
+        assert isinstance(vector.unwrapped, AsyncVectorEnv)
+        observation, _ = vector.reset(seed=0)
+        assert observation["joint_pos"].shape == (2, 7)
+    finally:
+        vector.close()
