@@ -92,6 +92,7 @@ def evaluate(
     def keep(result: Result) -> None:
         nonlocal finished
         records.add(result)
+        done[result.episode.index] = result
         finished += 1
         if report is not None:
             report(result, finished, len(episodes))
@@ -100,7 +101,11 @@ def evaluate(
         _here(policy if not isinstance(policy, str) else make_policy(policy), todo, settings, keep)
     elif todo:
         _Pool(name, settings, min(workers, len(todo))).run(todo, keep)
-    return Evaluation(folder=folder, manifest=read_manifest(folder), results=records.merge())
+    return Evaluation(
+        folder=folder,
+        manifest=read_manifest(folder),
+        results=records.merge(tuple(done[index] for index in sorted(done))),
+    )
 
 
 def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> RecordFolder:

@@ -168,9 +168,8 @@ class RecordFolder:
                     found[result.episode.index] = result
         return tuple(found[index] for index in sorted(found))
 
-    def merge(self) -> tuple[Result, ...]:
-        """Write all episodes into one file and drop the parts."""
-        results = self.read()
+    def merge(self, results: tuple[Result, ...]) -> tuple[Result, ...]:
+        """Write `results`, which are all episodes, into one file and drop the parts."""
         _write_rows(self.rows_file, [row_of(one) for one in results])
         for part in (self.folder / "parts").glob("*.parquet"):
             part.unlink()
