@@ -257,6 +257,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         chosen, simulation = self._kept[key]
         observer = Observer(self._spec, simulation)
         self.task, self.simulation, self._observer = chosen, simulation, observer
+        self._instruction = chosen.instruction(loaded.scene)
         self.close()
 
     def _observation(self) -> Observation:
@@ -273,7 +274,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             "fell": state.fell(),
             "touched": state.all_touched(),
             "task": self.task.spec,
-            "instruction": self.instruction,
+            "instruction": self._instruction,
             **({} if self._chosen is None else {"index": self._chosen.current}),
         }
 

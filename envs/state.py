@@ -52,6 +52,7 @@ class SimState:
         self._start_centre: dict[str, Array] = {}
         self._start_up: dict[str, Array] = {}
         self._start_ups = np.zeros((len(world.objects), 3))
+        self._start_heights = np.zeros(len(world.objects))
 
     @property
     def scene(self) -> Scene:
@@ -66,6 +67,7 @@ class SimState:
             self._start_centre[name] = self.centre(name).copy()
             self._start_up[name] = self.rotation(name)[2].copy()
         self._start_ups = self._data.xmat[self._moving_bodies, 6:9]
+        self._start_heights = self._data.xipos[self._moving_bodies, 2]
 
     def refresh(self) -> None:
         """Read the contacts of the present state."""
@@ -176,8 +178,11 @@ class SimState:
     def fell(self) -> list[str]:
         """Objects that dropped from the surface of the work."""
         surface = self.world.placement.surface - 0.01
+        # Nothing falls that is no lower than at the start.
+        heights = self._data.xipos[self._moving_bodies, 2]
+        lower = np.flatnonzero(heights < self._start_heights).tolist()
         fallen = []
-        for name in self._moving:
+        for name in map(self.world.objects.__getitem__, lower):
             now, before = float(self.centre(name)[2]), float(self._start_centre[name][2])
             on_floor = (FLOOR, self._number[name]) in self._pairs and before > now + 0.05
             # What stood on the floor from the start, as a table does, never falls.

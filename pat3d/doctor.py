@@ -31,6 +31,7 @@ OPTIONAL = {
     "websockets": "policies on openpi servers",
     "imageio-ffmpeg": "films of episodes as MP4",
     "h5py": "demonstrations for robomimic",
+    "lerobot": "checkpoints of LeRobot as policies",
     "ray": "suites made by a cluster",
     "mujoco-warp": "thousands of scenes at once on a GPU",
 }

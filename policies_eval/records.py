@@ -157,7 +157,7 @@ class RecordFolder:
         """Keep one episode."""
         parts = self.folder / "parts"
         parts.mkdir(parents=True, exist_ok=True)
-        _write_rows(parts / f"{result.episode.index:07d}.parquet", [row_of(result)])
+        _write_rows(parts / f"{result.episode.index:07d}.parquet", [row_of(result)], compression="none")
 
     def read(self) -> tuple[Result, ...]:
         """Every episode that is kept, in order."""
@@ -222,12 +222,13 @@ def write_text(file: Path, text: str) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _write_rows(file: Path, rows: Sequence[dict[str, Any]]) -> None:
+def _write_rows(file: Path, rows: Sequence[dict[str, Any]], compression: str = "zstd") -> None:
     pa, parquet = arrow(), import_module("pyarrow.parquet")
     table = pa.Table.from_pylist(list(rows), schema=schema())
     temporary = file.with_suffix(f".{os.getpid()}.part")
     try:
-        parquet.write_table(table, temporary, compression="zstd")
+        # A single row gains nothing from a dictionary.
+        parquet.write_table(table, temporary, compression=compression, use_dictionary=len(rows) > 1)
         os.replace(temporary, file)
     except BaseException:
         temporary.unlink(missing_ok=True)
