@@ -124,7 +124,7 @@ def cover(
 
 
 def _depth(points: NDArray[np.float64], part: ConvexPart) -> NDArray[np.float32]:
-    """Largest distance of each point beyond a face of the part [m], negative inside; far away beyond its bounding box."""
+    """Largest distance of each point beyond a face of the part [m], or of its bounding box; negative inside."""
     sides = planes(part)
     low, high = part.bounds
     reach = float(np.ptp(part.bounds, axis=0).max())
