@@ -11,6 +11,7 @@ from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
 from pat3d.exporters.mjcf import FOR_MUJOCO_3_3, body_names, write_mjcf
+from pat3d.exporters.reload import parity
 from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
@@ -141,6 +142,7 @@ def test_the_file_for_mujoco_3_3_has_no_box_but_the_ground_and_the_same_bodies(s
     for name in ("body_pos", "body_quat", "body_mass", "body_inertia", "body_ipos", "geom_friction", "geom_solref"):
         np.testing.assert_array_equal(getattr(other, name), getattr(model, name))
     np.testing.assert_array_equal(other.key_qpos, model.key_qpos)
+    assert parity(scene, tmp_path / "m" / FOR_MUJOCO_3_3).passed
 
 
 def test_the_file_for_mujoco_3_3_gives_every_pair_one_margin_that_covers_its_gap(tmp_path):
