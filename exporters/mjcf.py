@@ -1,6 +1,7 @@
 """MJCF: a scene that MuJoCo holds as still as it was settled.
 
     scene.xml             the scene, with the keyframe "home"
+    scene_mujoco_3.3.xml  the same for MuJoCo 3.3
     objects/<name>.xml    one object by itself, to load alone or to `<attach>` to a scene of one's own
     meshes/ textures/     what both draw from
 
@@ -16,30 +17,36 @@ What it takes, as measured with MuJoCo 3.9:
   step to step, and a hull walks 8 mm in 5 s on it.
 - Boxes are box primitives, except where two of equal width rest flush to a micrometre: there the box-box
   collider reports contacts as deep as the box is wide, and meshes of eight vertices do not.
-
+- The box-box collider of MuJoCo 3.3 reports half of every gap, so that boxes jump within their margins and a stack
+  of books walks 5 mm in 5 s. The file for it has meshes of eight vertices for all boxes.
 - Attachments are connect constraints, a ball joint for every anchor, as stiff as the contacts. Every free object keeps
   its free joint, so that the joint state is its pose whether it hangs or stands.
 
-MuJoCo gives a pair of geoms the larger of their friction coefficients and the sum of their margins.
+MuJoCo gives a pair of geoms the larger of their friction coefficients and the sum of their margins (up to 3.4 the
+larger of these too).
 """
 
 from __future__ import annotations
 
 import sys
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from pat3d.assets.asset import Asset, MassProperties
-from pat3d.contacts import GROUND_INDEX, Contacts, find_contacts
-from pat3d.errors import ExportError
+from pat3d.contacts import find_contacts
 from pat3d.exporters.folder import export_folder
 from pat3d.exporters.frames import text
+from pat3d.exporters.margins import contact_margins, flush_boxes, largest_margins
 from pat3d.exporters.meshes import hull_obj, part_file, visual_obj, write_texture
 from pat3d.naming import unique_slugs
 from pat3d.scene import Pose, Scene
+
+SCENE = "scene.xml"
+FOR_MUJOCO_3_3 = "scene_mujoco_3.3.xml"
 
 TIMESTEP = 0.002
 """[s]"""
@@ -70,12 +77,6 @@ SOLREF = "0.004 1"
 
 SOLIMP = "0.99 0.999 0.0001"
 
-_SAME_SPOT = 5e-4
-"""Contacts of one pair closer together than this [m] are one support."""
-
-_FLUSH = 2e-6
-"""Sides of two boxes closer to one plane than this [m] confuse the box-box collider."""
-
 HULL_MESH = {"inertia": "convex", "smoothnormal": "false"}
 VISUAL_MESH = {"inertia": "shell"}
 
@@ -86,7 +87,7 @@ def body_names(scene: Scene) -> dict[str, str]:
 
 
 def write_mjcf(scene: Scene, folder: str | Path) -> Path:
-    """Write `scene` as scene.xml with its meshes and textures into `folder`, replacing it as a whole.
+    """Write `scene` with its meshes and textures into `folder`, replacing it as a whole.
 
     Returns:
         The path of scene.xml.
@@ -95,11 +96,15 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
         ExportError: `folder` is a file, or a folder that holds something else than an MJCF export.
     """
     folder = Path(folder)
-    with export_folder(folder, marker="scene.xml", what="MJCF") as fresh:
+    with export_folder(folder, marker=SCENE, what="MJCF") as fresh:
         (fresh / "objects").mkdir()
-        _save(_document(scene, fresh), fresh / "scene.xml")
+        contacts = find_contacts(scene, CONTACT_GAP)
+        stored = _write_assets(scene, fresh)
+        margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
+        _save(_document(scene, stored, margins, flush), fresh / SCENE)
+        _save(_document(scene, stored, largest_margins(scene, contacts), set(stored)), fresh / FOR_MUJOCO_3_3)
     forget_cached_meshes()
-    return folder / "scene.xml"
+    return folder / SCENE
 
 
 def _save(root: ET.Element, path: Path) -> None:
@@ -118,8 +123,15 @@ def forget_cached_meshes() -> None:
         mujoco.mj_clearCache(mujoco.mj_getCache())
 
 
-def _document(scene: Scene, folder: Path) -> ET.Element:
-    """The whole MJCF; meshes and textures are written into `folder` on the way."""
+def _document(scene: Scene, stored: Mapping[int, str], margins: Sequence[float], as_mesh: Set[int]) -> ET.Element:
+    """The whole MJCF.
+
+    Args:
+        scene: what stands where.
+        stored: the name under which each asset's files lie, by the asset's identity.
+        margins: contact margin of every object [m].
+        as_mesh: identities of the assets whose boxes are meshes.
+    """
     root = _root("pat3d scene")
     option = ET.SubElement(root, "option", timestep=text(TIMESTEP), integrator="implicitfast",
                            cone="elliptic", impratio="10", ccd_tolerance=text(CCD_TOLERANCE))  # fmt: skip
@@ -132,23 +144,20 @@ def _document(scene: Scene, folder: Path) -> ET.Element:
     assets = ET.SubElement(root, "asset")
     world = ET.SubElement(root, "worldbody")
     _ground_and_lights(assets, world, scene)
-    contacts = find_contacts(scene, CONTACT_GAP)
-    margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
-    stored: dict[int, str] = {}
+    declared: set[int] = set()
     state: list[float] = []
     for obj, margin in zip(scene.objects, margins, strict=True):
-        name = names[obj.name]
+        name, asset = names[obj.name], id(obj.asset)
         ET.SubElement(custom, "text", name=name, data=obj.name)
-        if id(obj.asset) not in stored:
-            stored[id(obj.asset)] = name
-            _write_asset(obj.asset, name, assets, folder, as_mesh=id(obj.asset) in flush)
-            _save(_object(obj.asset, name), folder / "objects" / f"{name}.xml")
+        if asset not in declared:
+            declared.add(asset)
+            _declare(obj.asset, stored[asset], assets, as_mesh=asset in as_mesh)
         body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
         ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
         if not obj.fixed:
             ET.SubElement(body, "freejoint", name=name)
             state += [*obj.pose.position, *obj.pose.quat_wxyz]
-        _geoms(body, name, obj.asset, stored[id(obj.asset)], margin=margin, as_mesh=id(obj.asset) in flush)
+        _geoms(body, name, obj.asset, stored[asset], margin=margin, as_mesh=asset in as_mesh)
     _attachments(root, names, scene)
     if state:
         ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="home", qpos=text(*state))
@@ -162,11 +171,7 @@ def _object(asset: Asset, name: str) -> ET.Element:
     """
     root = _root(name, "../")
     _defaults(root)
-    assets = ET.SubElement(root, "asset")
-    _declare_visual(asset, name, assets)
-    for number, part in enumerate(asset.parts):
-        if part.box is None:
-            _declare_part(name, number, assets)
+    _declare(asset, name, ET.SubElement(root, "asset"), as_mesh=False)
     body = ET.SubElement(ET.SubElement(root, "worldbody"), "body", name=name)
     ET.SubElement(body, "inertial", _inertial(asset.mass_properties))
     ET.SubElement(body, "freejoint", name=name)
@@ -246,27 +251,33 @@ def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
                           anchor=text(*point), solref=SOLREF, solimp=SOLIMP)  # fmt: skip
 
 
-def _write_asset(asset: Asset, name: str, assets: ET.Element, folder: Path, *, as_mesh: bool) -> None:
-    """Write the files of one asset and declare them."""
-    meshes = folder / "meshes" / name
-    meshes.mkdir(parents=True)
-    (meshes / "visual.obj").write_text(visual_obj(asset.visual), encoding="utf-8")
-    write_texture(asset.visual.texture, folder / "textures" / f"{name}.png")
-    _declare_visual(asset, name, assets)
-    for number, part in enumerate(asset.parts):
-        if part.box is None or as_mesh:
+def _write_assets(scene: Scene, folder: Path) -> dict[int, str]:
+    """Write the files of every asset into `folder` once, under the first name that has it; returns those names."""
+    names, stored = body_names(scene), {}
+    for obj in scene.objects:
+        if id(obj.asset) in stored:
+            continue
+        asset, name = obj.asset, names[obj.name]
+        stored[id(asset)] = name
+        meshes = folder / "meshes" / name
+        meshes.mkdir(parents=True)
+        (meshes / "visual.obj").write_text(visual_obj(asset.visual), encoding="utf-8")
+        write_texture(asset.visual.texture, folder / "textures" / f"{name}.png")
+        for number, part in enumerate(asset.parts):
             (meshes / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
-            _declare_part(name, number, assets)
+        _save(_object(asset, name), folder / "objects" / f"{name}.xml")
+    return stored
 
 
-def _declare_visual(asset: Asset, name: str, assets: ET.Element) -> None:
+def _declare(asset: Asset, name: str, assets: ET.Element, *, as_mesh: bool) -> None:
+    """Declare the files of one asset; those of its boxes where they are meshes."""
     ET.SubElement(assets, "texture", name=name, type="2d", file=f"{name}.png")
     ET.SubElement(assets, "material", name=name, texture=name, specular="0.2", shininess="0.3")
     ET.SubElement(assets, "mesh", VISUAL_MESH, name=f"{name}/visual", file=f"{name}/visual.obj")
-
-
-def _declare_part(name: str, number: int, assets: ET.Element) -> None:
-    ET.SubElement(assets, "mesh", HULL_MESH, name=f"{name}/part_{number:03d}", file=f"{name}/{part_file(number)}")
+    for number, part in enumerate(asset.parts):
+        if part.box is None or as_mesh:
+            file = f"{name}/{part_file(number)}"
+            ET.SubElement(assets, "mesh", HULL_MESH, name=f"{name}/part_{number:03d}", file=file)
 
 
 def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: float, as_mesh: bool) -> None:
@@ -286,57 +297,6 @@ def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: fl
             geom.set("size", text(*half))
             if quat != (1.0, 0.0, 0.0, 0.0):
                 geom.set("quat", text(*quat))
-
-
-def contact_margins(scene: Scene, contacts: Contacts) -> list[float]:
-    """Contact margin of every object [m]: the least that makes each pair's sum exceed its gap.
-
-    The ground has none of its own. A fifth more than the gap, and at least a micrometre a pair, keeps the
-    contact from flickering.
-    """
-    needed: dict[tuple[int, int], float] = {}
-    for pair in np.unique(contacts.bodies, axis=0).tolist():
-        members = np.flatnonzero((contacts.bodies == pair).all(axis=1))
-        points, gaps = contacts.points[members], contacts.gaps[members]
-        # Just outside a rim the nearest surface is further than the one that carries; only the nearest counts.
-        beside = np.linalg.norm(points[:, None] - points[None], axis=2) < _SAME_SPOT
-        carrying = gaps <= np.where(beside, gaps[None], np.inf).min(axis=1) + 1e-9
-        needed[pair[0], pair[1]] = max(1.2 * float(gaps[carrying].max()), 1e-6)
-    if not needed:
-        return [0.0] * len(scene.objects)
-    from scipy.optimize import linprog
-    from scipy.sparse import lil_matrix
-
-    rows = lil_matrix((len(needed), len(scene.objects)))
-    for row, pair in enumerate(needed):
-        for body in pair:
-            if body != GROUND_INDEX:
-                rows[row, body] = -1.0
-    # In units of the largest margin: the solver's tolerances are absolute.
-    unit = max(needed.values())
-    result = linprog(np.ones(len(scene.objects)), A_ub=rows.tocsr(), b_ub=-np.array(list(needed.values())) / unit)
-    if result.x is None:
-        raise ExportError(f"no contact margins found for gaps up to {unit:.3g} m ({result.message}).")
-    return (np.clip(result.x, 0.0, 1.0) * unit).tolist()
-
-
-def flush_boxes(scene: Scene, contacts: Contacts) -> set[int]:
-    """Identities of the assets with a box that touches another box whose sides lie in the same plane as its own."""
-    found: set[int] = set()
-    pairs = np.unique(np.concatenate([contacts.bodies, contacts.parts], axis=1), axis=0).tolist()
-    for first, second, p, q in pairs:
-        if second == GROUND_INDEX:
-            continue
-        one, other = scene.objects[first], scene.objects[second]
-        part, counterpart = one.asset.parts[p], other.asset.parts[q]
-        if part.box is None or counterpart.box is None:
-            continue
-        a, b = one.pose.apply(part.vertices), other.pose.apply(counterpart.vertices)
-        for axis in (one.pose.rotation @ Pose(quat_wxyz=part.box[2]).rotation).T:
-            gaps = np.subtract.outer((np.min(a @ axis), np.max(a @ axis)), (np.min(b @ axis), np.max(b @ axis)))
-            if np.abs(np.diag(gaps)).min() < _FLUSH:
-                found |= {id(one.asset), id(other.asset)}
-    return found
 
 
 def _inertial(properties: MassProperties) -> dict[str, str]:

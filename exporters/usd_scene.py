@@ -18,14 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.contacts import find_contacts
-from pat3d.exporters.mjcf import (
-    CONTACT_GAP,
-    GROUND_FRICTION,
-    GROUND_HALF_THICKNESS,
-    body_names,
-    contact_margins,
-    flush_boxes,
-)
+from pat3d.exporters.margins import contact_margins, flush_boxes
+from pat3d.exporters.mjcf import CONTACT_GAP, GROUND_FRICTION, GROUND_HALF_THICKNESS, body_names
 from pat3d.exporters.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 from pat3d.exporters.usd_asset import (
     bind_physics,

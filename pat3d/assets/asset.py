@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -151,17 +152,23 @@ class Asset:
         if not all(len(point) == 3 and np.all(np.isfinite(point)) for point in self.anchors):
             raise AssetError(f'"{self.noun}": every anchor needs 3 finite numbers, got {self.anchors}.')
 
-    @property
+    @cached_property
     def bounds(self) -> NDArray[np.float64]:
         """Bounding box [m] of the convex parts in the asset frame, shape (2, 3)."""
         corners = np.stack([part.bounds for part in self.parts])
-        return np.stack([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+        return _constant(np.stack([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)]))
 
-    @property
+    @cached_property
     def size(self) -> NDArray[np.float64]:
         """Extents of the bounding box [m], shape (3,)."""
-        return self.bounds[1] - self.bounds[0]
+        return _constant(self.bounds[1] - self.bounds[0])
 
     def region(self, kind: Literal["on", "in"]) -> Region | None:
         """The best region of `kind`, or None."""
         return next((region for region in self.regions if region.kind == kind), None)
+
+
+def _constant(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """`values`, which nobody can change."""
+    values.setflags(write=False)
+    return values

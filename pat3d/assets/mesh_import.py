@@ -17,7 +17,7 @@ from scipy.spatial import KDTree
 
 from pat3d.assets.asset import Asset, ConvexPart, VisualMesh
 from pat3d.assets.cache import cache_root, content_key, load_points, load_record, store_points
-from pat3d.assets.cover import cover, planes, surface_points
+from pat3d.assets.cover import cover, planes, surface_patches, surface_points
 from pat3d.assets.decompose import DEFAULT_OPTIONS, decompose
 from pat3d.assets.hull import convex_part
 from pat3d.assets.mass import mass_properties
@@ -57,6 +57,10 @@ MAX_CAVITY_LOSS = 0.02
 
 MAX_PIECES = 24
 MAX_SOLID_FACES = 20_000
+"""What is cut into pieces has no more; CoACD's time grows with them."""
+
+MAX_CAVITY_FACES = 4_000
+"""The same for objects with a cavity, which are cut more finely; a scanned bowl of 40,000 takes many minutes."""
 
 NEARLY_CONVEX = 0.93
 """A piece that fills this fraction of its convex hull, and has no dent deeper than MAX_DENT, is one part."""
@@ -64,7 +68,7 @@ NEARLY_CONVEX = 0.93
 MAX_DENT = 0.11
 """Depth below the convex hull as a fraction of the object's longest side; 0.02 for objects with a cavity."""
 
-_VERSION = 2
+_VERSION = 3
 
 
 def import_mesh(
@@ -166,7 +170,8 @@ def _make_parts(
     fixed: Repaired, method: PartsMethod, cache_dir: str | os.PathLike[str] | None, timeout: float
 ) -> _Parts:
     start = time.monotonic()
-    points = np.concatenate([surface_points(fixed.vertices, fixed.faces), fixed.solid.vertices])
+    patches, triangles = surface_patches(fixed.vertices, fixed.faces)
+    points = np.concatenate([patches, fixed.solid.vertices])
     low, high = points.min(axis=0), points.max(axis=0)
     if method == "box":
         box = convex_part(
@@ -188,8 +193,8 @@ def _make_parts(
     parts: list[ConvexPart] = []
     record: dict[str, Any] = {}
     for threshold in CAVITY_THRESHOLDS if pit else (THRESHOLD,):
-        hulls, options = _decomposed(fixed, threshold, 0.02 if pit else MAX_DENT, cache_dir, timeout)
-        parts, before, after = cover(hulls, points)
+        hulls, options = _decomposed(fixed, threshold, pit is not None, cache_dir, timeout)
+        parts, before, after = cover(hulls, points, triangles)
         record = {"options": options, "stuck_out": before, **_record(parts, hulls, after, start)}
         if pit is None or len(parts) > 150:
             break
@@ -202,19 +207,20 @@ def _make_parts(
 
 
 def _decomposed(
-    fixed: Repaired, threshold: float, dent: float, cache_dir: str | os.PathLike[str] | None, timeout: float
+    fixed: Repaired, threshold: float, hollow: bool, cache_dir: str | os.PathLike[str] | None, timeout: float
 ) -> tuple[list[NDArray[np.float64]], dict[str, Any]]:
     """Convex hulls of all pieces, and CoACD's options where it was needed."""
     pieces = fixed.pieces if len(fixed.pieces) <= MAX_PIECES else (fixed.solid,)
     whole = float(np.ptp(fixed.solid.vertices, axis=0).max())
     hulls: list[NDArray[np.float64]] = []
     options: dict[str, Any] = {}
+    dent, limit = (0.02, MAX_CAVITY_FACES) if hollow else (MAX_DENT, MAX_SOLID_FACES)
     for piece in pieces:
         hull = convex_part(piece.vertices)
         if _nearly_convex(piece, hull, dent * whole):
             hulls.append(hull.vertices)
             continue
-        piece = _simplified(piece)
+        piece = _simplified(piece, limit)
         # CoACD measures concavity relative to each piece; the same tolerance in metres holds for all.
         relative = min(0.5, threshold * whole / float(np.ptp(piece.vertices, axis=0).max()))
         done = decompose(
@@ -255,19 +261,19 @@ def _snapped(part: NDArray[np.float64], piece: Solid, solid: Solid) -> NDArray[n
     return part
 
 
-def _simplified(piece: Solid) -> Solid:
-    """The piece with at most about MAX_SOLID_FACES faces; CoACD's time grows with them."""
-    if len(piece.faces) <= MAX_SOLID_FACES:
+def _simplified(piece: Solid, limit: int) -> Solid:
+    """The piece with at most about `limit` faces."""
+    if len(piece.faces) <= limit:
         return piece
     solid = manifold_of(piece.vertices, piece.faces)
     if solid is None:
         return piece
     tolerance = 1e-5 * float(np.ptp(piece.vertices, axis=0).max())
-    while solid.num_tri() > MAX_SOLID_FACES and tolerance < 0.02 * float(np.ptp(piece.vertices, axis=0).max()):
+    while solid.num_tri() > limit and tolerance < 0.02 * float(np.ptp(piece.vertices, axis=0).max()):
         simpler = solid.simplify(tolerance)
         if simpler.is_empty():
             break
-        solid, tolerance = simpler, 2.0 * tolerance
+        solid, tolerance = simpler, 1.4 * tolerance
     return solid_of(solid)
 
 

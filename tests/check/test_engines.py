@@ -12,13 +12,13 @@ import pytest
 from pat3d.assets.shapes import box
 from pat3d.check.engines import environments, process
 from pat3d.check.engines.check import check_engines, drifts, failures
-from pat3d.check.engines.process import ScriptEngine, read_run
+from pat3d.check.engines.process import DRIVERS, ScriptEngine, read_run
 from pat3d.check.engines.protocol import Absent, EngineRun, Failed
 from pat3d.check.engines.registry import ENGINES, GROUPS, chosen
 from pat3d.check.settle import SettleReport, settle_in_mujoco
 from pat3d.cli import main
 from pat3d.errors import CheckError, SpecError
-from pat3d.exporters.mjcf import write_mjcf
+from pat3d.exporters.mjcf import FOR_MUJOCO_3_3, SCENE, write_mjcf
 from pat3d.scene import Pose
 from pat3d.scene_io import save_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
@@ -68,6 +68,11 @@ def test_the_mujoco_driver_finds_the_drift_that_mujoco_in_this_process_finds(tmp
     assert report.settings["timestep"] == 0.002
     assert report.version == here.version
     json.dumps(report.as_dict(), allow_nan=False)
+
+
+def test_the_mujoco_driver_takes_the_file_for_mujoco_3_3_there_and_the_scene_elsewhere():
+    source = (DRIVERS / "drive_mujoco.py").read_text(encoding="utf-8")
+    assert f'"{FOR_MUJOCO_3_3}" if version.startswith("3.3.") else "{SCENE}"' in source
 
 
 def test_a_falling_object_is_convicted_with_its_fall_and_fixed_ones_are_not_asked_for():

@@ -39,10 +39,13 @@ def block(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")
-def envs(block):
+DEVICES = ["cpu", pytest.param("cuda", marks=pytest.mark.skipif(not wp.is_cuda_available(), reason="no GPU"))]
+
+
+@pytest.fixture(scope="module", params=DEVICES)
+def envs(block, request):
     """Three environments whose episodes end after three steps."""
-    made = BatchedTabletopEnv(WORLDS, device="cpu", scene=block, max_episode_steps=3)
+    made = BatchedTabletopEnv(WORLDS, device=request.param, scene=block, max_episode_steps=3)
     yield made
     made.close()
 
@@ -147,10 +150,11 @@ def test_an_ended_environment_is_reset_by_the_next_step(envs):
     assert np.abs(fresh["joint_vel"]).max() == 0
 
 
-def test_a_world_moves_as_the_environment_of_one_does(block):
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_world_moves_as_the_environment_of_one_does(block, device):
     """The hand goes the same way; contacts, which differ, play no part before anything is touched."""
     one = TabletopEnv(block, sleep=False, start_noise=0.0)
-    many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
+    many = BatchedTabletopEnv(2, device=device, scene=block, start_noise=0.0)
     alone, _ = one.reset(seed=0)
     together, _ = many.reset(seed=0)
     np.testing.assert_allclose(together["eef_pos"][1], alone["eef_pos"], atol=1e-6)

@@ -10,7 +10,8 @@ from scipy.spatial.transform import Rotation
 from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
-from pat3d.exporters.mjcf import body_names, write_mjcf
+from pat3d.exporters.mjcf import FOR_MUJOCO_3_3, body_names, write_mjcf
+from pat3d.exporters.reload import parity
 from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
@@ -131,6 +132,26 @@ def test_flush_boxes_become_meshes_and_offset_ones_stay_boxes(tmp_path):
     assert 'type="mesh"' not in write_mjcf(offset, tmp_path / "offset").read_text().split("<body", 1)[1].replace(
         'class="visual"', ""
     )
+
+
+def test_the_file_for_mujoco_3_3_has_no_box_but_the_ground_and_the_same_bodies(scene, model, tmp_path):
+    """Its box-box collider reports half of a gap."""
+    other = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m").with_name(FOR_MUJOCO_3_3)))
+    boxes = np.flatnonzero((other.geom_type == mujoco.mjtGeom.mjGEOM_BOX) & (other.geom_contype > 0))
+    assert [other.geom(geom).name for geom in boxes] == ["ground"]
+    for name in ("body_pos", "body_quat", "body_mass", "body_inertia", "body_ipos", "geom_friction", "geom_solref"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(model, name))
+    np.testing.assert_array_equal(other.key_qpos, model.key_qpos)
+    assert parity(scene, tmp_path / "m" / FOR_MUJOCO_3_3).passed
+
+
+def test_the_file_for_mujoco_3_3_gives_every_pair_one_margin_that_covers_its_gap(tmp_path):
+    """It takes the larger margin of a pair, not the sum."""
+    path = write_mjcf(tower(4), tmp_path / "m").with_name(FOR_MUJOCO_3_3)
+    margins = [float(geom.get("margin")) for geom in ET.parse(path).iter("geom") if geom.get("margin")]
+    assert len(margins) == 4
+    assert all(GAP < margin < 2 * GAP for margin in margins)
+    assert settle_in_mujoco(path, 1.0).passed
 
 
 def test_it_loads_from_any_working_directory_after_being_moved(scene, tmp_path, monkeypatch):

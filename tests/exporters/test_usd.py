@@ -404,7 +404,7 @@ def test_settings_of_single_engines_are_on_the_prims_they_read(tmp_path):
         (stage.GetPrimAtPath("/World/can"), "PhysxRigidBodyAPI", "physxRigidBody:enableSpeculativeCCD", True),
         (part, "PhysxCollisionAPI", "physxCollision:restOffset", 0.0),
         (part, "PhysxConvexHullCollisionAPI", "physxConvexHullCollision:minThickness", 1e-5),
-        (part, "NewtonCollisionAPI", "newton:contactMargin", 1.2 * GAP),
+        (part, "NewtonCollisionAPI", "newton:contactGap", 0.002),
         (part, "MjcCollisionAPI", "mjc:condim", 4),
         (part, "MjcCollisionAPI", "mjc:margin", 1.2 * GAP),
     ):
@@ -414,7 +414,7 @@ def test_settings_of_single_engines_are_on_the_prims_they_read(tmp_path):
         assert not attribute.IsCustom()
     floating = stage.GetPrimAtPath("/World/kite/collision/part_000")
     assert not floating.GetAttribute("mjc:margin")
-    assert not floating.GetAttribute("newton:contactMargin")
+    assert not part.GetAttribute("newton:contactMargin")
 
 
 def test_an_asset_alone_is_a_rigid_body_by_its_noun(tmp_path):

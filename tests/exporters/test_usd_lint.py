@@ -15,6 +15,7 @@ from tests.scenes import GAP, asset_of, placed, scene_of
 CAN = "/World/can"
 JOINT = "/World/Joints/bar__beam_00"
 PART = f"{CAN}/collision/part_000"
+NAN = float("nan")
 
 
 @pytest.fixture(scope="module")
@@ -102,6 +103,18 @@ def _turned_hinge(stage):
     UsdPhysics.Joint(prim).GetLocalRot1Attr().Set(Gf.Quatf(0.5, 0.5, 0.5, 0.5))
 
 
+def _turn(stage, path, w, x, y, z, *, time=None):
+    """Turn the prim at `path`, at `time` alone where one is given: a body in double, a part in single precision."""
+    prim = UsdGeom.Xformable(_prim(stage, path))
+    turns = [op for op in prim.GetOrderedXformOps() if op.GetOpType() == UsdGeom.XformOp.TypeOrient]
+    op, kind = (turns[0], Gf.Quatd) if turns else (prim.AddOrientOp(), Gf.Quatf)
+    if time is None:
+        op.Set(kind(w, x, y, z))
+    else:
+        op.Set(kind(1, 0, 0, 0))
+        op.Set(kind(w, x, y, z), time)
+
+
 def _twin_scene(stage):
     UsdPhysics.Scene.Define(stage, "/World/Another")
 
@@ -127,13 +140,41 @@ FAULTS = {
     "zero mass": ("mass", lambda stage: _mass(stage).GetMassAttr().Set(0.0)),
     "no centre": ("mass", lambda stage: _prim(stage, CAN).RemoveProperty("physics:centerOfMass")),
     "centre outside": ("mass", lambda stage: _mass(stage).GetCenterOfMassAttr().Set(Gf.Vec3f(0, 0, 0.5))),
-    "axes no rotation": ("mass", lambda stage: _mass(stage).GetPrincipalAxesAttr().Set(Gf.Quatf(0, 0, 0, 0))),
     "mass on collider": ("mass-on-collider", lambda stage: UsdPhysics.MassAPI.Apply(_prim(stage, PART))),
     "triangle inequality": (
         "inertia",
         lambda stage: _mass(stage).GetDiagonalInertiaAttr().Set(Gf.Vec3f(1e-5, 1e-5, 2.1e-5)),
     ),
     "no inertia": ("inertia", lambda stage: _mass(stage).GetDiagonalInertiaAttr().Set(Gf.Vec3f(0, 0, 0))),
+    "principal axes of zeros": (
+        "placement",
+        lambda stage: _mass(stage).GetPrincipalAxesAttr().Set(Gf.Quatf(0, 0, 0, 0)),
+    ),
+    "principal axes of NaN": (
+        "placement",
+        lambda stage: _mass(stage).GetPrincipalAxesAttr().Set(Gf.Quatf(NAN, 0, 0, 0)),
+    ),
+    "principal axes twice too long": (
+        "placement",
+        lambda stage: _mass(stage).GetPrincipalAxesAttr().Set(Gf.Quatf(2, 0, 0, 0)),
+    ),
+    "body turned by zeros": ("placement", lambda stage: _turn(stage, CAN, 0, 0, 0, 0)),
+    "body turned by NaN": ("placement", lambda stage: _turn(stage, CAN, 1, NAN, 0, 0)),
+    "body turned by zeros later": ("placement", lambda stage: _turn(stage, CAN, 0, 0, 0, 0, time=12.0)),
+    "collider turned by zeros": ("placement", lambda stage: _turn(stage, PART, 0, 0, 0, 0)),
+    "collider turned by NaN": ("placement", lambda stage: _turn(stage, PART, NAN, 0, 0, 0)),
+    "joint turned by zeros": (
+        "placement",
+        lambda stage: UsdPhysics.Joint(_prim(stage, JOINT)).GetLocalRot0Attr().Set(Gf.Quatf(0, 0, 0, 0)),
+    ),
+    "joint turned by NaN": (
+        "placement",
+        lambda stage: UsdPhysics.Joint(_prim(stage, JOINT)).GetLocalRot1Attr().Set(Gf.Quatf(0, 0, NAN, 0)),
+    ),
+    "placed at NaN": (
+        "placement",
+        lambda stage: UsdGeom.Xformable(_prim(stage, CAN)).GetOrderedXformOps()[0].Set(Gf.Vec3d(NAN, 0, 0.1)),
+    ),
     "scaled body": (
         "scale",
         lambda stage: UsdGeom.Xformable(_prim(stage, CAN)).AddScaleOp().Set(Gf.Vec3f(1, 1, 0.5)),

@@ -10,11 +10,17 @@ import numpy as np
 import recording
 
 
+def file_for(version: str) -> str:
+    """Name of the scene's file for a MuJoCo of this version."""
+    return "scene_mujoco_3.3.xml" if version.startswith("3.3.") else "scene.xml"
+
+
 def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
-    """Load scene.xml as it is and run it."""
+    """Load the scene's file as it is and run it."""
     messages: list[str] = []
     mujoco.set_mju_user_warning(messages.append)
-    model = mujoco.MjModel.from_xml_path(str(export / "scene.xml"))
+    file = file_for(mujoco.mj_versionString())
+    model = mujoco.MjModel.from_xml_path(str(export / file))
     data = mujoco.MjData(model)
     free = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
     names = {int(body): model.body(body).name for body in free}
@@ -32,6 +38,7 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
             messages.append(f"{kind.removeprefix('mjWARN_').lower()}: {stat.number} times")
     option = model.opt
     settings = {
+        "file": file,
         "timestep": option.timestep,
         "cone": mujoco.mjtCone(option.cone).name.removeprefix("mjCONE_").lower(),
         "impratio": option.impratio,

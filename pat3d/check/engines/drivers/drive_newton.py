@@ -17,8 +17,13 @@ MUJOCO_STEP = 0.001
 XPBD_STEP = 0.001
 """[s]"""
 
-XPBD_ITERATIONS = 8
-"""More of them, or shorter steps, let what leans slip further."""
+XPBD_ITERATIONS = 40
+"""Stacks sink by what is left after them, as the square of the step divided by their number: 8 let a radio on three
+books sink by 2 mm before it stops, and fruit that leans on fruit roll away."""
+
+XPBD_RELAXATION = 1.0
+"""Of the mean of what a body's contacts ask for; the solver's default is 0.8. Sums of them instead of means, which sink
+less, throw what has more than six contacts about."""
 
 XPBD_CONTACTS = "sticky"
 """Contacts keep their points from step to step; found anew in each, what leans slips by 0.3 mm a second."""
@@ -39,7 +44,9 @@ def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
         pipeline, contacts = None, None
     else:
         step_seconds = XPBD_STEP
-        solver = newton.solvers.SolverXPBD(model, iterations=XPBD_ITERATIONS)
+        solver = newton.solvers.SolverXPBD(
+            model, iterations=XPBD_ITERATIONS, rigid_contact_relaxation=XPBD_RELAXATION
+        )  # fmt: skip
         pipeline = newton.CollisionPipeline(model, contact_matching=XPBD_CONTACTS)
         contacts = pipeline.contacts()
     state, after, control = model.state(), model.state(), model.control()
@@ -62,7 +69,8 @@ def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
     found = recording.run(step, poses, step_seconds, seconds)
     settings: dict[str, Any] = {"timestep": step_seconds, "solver": variant}
     if variant != "mujoco":
-        settings |= {"iterations": XPBD_ITERATIONS, "contact matching": XPBD_CONTACTS}
+        settings |= {"iterations": XPBD_ITERATIONS, "contact matching": XPBD_CONTACTS,
+                     "contact relaxation": XPBD_RELAXATION}  # fmt: skip
     return {
         "engine": f"Newton ({variant})", "version": newton.__version__, "settings": settings, "warnings": [],
         "recording": found,
