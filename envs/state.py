@@ -63,6 +63,10 @@ class SimState:
         """Take the present poses as the start of the episode."""
         self._pairs = set()
         self.refresh()
+        self.take_start()
+
+    def take_start(self) -> None:
+        """Take the present poses as the start of the episode, the contacts as they were read last."""
         for name in self._number:
             self._start_centre[name] = self.centre(name).copy()
             self._start_up[name] = self.rotation(name)[2].copy()

@@ -42,7 +42,7 @@ class BatchState:
     def begin(self, worlds: NDArray[np.int64]) -> None:
         """Take the present poses of `worlds` as the start of their episodes."""
         for number in worlds.tolist():
-            self.worlds[number].begin()
+            self.worlds[number].take_start()
         self._start_up[worlds] = self._up()[worlds]
 
     def touched(self) -> NDArray[np.bool_]:
@@ -66,12 +66,6 @@ class WorldState(SimState):
     def __init__(self, batch: BatchState, number: int) -> None:
         super().__init__(batch.world, _Row(batch, number))
         self._batch, self._row = batch, number
-
-    def begin(self) -> None:
-        """Take the present poses as the start of the episode."""
-        for obj in self.scene.objects:
-            self._start_centre[obj.name] = self.centre(obj.name).copy()
-            self._start_up[obj.name] = self.rotation(obj.name)[2].copy()
 
     def refresh(self) -> None:
         """Read the contacts of the present state."""

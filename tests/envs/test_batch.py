@@ -33,9 +33,9 @@ over the torques' size and the conditioning of its inertia."""
 
 @pytest.fixture(scope="module")
 def block(tmp_path_factory):
-    """The folder of a scene with one wooden block: what MuJoCo Warp steps quickly on a CPU too."""
+    """The folder of a scene of two boxes: what MuJoCo Warp steps quickly on a CPU too."""
     folder = tmp_path_factory.mktemp("batch") / "block"
-    generate("a wooden block", out=folder)
+    generate("a wooden block on a book", out=folder)
     return folder
 
 
@@ -167,11 +167,32 @@ def test_a_world_moves_as_the_environment_of_one_does(block, device):
     np.testing.assert_allclose(together["objects"][0], alone["objects"], atol=1e-4)
 
 
+def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(block):
+    """Poses, the contacts among objects, and that nothing has toppled or fallen."""
+    env = TabletopEnv(block, sleep=False, start_noise=0.0)
+    many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
+    env.reset(seed=0)
+    many.reset(seed=0)
+    one, other = env.simulation.state, many.state.worlds[1]
+    for name in env.objects:
+        np.testing.assert_allclose(other.position(name), one.position(name), atol=1e-5)
+        np.testing.assert_allclose(other.rotation(name), one.rotation(name), atol=1e-5)
+        np.testing.assert_allclose(other.centre(name), one.centre(name), atol=1e-5)
+        assert other.still(name)
+        assert not other.touched(name)
+    many.step(np.zeros((2, 7), dtype=np.float32))
+    env.step(np.zeros(7, dtype=np.float32))
+    for first in env.objects:
+        for second in env.objects:
+            assert other.touch(first, second) == one.touch(first, second) == (first != second)
+    assert other.toppled() == other.fell() == []
+
+
 def test_buffers_that_overflow_are_an_error_that_says_the_size_needed(block):
-    """A block on the ground has four contacts."""
+    """A book on the ground and a block on it have four contacts each."""
     small = BatchedTabletopEnv(1, device="cpu", scene=block, room=(2, 60))
     small.reset()
-    with pytest.raises(EnvironmentSetupError, match=r"room=\(8, \d+\)"):
+    with pytest.raises(EnvironmentSetupError, match=r"room=\(1\d, \d+\)"):
         small.step(np.zeros((1, 7), dtype=np.float32))
 
 
