@@ -21,7 +21,7 @@ MODULES = (
     "pat3d.sim.solvers.line_search",
     "pat3d.sim.potential",
     "pat3d.sim.measures",
-    "pat3d.sim.settling",
+    "pat3d.sim.worlds",
     "pat3d.sim.contact.intersection",
     "pat3d.sim.contact.boxes",
     "pat3d.sim.contact.broad_phase",
