@@ -71,10 +71,9 @@ def generate(
 ) -> Status:  # fmt: skip
     """Make the suite `request` in the folder `path`, or what is missing of it.
 
-    Settled one by one, as on a CPU, the same request gives the same suite bit for bit. Scenes of a block settle side by
-    side, and what shares a block decides the rounding: one worker that
-    is not interrupted makes the same blocks and the same bits on the same device, and any two runs, on GPUs or CPUs,
-    agree to about 1e-9 m.
+    Settled one by one, as on a CPU, the same request gives the same suite bit for bit. On a GPU, scenes of a block
+    settle side by side, and what shares a block may decide the rounding: one worker that is not interrupted makes the
+    same blocks and the same bits again, and poses agree with those of other blocks or of a CPU to about 1e-9 m.
 
     Args:
         path: of the suite's folder.
@@ -99,6 +98,8 @@ def generate(
 
     make_robot(request.robot)
     device_name(request.device)
+    if block is not None and block < 1:
+        raise SuiteError(f"a block has at least one unit, not {block}.")
     block = block or (1 if request.device == "cpu" else BLOCK)
     if ray is not None and (request.device != "cpu" or block > 1):
         raise SuiteError("a Ray cluster settles scenes on its CPUs, one by one; leave out --ray or --device.")

@@ -47,8 +47,8 @@ class Request:
     picture: int = 320
     """Width of the scenes' pictures [pixel]; 0 for none."""
     device: str = "cpu"
-    """Where scenes are settled, one of `DEVICES`. On a GPU they settle side by side: rounding depends on which share a
-    block, so that poses agree with those of another division or of the CPU to about 1e-9 m, not bit for bit."""
+    """Where scenes are settled, one of `DEVICES`. On a GPU they settle side by side, and poses agree with those of
+    a CPU to about 1e-9 m, not bit for bit."""
 
     def __post_init__(self) -> None:
         unknown = [name for name in self.tasks if name not in TASKS]

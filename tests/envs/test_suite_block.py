@@ -193,6 +193,8 @@ def test_an_unknown_device_and_blocks_on_a_cluster_are_refused(tmp_path):
         replace(REQUEST, device="tpu")
     with pytest.raises(SuiteError, match="one by one"):
         generate(str(tmp_path), REQUEST, ray="127.0.0.1:1", block=2)
+    with pytest.raises(SuiteError, match="at least one unit, not -1"):
+        generate(str(tmp_path), REQUEST, block=-1)
 
 
 def test_a_request_from_before_there_were_devices_is_one_for_the_cpu():
