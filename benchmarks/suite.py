@@ -1,6 +1,6 @@
 """Scenes an hour of `pat3d suite generate`, where the time goes, and the share of scenes that stay still in MuJoCo.
 
-    python benchmarks/suite.py [--scenes 100] [--workers 2] [--objects 6] [--out FOLDER]
+    python benchmarks/suite.py [--scenes 100] [--workers 2] [--objects 6] [--device cuda] [--out FOLDER]
     python benchmarks/suite.py --report FOLDER          a suite that is there, finished or not
 
 Proven means: balanced, disjoint, still for 5 s in MuJoCo, its relations hold, and the robot can do its task. The first
@@ -46,6 +46,8 @@ def main() -> None:
     parser.add_argument("--objects", type=int, default=6)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--picture", type=int, default=320, help="width of the scenes' pictures; 0 for none")
+    parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where scenes settle")
+    parser.add_argument("--block", type=int, help="scenes that settle together (64 on a GPU, one on a CPU)")
     parser.add_argument("--out", help="keep the suite, and what is printed in report.txt, here")
     parser.add_argument("--report", metavar="FOLDER", help="make nothing; tell of the suite in FOLDER")
     options = parser.parse_args()
@@ -57,11 +59,13 @@ def main() -> None:
         print("no pictures: embreex is not installed", flush=True)
         picture = 0
     request = Request(
-        scenes=options.scenes, seed=options.seed, objects=(options.objects, options.objects), picture=picture
-    )
+        scenes=options.scenes, seed=options.seed, objects=(options.objects, options.objects), picture=picture,
+        device=options.device,
+    )  # fmt: skip
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(options.out or Path(scratch) / "suite")
-        status = generate(str(folder), request, workers=options.workers, tell=_Progress().tell)
+        tell = _Progress().tell
+        status = generate(str(folder), request, workers=options.workers, block=options.block, tell=tell)
         took = f"{status.made} scenes with {status.workers} workers in {status.seconds:.0f} s"
         times = f"target {TARGET} on 2 cores, {status.per_hour / TARGET:.1f} times"
         lines = [f"{took}: {status.per_hour:.0f} an hour ({times})", *report(folder)]

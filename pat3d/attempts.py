@@ -158,6 +158,15 @@ class Attempts:
         attempt = self._attempt(0)
         return attempt if attempt.failures else self._checked(attempt)
 
+    def begun(self) -> Attempt:
+        """The first layout, not settled yet: its scene, or its error."""
+        return self._begun(0)
+
+    def settled(self, attempt: Attempt, rest: Rest) -> Attempt:
+        """`attempt`, which is `begun`, at rest as somebody else settled it; checked like `first`."""
+        attempt = _rested(attempt, rest)
+        return attempt if attempt.failures else self._checked(attempt)
+
     def layout(self) -> Scene:
         """The first layout: objects at poses where nothing touches.
 
@@ -168,18 +177,25 @@ class Attempts:
         return self._laid_out(0, self.seed, {"layout": made_of})[0]
 
     def _attempt(self, number: int) -> Attempt:
+        attempt = self._begun(number)
+        if attempt.scene is None:
+            return attempt
+        try:
+            rest = self._settled(number, attempt.scene, attempt.notes, attempt.inputs)
+        except (LayoutError, SimulationError) as error:
+            return replace(attempt, scene=None, error=error)
+        return _rested(attempt, rest)
+
+    def _begun(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)
         made_of = key_of(versions(), self.order.fingerprint, self.seed, layout_seed)
         inputs = {"layout": made_of, "rest": key_of(made_of, self.friction, self.device)}
         try:
             scene, notes = self._laid_out(number, layout_seed, inputs)
-            rest = self._settled(number, scene, notes, inputs)
         except (LayoutError, SimulationError) as error:
             return replace(attempt, error=error)
-        scene = rest.of(scene)
-        faults = broken(relations_at_rest(scene))
-        return replace(attempt, scene=scene, rest=rest, notes=notes, inputs=inputs, broken=faults)
+        return replace(attempt, scene=scene, notes=notes, inputs=inputs)
 
     def _laid_out(self, number: int, layout_seed: int, inputs: Mapping[str, str]) -> tuple[Scene, tuple[str, ...]]:
         """The order's objects at poses where nothing touches, and the layout's notes."""
@@ -278,6 +294,14 @@ class Attempts:
             "versions": versions(),
             "settings": {"layout_seed": layout_seed, "friction": self.friction, "device": self.device},
         }
+
+
+def _rested(attempt: Attempt, rest: Rest) -> Attempt:
+    """An attempt whose layout has come to rest; nothing is checked but its relations."""
+    if attempt.scene is None:
+        return attempt
+    scene = rest.of(attempt.scene)
+    return replace(attempt, scene=scene, rest=rest, broken=broken(relations_at_rest(scene)))
 
 
 def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:

@@ -22,6 +22,12 @@ GROUND_INDEX = -1
 _TOUCHING = 1e-9
 """[m]; below this the direction between two points is rounding, and the features' own normal is used."""
 
+_LEAST_STEP = 1e-6
+"""[m]; a tenth of the shortest step along a surface."""
+
+_RISE = 0.05
+"""Height over a plane, as a share of a step, from which a surface rises from it."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contacts:
@@ -180,7 +186,9 @@ def _pair_rows(i: int, first: list[WorldPart], j: int, second: list[WorldPart], 
                 continue
             for on_first, on_second, normal, gap in _part_contacts(a, b, activation):
                 # A seam between two parts of a body is no corner: the surface there is the nearest part's.
-                if _nearer(on_first, second, q, gap) or _nearer(on_second, first, p, gap):
+                if _on_seam(on_first, on_second, normal, second, q, gap):
+                    continue
+                if _on_seam(on_second, on_first, -normal, first, p, gap):
                     continue
                 rows.append(((i, j), (p, q), (on_first + on_second) / 2, normal, gap))
     return rows
@@ -234,18 +242,42 @@ def _edges_near(part: WorldPart, other: WorldPart, reach: float) -> NDArray[np.f
     return part.edges[close]
 
 
-def _nearer(point: NDArray[np.float64], parts: list[WorldPart], own: int, gap: float) -> bool:
-    """Whether `point` is closer to another of `parts` than `gap` [m] to part `own`."""
+def _on_seam(
+    point: NDArray[np.float64], foot: NDArray[np.float64], normal: NDArray[np.float64],
+    parts: list[WorldPart], own: int, gap: float,
+) -> bool:  # fmt: skip
+    """Whether `point` touches another of `parts` instead, not part `own` at `foot`, `gap` [m] below it along `normal`.
+
+    Another part is closer, and part `own` does not rise from it: where it does, the two form a hollow, such as a bowl's
+    floor and wall, and what lies in it leans on both.
+    """
     slack = 1e-7 + 0.01 * abs(gap)
     for number, part in enumerate(parts):
         if number == own or np.any(point < part.low - gap) or np.any(point > part.high + gap):
             continue
         # The height over the highest plane bounds the distance from below, which spares most exact queries.
         if (part.normals @ point - part.offsets).max() < gap - slack:
-            distance = part.closest(point[None])[2][0]
-            if distance < gap - slack:
+            surface, away, distance = (found[0] for found in part.closest(point[None]))
+            if distance < gap - slack and not _rises(foot, normal, surface, away, parts, own, gap):
                 return True
     return False
+
+
+def _rises(
+    foot: NDArray[np.float64], normal: NDArray[np.float64], base: NDArray[np.float64], up: NDArray[np.float64],
+    parts: list[WorldPart], own: int, gap: float,
+) -> bool:  # fmt: skip
+    """Whether a step from `foot` along `up`, part `own` is open and above the plane through `base` across `up`."""
+    along = up - (up @ normal) * normal
+    size = float(np.linalg.norm(along))
+    if size < _RISE:
+        return False
+    step = 10.0 * max(gap, _LEAST_STEP)
+    ahead = parts[own].closest((foot + step / size * along)[None])[0][0]
+    if (ahead - base) @ up < _RISE * step:
+        return False
+    above = ahead + _RISE * step * normal
+    return all(number == own or (part.normals @ above - part.offsets).max() > 0.0 for number, part in enumerate(parts))
 
 
 def _closest_on_triangles(

@@ -21,7 +21,7 @@ MODULES = (
     "pat3d.sim.solvers.line_search",
     "pat3d.sim.potential",
     "pat3d.sim.measures",
-    "pat3d.sim.settling",
+    "pat3d.sim.worlds",
     "pat3d.sim.contact.intersection",
     "pat3d.sim.contact.boxes",
     "pat3d.sim.contact.broad_phase",
@@ -47,17 +47,26 @@ def prepare(device: str, progress: Progress = silent, *, deterministic: bool = F
     Raises:
         SpecError: there is no such device here.
     """
-    wp = quiet_warp()
-    known = [str(found.alias) for found in wp.get_devices()]
-    name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
-    if name is None:
-        raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
+    wp, name = quiet_warp(), device_name(device)
     if deterministic and wp.get_device(name).is_cuda:
         import_module("pat3d.sim.determinism").enable()
     detail = "" if is_warm() else "compiling kernels, once, up to a minute"
     for number, module in enumerate(MODULES):
         progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))
         wp.load_module(import_module(module), device=name)
+    return name
+
+
+def device_name(device: str) -> str:
+    """Warp's name of `device` ("cpu", or "cuda" for the first GPU).
+
+    Raises:
+        SpecError: there is no such device here.
+    """
+    known = [str(found.alias) for found in quiet_warp().get_devices()]
+    name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
+    if name is None:
+        raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
     return name
 
 

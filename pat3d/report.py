@@ -33,7 +33,11 @@ class Clock:
         try:
             yield
         finally:
-            self._stages[stage] = self._stages.get(stage, 0.0) + time.perf_counter() - start
+            self.add(stage, time.perf_counter() - start)
+
+    def add(self, stage: str, seconds: float) -> None:
+        """Count time that was measured elsewhere [s] as part of `stage`."""
+        self._stages[stage] = self._stages.get(stage, 0.0) + seconds
 
     @property
     def seconds(self) -> dict[str, float]:

@@ -5,6 +5,7 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box, convex, join
+from pat3d.check.certificate import certify
 from pat3d.contacts import find_contacts, merged
 from pat3d.scene import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of
@@ -78,6 +79,36 @@ def test_a_seam_between_two_parts_makes_no_slanted_contact():
     contacts = find_contacts(scene)
     assert len(contacts) >= 4
     np.testing.assert_allclose(contacts.normals[:, 2], 1.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("beyond", [0.0, 0.03])
+@pytest.mark.parametrize("gaps", [(1e-5, 1.4e-5), (1.4e-5, 1e-5), (5e-6, 1.4e-5), (1e-5, 1e-5)])
+def test_an_edge_in_a_hollow_between_two_parts_leans_on_both(gaps, beyond):
+    """A wedge on its edge at the bottom of a trough: it needs no friction, but both sides, the further one too.
+
+    Args:
+        gaps: between the edge and either side.
+        beyond: by how much the left part reaches under the right one [m].
+    """
+    slope = 0.1 * np.tan(np.radians(30))
+    left = [(beyond, -10 * beyond * slope), (-0.1, slope), (-0.1, -0.05), (beyond, -0.05)]
+    right = [(0, 0), (0.1, slope), (0.1, -0.05), (0, -0.05)]
+    trough = join(*(convex(_along_y(outline, 0.1)) for outline in (left, right)))
+    edge = np.linalg.solve([[0.5, np.sqrt(0.75)], [-0.5, np.sqrt(0.75)]], gaps)
+    wedge = convex(_along_y([(0, 0), (-0.02, 0.06), (0.02, 0.06)], 0.03))
+    scene = scene_of(
+        placed("trough", asset_of(trough), (0, 0, 0.05), fixed=True),
+        placed("wedge", asset_of(wedge), (edge[0], 0, 0.05 + edge[1])),
+    )
+    contacts = find_contacts(scene)
+    assert sorted(np.sign(contacts.normals[:, 0])) == [-1, -1, 1, 1]
+    assert sorted(contacts.gaps) == pytest.approx(sorted([*gaps, *gaps]), rel=0.02)
+    assert certify(scene, friction=0.01).passed
+
+
+def _along_y(outline, half):
+    """Corners of an outline (x, z) drawn out from -half to half."""
+    return np.array([(x, y, z) for x, z in outline for y in (-half, half)])
 
 
 def test_merging_keeps_the_corners_of_a_patch():

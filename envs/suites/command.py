@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pat3d.console import console
-from pat3d.envs.suites.request import SPLITS, TASKS, Request, in_split
+from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
 from pat3d.errors import SuiteError
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     verbs = to.add_subparsers(dest="verb", required=True, metavar="VERB")
     making = verbs.add_parser("generate", help="make a suite, or what is missing of it", formatter_class=formatter,
                               epilog="Interrupted or killed, the same command goes on where it stopped. The same seed "
-                              "gives the same suite with any number of workers.")  # fmt: skip
+                              "gives the same suite with any number of workers (on a GPU, to 1e-9 m).")  # fmt: skip
     making.add_argument("folder", metavar="OUT", help="suite folder to write")
     making.add_argument("--tasks", default=",".join(TASKS[:5]), help=f"any of {', '.join(TASKS)} (all but retrieve)")
     making.add_argument("--scenes", type=int, default=100, help="how many (100); a larger number makes a suite longer")
@@ -33,6 +33,8 @@ def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     making.add_argument("--objects", default="5-8", metavar="N or N-M", help="objects of a scene (5-8)")
     making.add_argument("--robot", default="Panda", help="that must be able to do the tasks (Panda)")
     making.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
+    making.add_argument("--device", choices=DEVICES, default="cpu",
+                        help="where scenes settle; on a GPU, many side by side (cpu)")  # fmt: skip
     making.add_argument("--ray", metavar="ADDRESS", help="let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto")
     making.add_argument("--limit", type=float, default=300.0, metavar="SECONDS",
                         help="for one scene; one that takes longer twice is replaced (300)")  # fmt: skip
@@ -61,6 +63,7 @@ def _generate(options: argparse.Namespace) -> int:
     request = Request(
         tasks=tuple(name.strip() for name in options.tasks.split(",")), scenes=options.scenes, seed=options.seed,
         objects=_range(options.objects), robot=options.robot, picture=options.picture,
+        device=options.device,
     )  # fmt: skip
     with _progress() as tell:
         status = generate(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -23,8 +23,8 @@ class Answer:
     """What a worker said, or that it ended."""
 
     worker: int
-    unit: Unit | None
-    """What it was doing; None while it got ready."""
+    units: tuple[Unit, ...]
+    """What it had been given and not answered when it spoke; none while it got ready."""
     said: dict[str, Any] = field(default_factory=dict)
     """Empty where it ended without a word."""
     ended: str = ""
@@ -60,13 +60,13 @@ def _cores() -> int:
 
 
 class Crew(ABC):
-    """Workers of one run; each has at most one unit at a time."""
+    """Workers of one run; each has at most one block of units at a time."""
 
     def __init__(self) -> None:
-        self._units: dict[int, Unit | None] = {}
-        """What every living worker does."""
+        self._units: dict[int, list[Unit]] = {}
+        """What every living worker has to do, its present block first."""
         self._since: dict[int, float] = {}
-        """When it began [s]."""
+        """When it began, or was last heard [s]."""
         self._ready: set[int] = set()
         self._stopped: dict[int, float] = {}
         """After how long those were stopped whose unit took too long [s]."""
@@ -80,27 +80,30 @@ class Crew(ABC):
     def hire(self) -> None:
         """Start a worker; it says when it is ready."""
         number, self._hired = self._hired, self._hired + 1
-        self._units[number] = None
+        self._units[number] = []
         self._start(number)
 
     def idle(self) -> list[int]:
         """Workers that are ready and have nothing to do."""
-        return [number for number in self._ready if self._units[number] is None]
+        return [number for number in self._ready if not self._units[number]]
 
-    def give(self, worker: int, unit: Unit) -> None:
-        """Let an idle worker make a unit."""
-        self._units[worker], self._since[worker] = unit, time.monotonic()
-        self._order(worker, unit)
+    def give(self, worker: int, units: Sequence[Unit]) -> None:
+        """Let an idle worker make a block of units, together as far as it can."""
+        self._units[worker], self._since[worker] = list(units), time.monotonic()
+        self._order(worker, units)
 
     def busy(self) -> bool:
         """Whether anybody makes a unit."""
-        return any(unit is not None for unit in self._units.values())
+        return any(self._units.values())
 
     def stop_those_over(self, limit: float) -> None:
-        """Kill the workers that have been at their unit for more than `limit` [s]; their end is answered like any."""
+        """Kill workers that have been at one thing for more than `limit` [s]; their end is answered like any.
+
+        One thing is a unit, or a step of a block: a unit's layout, or the settling of all.
+        """
         now = time.monotonic()
-        for number, unit in self._units.items():
-            if unit is not None and number not in self._stopped and now - self._since[number] > limit:
+        for number, units in self._units.items():
+            if units and number not in self._stopped and now - self._since[number] > limit:
                 self._stopped[number] = limit
                 self._kill(number)
 
@@ -110,7 +113,7 @@ class Crew(ABC):
         if found is None:
             return None
         number, said, ended = found
-        unit = self._units.get(number)
+        units = tuple(self._units[number])
         if ended:
             del self._units[number]
             self._ready.discard(number)
@@ -118,13 +121,14 @@ class Crew(ABC):
             if limit is not None:
                 ended = f"was not done after {limit:g} s and was ended"
             return Answer(
-                worker=number, unit=unit, ended=ended, late=limit is not None, last_words=self._last_words(number)
+                worker=number, units=units, ended=ended, late=limit is not None, last_words=self._last_words(number)
             )
+        self._since[number] = time.monotonic()
         if "ready" in said:
             self._ready.add(number)
-        else:
-            self._units[number] = None
-        return Answer(worker=number, unit=unit, said=said)
+        elif "place" in said:
+            self._units[number].remove((said["place"], said["candidate"]))
+        return Answer(worker=number, units=units, said=said)
 
     @contextmanager
     def dismissed_at_end(self) -> Iterator[Crew]:
@@ -139,8 +143,8 @@ class Crew(ABC):
         """Start worker `number`."""
 
     @abstractmethod
-    def _order(self, number: int, unit: Unit) -> None:
-        """Tell a worker its unit."""
+    def _order(self, number: int, units: Sequence[Unit]) -> None:
+        """Tell a worker its block of units."""
 
     @abstractmethod
     def _next(self, seconds: float) -> tuple[int, dict[str, Any], str] | None:

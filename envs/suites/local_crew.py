@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -42,8 +43,8 @@ class LocalCrew(Crew):
         self._send(number, {"folder": str(self._folder.path), "request": self._request.as_dict()})
         threading.Thread(target=self._listen, args=(number, process), daemon=True).start()
 
-    def _order(self, number: int, unit: Unit) -> None:
-        self._send(number, {"place": unit[0], "candidate": unit[1]})
+    def _order(self, number: int, units: Sequence[Unit]) -> None:
+        self._send(number, {"units": units})
 
     def _next(self, seconds: float) -> tuple[int, dict[str, Any], str] | None:
         try:

@@ -105,6 +105,7 @@ def _head(request: Request) -> dict[str, Any]:
         "version": VERSION,
         "seed": request.seed,
         "request": request.as_dict(),
+        "device": request.device,
         "versions": {**versions(), **{name: version_of(name) for name in ("robosuite", "gymnasium")}},
         "held_out": {
             "nouns": partition(request.seed),

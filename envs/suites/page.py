@@ -33,7 +33,7 @@ def page(name: str, document: Mapping[str, Any]) -> str:
     sizes = " to ".join(map(str, sorted(set(request["objects"]))))
     lead = (
         f"{found['scenes']} scenes from {found['candidates']} candidates; seed {request['seed']}, {request['robot']}, "
-        f"{sizes} objects. {settled['passed']} of {settled['of']} settled "
+        f"{sizes} objects, settled on {request.get('device', 'cpu')}. {settled['passed']} of {settled['of']} settled "
         f"scenes stay still in MuJoCo {document['versions'].get('mujoco')}; {found['intersections']} intersections. "
         f"Largest drift of a scene in the suite: {_figure(found['largest_drift_mm'])} mm, "
         f"{_figure(found['largest_turn_degrees'])} degrees in 5 s."

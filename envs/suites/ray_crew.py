@@ -10,6 +10,7 @@ import os
 import shutil
 import socket
 import tempfile
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -92,7 +93,9 @@ class RayCrew(Crew):
         self._actors[number] = self._worker.remote(self._request.as_dict())
         self._asked[self._actors[number].prepare.remote(versions())] = number
 
-    def _order(self, number: int, unit: Unit) -> None:
+    def _order(self, number: int, units: Sequence[Unit]) -> None:
+        # Blocks are for GPUs, on which clusters do not work.
+        (unit,) = units
         self._asked[self._actors[number].make.remote(*unit)] = number
 
     def _next(self, seconds: float) -> tuple[int, dict[str, Any], str] | None:

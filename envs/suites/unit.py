@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import shutil
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -33,19 +35,60 @@ def make_unit(folder: SuiteFolder, request: Request, place: int, candidate: int)
     Raises:
         OSError, Pat3dError: the folder cannot be written.
     """
-    start, clock = time.perf_counter(), Clock()
-    made = draft(request, place, candidate)
-    scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir(parents=True)
-    try:
-        attempts = Attempts(
-            order_of(made.plan, False), seed=made.scene_seed, friction=FRICTION, device="cpu",
-            workspace=Workspace(scratch / "none", keep=False), clock=clock, progress=silent, scratch=scratch,
+    with Making(folder, request, place, candidate) as making:
+        with making.working():
+            attempt = making.attempts.first()
+        return making.conclude(attempt)
+
+
+class Making:
+    """A candidate that is being made, with a folder for its unfinished files while the block lasts."""
+
+    def __init__(self, folder: SuiteFolder, request: Request, place: int, candidate: int) -> None:
+        start = time.perf_counter()
+        self._folder, self._request, self._place, self._candidate = folder, request, place, candidate
+        self._draft, self.clock = draft(request, place, candidate), Clock()
+        self._scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
+        self.attempts = Attempts(
+            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=FRICTION, device=request.device,
+            workspace=Workspace(self._scratch / "none", keep=False), clock=self.clock, progress=silent,
+            scratch=self._scratch,
         )  # fmt: skip
-        attempt = attempts.first()
+        self.seconds = time.perf_counter() - start
+        """Spent on it [s]."""
+
+    def __enter__(self) -> Making:
+        shutil.rmtree(self._scratch, ignore_errors=True)
+        self._scratch.mkdir(parents=True)
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        shutil.rmtree(self._scratch, ignore_errors=True)
+
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """Counts the time of the block."""
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds += time.perf_counter() - start
+
+    def conclude(self, attempt: Attempt) -> dict[str, Any]:
+        """Write the scene of an attempt that passed, or why it is rejected; returns and raises as `make_unit`."""
+        with self.working():
+            reason, message = self._judged(attempt)
+        stages = {name: round(value, 3) for name, value in self.clock.seconds.items() if name != "total"}
+        return {
+            "place": self._place, "candidate": self._candidate, "reason": reason, "message": message,
+            "seconds": round(self.seconds, 3), "stages": stages,
+        }  # fmt: skip
+
+    def _judged(self, attempt: Attempt) -> tuple[str, str]:
+        """Kind of fault and what is wrong; empty for a scene that is now in the suite."""
+        request, place, candidate, made = self._request, self._place, self._candidate, self._draft
         reason, message, placement = _fault(attempt), "; ".join(attempt.failures), ""
-        with clock("task"):
+        with self.clock("task"):
             if not reason and attempt.checked is not None:
                 try:
                     placement = _doable(attempt.checked.scene, made.task, request.robot)
@@ -53,18 +96,13 @@ def make_unit(folder: SuiteFolder, request: Request, place: int, candidate: int)
                     reason, message = "task", str(error)
         record = _record(request, place, candidate, made, attempt)
         if reason:
-            write_document(folder.rejection(place, candidate), {**record, "reason": reason, "message": message})
+            rejection = {**record, "reason": reason, "message": message}
+            write_document(self._folder.rejection(place, candidate), rejection)
         else:
             record["robot"] = placement
-            with clock("files"):
-                _write(folder, request, place, attempt, record, scratch, clock)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
-    seconds = {**{name: round(value, 3) for name, value in clock.seconds.items() if name != "total"}}
-    return {
-        "place": place, "candidate": candidate, "reason": reason, "message": message,
-        "seconds": round(time.perf_counter() - start, 3), "stages": seconds,
-    }  # fmt: skip
+            with self.clock("files"):
+                _write(self._folder, request, place, attempt, record, self._scratch, self.clock)
+        return reason, message
 
 
 def _fault(attempt: Attempt) -> str:

@@ -1,4 +1,4 @@
-"""A worker process: reads units from its input, a JSON line each, and answers with a line each.
+"""A worker process: reads blocks of units from its input, a JSON line each, and answers with a line for every unit.
 
 It has no other tie to its run and ends when its input does, in the middle of a unit too: a run that is killed leaves
 nobody behind who still writes.
@@ -10,9 +10,11 @@ import json
 import os
 import sys
 import threading
+from collections.abc import Callable, Iterator
 from queue import SimpleQueue
 from typing import Any, TextIO
 
+from pat3d.envs.suites.crew import Unit
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
 from pat3d.errors import Pat3dError
@@ -31,17 +33,20 @@ def main() -> int:
         prepare_for(request)
         _say(out, {"ready": True})
         while True:
-            unit = units.get()
-            _say(out, _made(folder, request, unit["place"], unit["candidate"]))
+            block = [(place, candidate) for place, candidate in units.get()["units"]]
+            for answer in _made(folder, request, block, lambda: _say(out, {"alive": True})):
+                _say(out, answer)
     except (OSError, MemoryError, Pat3dError) as error:
         _say(out, {"fatal": f"{type(error).__name__}: {error}"})
         return 1
 
 
-def _made(folder: SuiteFolder, request: Request, place: int, candidate: int) -> dict[str, Any]:
-    from pat3d.envs.suites.unit import make_unit
+def _made(
+    folder: SuiteFolder, request: Request, block: list[Unit], alive: Callable[[], None]
+) -> Iterator[dict[str, Any]]:
+    from pat3d.envs.suites.block import make_block
 
-    return make_unit(folder, request, place, candidate)
+    return make_block(folder, request, block, alive)
 
 
 def prepare_for(request: Request) -> None:
@@ -52,7 +57,8 @@ def prepare_for(request: Request) -> None:
 
     keep_to_one_thread()
     make_robot(request.robot)
-    prepare("cpu")
+    # On a GPU, sums in the order of its threads would change with every run.
+    prepare(request.device, deterministic=True)
 
 
 def _listen(units: SimpleQueue[dict[str, Any]]) -> None:

@@ -1,12 +1,9 @@
-# Kernel signatures and bodies are Warp's language, which a checker of Python misreads.
-# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
-# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
-
 """From an intersection-free layout to rest.
 
 Three phases (DESIGN section 5a): bodies drop through artificial time steps until they stop; the barrier shrinks until
 gaps are a few hundredths of a millimetre; and a polish holds friction's reference state fixed while the inertia term
-fades, which ends at static equilibrium instead of creeping for ever.
+fades, which ends at static equilibrium instead of creeping for ever. Worlds whose bodies are bent then are polished
+again with stiffer ones (`pat3d.sim.straightening`).
 """
 
 from __future__ import annotations
@@ -27,9 +24,9 @@ from pat3d.sim.measures import StepMeasures
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential
 from pat3d.sim.solvers.newton import Newton, NewtonResult
+from pat3d.sim.straightening import straighten
 from pat3d.sim.tape import StepRecord, Tape
-
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+from pat3d.sim.worlds import copy_worlds
 
 STILL_FRAMES = 3
 """Consecutive steps without motion that end the drop."""
@@ -265,9 +262,12 @@ class Run:
             self.progress("settling", self.frames, float(move.max()))
 
     def relax(
-        self, d_hat: float, residual_tolerance: float, move_tolerance: float, slow: float, fast: float
-    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        self, d_hat: float, residual_tolerance: float, move_tolerance: float, slow: float, fast: float,
+        among: NDArray[np.bool_] | None = None,
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:  # fmt: skip
         """Converge to static equilibrium at a barrier of reach d_hat [m]; returns which worlds did, and residuals.
+
+        Worlds that are not `among` those to relax, shape (worlds,), stay where they are and count as if they did not.
 
         Inertia fades where a step moves less than `slow` [m], and is restored where it moves more than `fast` [m].
         """
@@ -277,7 +277,8 @@ class Run:
         self.set_reach(d_hat)
         potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, d_hat)
         weight = np.ones(worlds)
-        active, anchored = self.running(), np.zeros(worlds, dtype=bool)
+        moving = self.running() if among is None else self.running() & among
+        active, anchored = moving.copy(), np.zeros(worlds, dtype=bool)
         residual = np.full(worlds, np.inf)
         self._measures.forget_last()
         limit = self.polish_steps + options.max_polish_steps
@@ -303,13 +304,18 @@ class Run:
             if move.max() > options.d_hat:
                 self._frames.append(wp.clone(self.q))
             self.progress("polishing", self.polish_steps, float(move.max()))
-        return ~active & self.running(), residual
+        return moving & ~active & self.running(), residual
 
     def polish(self) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Find equilibrium at the wide barrier, where sliding is cheap, then at the final one."""
         options = self.options
         self.relax(options.d_hat, COARSE_RESIDUAL, COARSE_MOVE, COARSE_SLOW, COARSE_FAST)
-        return self.relax(options.final_d_hat, options.residual, options.move, SLOW, FAST)
+        return self.finish()
+
+    def finish(self, among: NDArray[np.bool_] | None = None) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """The end of the polish, of all worlds or those `among` them, shape (worlds,)."""
+        options = self.options
+        return self.relax(options.final_d_hat, options.residual, options.move, SLOW, FAST, among)
 
 
 def settle(
@@ -339,7 +345,7 @@ def settle(
         run.refuse_intersections()
         run.set_reach(options.d_hat)
         run.drop()
-        at_rest, residual = run.polish()
+        at_rest, residual = straighten(run, *run.polish())
     settled = Settled(
         q=run.state(),
         trajectory=run.trajectory,
@@ -365,33 +371,3 @@ def settle(
             path,
         )
     return settled
-
-
-def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.array) -> None:
-    """Copy the states of the bodies of chosen worlds, shape (bodies, 4), vec3d, on the device.
-
-    Args:
-        model: the worlds.
-        worlds: nonzero for those to copy, shape (worlds,), int.
-        source: copied from.
-        target: copied to.
-    """
-    wp.launch(
-        _copy_worlds, dim=model.bodies, device=model.device, inputs=[model.body_world, worlds, source], outputs=[target]
-    )  # fmt: skip
-
-
-@wp.kernel
-def _copy_worlds(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
-    worlds: wp.array(dtype=int),
-    source: wp.array2d(dtype=wp.vec3d),
-    # Out
-    target: wp.array2d(dtype=wp.vec3d),
-):
-    body = wp.tid()
-    if worlds[body_world[body]] != 0:
-        for i in range(4):
-            target[body, i] = source[body, i]

@@ -31,7 +31,7 @@ def crowded_potential(seed: int) -> tuple[Potential, np.ndarray]:
     potential = Potential(model)
     potential.contact.d_hat = D_HAT
     potential.contact.stiffness.fill_(50.0)
-    potential.orthogonality.stiffness = 1e4
+    potential.orthogonality.stiffness.fill_(1e4)
     potential.inertia.sigma.fill_(100.0)
     potential.friction.coefficient.fill_(0.5)
     potential.friction.epsilon = 2e-3

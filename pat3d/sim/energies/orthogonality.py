@@ -25,8 +25,8 @@ class Orthogonality:
 
     def __init__(self, model: Model, stiffness: float = 1.0e8):
         self.model = model
-        self.stiffness = stiffness
-        """kappa [Pa]; 100 MPa keeps strains under 1e-5 for household loads."""
+        self.stiffness = wp.full(model.worlds, stiffness, dtype=wp.float64, device=model.device)
+        """kappa [Pa], shape (worlds,); 100 MPa keeps strains under 1e-5 for household loads."""
 
     def _inputs(self) -> list:
         model = self.model
@@ -61,7 +61,7 @@ def _value(
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
     body_volume: wp.array(dtype=wp.float64),
-    stiffness: wp.float64,
+    stiffness: wp.array(dtype=wp.float64),
     worlds: wp.array(dtype=int),
     # State in
     q: wp.array2d(dtype=wp.vec3d),
@@ -73,7 +73,7 @@ def _value(
     world = body_world[body]
     if body_dof[body] < 0 or worlds[world] == 0:
         return
-    factor = stiffness * body_volume[body]
+    factor = stiffness[world] * body_volume[body]
     total = wp.float64(0.0)
     for j in range(3):
         force = wp.vec3d()
@@ -91,7 +91,7 @@ def _hessian(
     body_world: wp.array(dtype=int),
     body_dof: wp.array(dtype=int),
     body_volume: wp.array(dtype=wp.float64),
-    stiffness: wp.float64,
+    stiffness: wp.array(dtype=wp.float64),
     worlds: wp.array(dtype=int),
     exact: wp.array(dtype=int),
     # State in
@@ -104,7 +104,7 @@ def _hessian(
     if body_dof[body] < 0 or worlds[world] == 0:
         return
     base = 12 * body_dof[body] + 3
-    factor = wp.float64(4.0) * stiffness * body_volume[body]
+    factor = wp.float64(4.0) * stiffness[world] * body_volume[body]
     spread = wp.mat33d()
     for i in range(3):
         spread += wp.outer(q[body, 1 + i], q[body, 1 + i])
