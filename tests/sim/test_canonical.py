@@ -85,9 +85,10 @@ def test_an_arch_of_7_stones_stands():
 
 @pytest.mark.slow
 def test_an_arch_of_25_stones_stands():
+    """Each of the 25 joints opens by at most the barrier's reach while it settles, and so the ring by 25 times that."""
     model = cases.arch(25)
     settled = at_rest(model, friction=0.5)
-    assert moved(model, settled) < 5e-3
+    assert moved(model, settled) < 25 * SettleOptions().d_hat
     assert turned(model, settled) < np.deg2rad(2)
 
 
