@@ -142,7 +142,7 @@ def _require_settled(mjcf: Path, checksum: str) -> None:
             for one in report.moved()
         ]
         drift = {"passed": report.passed, "moved": moved, "warnings": list(report.warnings)}
-        _store(record, drift)
+        store_record(record, drift)
     if drift["passed"]:
         return
     moved = sorted(drift["moved"], key=lambda one: -one["mm"])
@@ -169,7 +169,7 @@ def _stored(path: Path) -> dict[str, Any] | None:
     return record if valid else None
 
 
-def _store(path: Path, record: dict[str, Any]) -> None:
+def store_record(path: Path, record: dict[str, Any]) -> None:
     """Write atomically; a folder that cannot be written is left alone."""
     temporary = None
     try:

@@ -39,8 +39,8 @@ def make_vector(num_envs: int = 1, device: str = "auto", **kwargs: Any) -> Vecto
     Raises:
         EnvironmentSetupError: no such device, or an argument is not valid there; says what is.
     """
-    if device not in DEVICES:
-        raise EnvironmentSetupError(f'no device "{device}". Valid: {", ".join(DEVICES)}.')
+    one_of("device", device, DEVICES)
+    num_envs = whole("num_envs", num_envs, 1)
     if device == "cuda" or (device == "auto" and _runs_on_gpu(kwargs)):
         return BatchedTabletopEnv(num_envs, device="cuda", **kwargs)
     steps = kwargs.pop("max_episode_steps", MAX_EPISODE_STEPS)

@@ -232,7 +232,8 @@ class _Pool:
         return self._dead(worker, f"hang: no answer within {self._settings.act_seconds:g} s, its process was ended")
 
     def _dead(self, worker: _Worker, reason: str) -> Result:
-        assert worker.episode is not None
+        if worker.episode is None:
+            raise EvaluationError(f"a worker ended before its first episode: {reason}.")
         asked = float(worker.deadline.value) != 0.0
         return Result(
             episode=worker.episode,

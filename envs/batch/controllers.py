@@ -67,8 +67,8 @@ class BatchedController:
         self._place = self._array(_places(model, data, dofs), int)
         self._operational, self._joint_position = torque_kernels(count)
         self._action = wp.zeros((self._worlds, self.size), dtype=wp.float32, device=self._device)
-        self.start = wp.zeros((self._worlds, count), dtype=wp.float64, device=self._device)
-        """The posture that each world's arm keeps to where the hand's pose leaves a choice [rad]."""
+        # The posture that each world's arm keeps to where the hand's pose leaves a choice [rad].
+        self._start = wp.zeros((self._worlds, count), dtype=wp.float64, device=self._device)
         self._goal_position = wp.zeros(self._worlds, dtype=wp.vec3d, device=self._device)
         self._goal_rotation = wp.zeros(self._worlds, dtype=wp.mat33d, device=self._device)
         self._goal = wp.zeros((self._worlds, count), dtype=wp.float64, device=self._device)
@@ -86,9 +86,9 @@ class BatchedController:
 
     def reset(self, worlds: np.ndarray, postures: np.ndarray) -> None:
         """Forget the earlier actions of `worlds`, whose arms are in `postures` [rad], shape (len(worlds), joints)."""
-        start, opening = self.start.numpy(), self._opening.numpy()
+        start, opening = self._start.numpy(), self._opening.numpy()
         start[worlds], opening[worlds] = postures, self._untouched
-        self.start.assign(start)
+        self._start.assign(start)
         self._opening.assign(opening)
 
     def set_action(self, action: np.ndarray) -> None:
@@ -113,7 +113,7 @@ class BatchedController:
         data = self._data
         if self.kind == "osc":
             self._launch(self._operational, self._worlds, [
-                self._gain, self._damping, self.start, self._goal_position, self._goal_rotation, self._site,
+                self._gain, self._damping, self._start, self._goal_position, self._goal_rotation, self._site,
                 data.site_xpos, data.site_xmat, data.xanchor, data.xaxis, self._ids, self._positions,
                 self._velocities, self._actuators, self._limits, data.qpos, data.qvel, data.qfrc_bias, self._mass,
                 self._place, data.ctrl,

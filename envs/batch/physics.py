@@ -9,6 +9,7 @@ micrometres; that what stood still stands still then too is checked on the devic
 from __future__ import annotations
 
 import copy
+import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -22,6 +23,7 @@ from numpy.typing import NDArray
 from pat3d.assets.cache import cache_root
 from pat3d.envs.batch.controllers import BatchedController
 from pat3d.envs.batch.kernels import note_peaks, note_touches
+from pat3d.envs.loading import store_record
 from pat3d.envs.simulation import Simulation
 from pat3d.envs.world import World
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
@@ -279,15 +281,12 @@ def require_still(
         UnsettledSceneError: an object moves by 1 mm or 1 degree; names it and its drift.
     """
     engine = f"mujoco_warp {mujoco_warp().__version__} on {wp.get_device(device).name}"
-    place = f"{engine}-{seconds:g}s".replace(" ", "-").replace("/", "-")
-    kept = cache_root() / "settled" / f"{checksum[:32]}-{place}.json"
+    about = "\0".join((checksum, engine, f"{seconds:g}", repr((SOLREF, SOLIMP, CCD_TOLERANCE))))
+    kept = cache_root() / "settled" / f"{hashlib.sha256(about.encode()).hexdigest()[:32]}-mujoco_warp.json"
     moved = _stored(kept)
     if moved is None:
         moved = drift(BatchedPhysics(world, 1, control, control_freq, device, room), seconds)
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        fresh = kept.with_suffix(".part")
-        fresh.write_text(json.dumps(moved), encoding="utf-8")
-        fresh.replace(kept)
+        store_record(kept, moved)
     wrong = {name: (mm, degrees) for name, (mm, degrees) in moved.items() if mm > MAX_MM or degrees > MAX_DEGREES}
     if wrong:
         what = ", ".join(f'"{name}" by {mm:.3g} mm and {degrees:.3g} degrees' for name, (mm, degrees) in wrong.items())

@@ -220,7 +220,8 @@ def test_a_scene_that_moves_in_single_precision_is_refused_by_name_the_second_ti
         ({"device": "cuda", "control": "levitation"}, "osc, joint_velocity, joint_position"),
         ({"device": "cuda", "reward": "huge"}, "sparse, dense"),
         ({"device": "cuda", "start_noise": float("nan")}, "0 to 0.5"),
-        ({"num_envs": 0, "device": "cuda"}, "whole number from 1"),
+        ({"num_envs": 0}, "whole number from 1"),
+        ({"device": "cuda", "max_episode_steps": 0}, "whole number from 1"),
     ],
 )
 def test_arguments_that_are_not_valid_are_refused_with_what_is(wrong, says):

@@ -55,6 +55,26 @@ def test_a_scene_without_an_export_is_exported_once_into_the_cache(cache):
     assert second.mjcf.stat().st_mtime_ns == written
 
 
+def test_processes_that_export_the_same_scene_at_once_do_not_take_each_other_s_files(cache, monkeypatch):
+    """While one writes, another is done and reads: its files stay."""
+    from pat3d.exporters import mjcf
+
+    write, before = mjcf.write_mjcf, []
+
+    def slowly(scene, folder, *rest, **options):
+        found = write(scene, folder, *rest, **options)
+        if not before:
+            before.append(None)
+            before[0] = {path: path.stat().st_ino for path in load(None).mjcf.parent.rglob("*") if path.is_file()}
+        return found
+
+    monkeypatch.setattr(mjcf, "write_mjcf", slowly)
+    second = load(None)
+    assert before[0]
+    assert {path: path.stat().st_ino for path in second.mjcf.parent.rglob("*") if path.is_file()} == before[0]
+    assert [path.name for path in second.mjcf.parents[1].iterdir()] == [second.mjcf.parent.name]
+
+
 def test_a_scene_that_moves_is_refused_by_name_and_drift_the_second_time_too(cache, folder):
     """The mug is lifted by 5 cm in the MJCF: it falls back, and both loads say so."""
     path = folder / "mjcf" / "scene.xml"
