@@ -61,7 +61,9 @@ def in_single_precision(model: Any) -> Any:
     """A copy of `model` whose contacts single precision resolves; masses, shapes, friction and time step are the same.
 
     Contacts lose their margins; stiff ones get `SOLREF` and `SOLIMP`. Friction cones are pyramids: MuJoCo Warp steps
-    them five times as fast as elliptic ones. Boxes collide by their own routine: the general one loses contacts of
+    them five times as fast as elliptic ones. A pyramid's friction is as soft as its normal force, where an elliptic
+    cone's is stiffer by impratio; so the soft contacts, which are the robot's, get as much closer to impedance 1, or
+    what a hand holds would creep out of it. Boxes collide by their own routine: the general one loses contacts of
     boxes that overlap by micrometres.
     """
     mujoco: Any = import_module("mujoco")
@@ -69,6 +71,7 @@ def in_single_precision(model: Any) -> Any:
     fit.geom_margin[:], fit.geom_gap[:] = 0.0, 0.0
     stiff = fit.geom_solref[:, 0] < SOLREF[0]
     fit.geom_solref[stiff], fit.geom_solimp[stiff] = SOLREF, SOLIMP
+    fit.geom_solimp[~stiff, :2] = 1.0 - (1.0 - fit.geom_solimp[~stiff, :2]) / model.opt.impratio
     fit.opt.ccd_tolerance = CCD_TOLERANCE
     fit.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_NATIVECCD)
     fit.opt.cone, fit.opt.impratio = mujoco.mjtCone.mjCONE_PYRAMIDAL, 1.0

@@ -71,9 +71,8 @@ def generate(
 ) -> Status:  # fmt: skip
     """Make the suite `request` in the folder `path`, or what is missing of it.
 
-    Settled one by one, as on a CPU, the same request gives the same suite bit for bit. On a GPU, scenes of a block
-    settle side by side, and what shares a block may decide the rounding: one worker that is not interrupted makes the
-    same blocks and the same bits again, and poses agree with those of other blocks or of a CPU to about 1e-9 m.
+    Settled on a CPU, the same request gives the same suite bit for bit. On a GPU, scenes of a block settle side by
+    side, sums are added in the order of its threads, and poses agree with those of another run to about 1e-9 m.
 
     Args:
         path: of the suite's folder.

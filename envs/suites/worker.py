@@ -57,8 +57,7 @@ def prepare_for(request: Request) -> None:
 
     keep_to_one_thread()
     make_robot(request.robot)
-    # On a GPU, sums in the order of its threads would change with every run.
-    prepare(request.device, deterministic=True)
+    prepare(request.device)
 
 
 def _listen(units: SimpleQueue[dict[str, Any]]) -> None:
