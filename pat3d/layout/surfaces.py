@@ -50,7 +50,12 @@ _STRATEGIES = (
 
 
 def arrange_flat(
-    items: Sequence[Item], laterals: Sequence[Lateral], surface: Surface, *, pinned: Mapping[str, Array] | None = None
+    items: Sequence[Item],
+    laterals: Sequence[Lateral],
+    surface: Surface,
+    *,
+    pinned: Mapping[str, Array] | None = None,
+    overhang: bool = True,
 ) -> dict[str, Spot] | None:
     """Where every item goes, or None where they do not fit.
 
@@ -59,10 +64,11 @@ def arrange_flat(
         laterals: relations among them.
         surface: what they stand on; positions are relative to its centre.
         pinned: items already at a position [m], shape (2,).
+        overhang: whether things may stand over the edge a little where they do not fit otherwise.
     """
     fixed = dict(pinned or {})
     for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
-        if _too_many(items, surface, strategy):
+        if (strategy.overhang and not overhang) or _too_many(items, surface, strategy):
             continue
         found = _Search(items, laterals, surface, fixed, strategy).run()
         if found is not None:
