@@ -153,8 +153,8 @@ def towel(style: Style) -> Build:
     return Build(parts=((Shape(cloth.solid, cover.hulls), style.colour()),), paint=((border, other),))
 
 
-@entry("toilet paper", family="bathroom", synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper",
-       "paper towel", "paper towel roll"), plurals=("rolls of toilet paper",), material="foam",
+@entry("toilet paper", family="bathroom", synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper"),
+       plurals=("rolls of toilet paper",), material="foam",
        colours=("white",))  # fmt: skip
 def toilet_paper(style: Style) -> Build:
     """A roll standing on its end, its cardboard core showing."""
