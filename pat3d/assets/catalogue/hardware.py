@@ -109,7 +109,6 @@ def gear(style: Style) -> Build:
     return Build(
         parts=((join(body, teeth), style.colour()),),
         paint=((Shape(groove, ()).moved(z=z - 0.001), dark),),
-        regions=(),
         mass=0.35,
     )
 
@@ -126,7 +125,7 @@ def steel_washer(style: Style) -> Build:
 def pipe(style: Style) -> Build:
     """A short pipe standing on its end, open through."""
     r, n = style.vary(0.03), style.vary(0.15)
-    return Build(parts=((_ring(r, 0.8 * r, n, 12), style.colour()),), regions=(disc_top(r, n),), mass=0.35)
+    return Build(parts=((_ring(r, 0.8 * r, n, 12), style.colour()),), mass=0.35)
 
 
 @entry("clamp", family="tools", synonyms=("g-clamp", "c-clamp", "c clamp", "g clamp", "large clamp",

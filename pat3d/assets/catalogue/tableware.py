@@ -56,7 +56,7 @@ def mug(style: Style) -> Build:
     )
 
 
-@entry("cup", family="tableware", synonyms=("paper cup", "plastic cup", "drinking cup", "beaker"), material="ceramic",
+@entry("cup", family="tableware", synonyms=("paper cup", "plastic cup", "drinking cup"), material="ceramic",
        colours=("white", "blue", "orange", "turquoise", "green", "pink"), accents=("blue",))  # fmt: skip
 def cup(style: Style) -> Build:
     """A tapered cup without a handle; cups of any seed nest, each base resting on the ribs in the next."""
