@@ -325,3 +325,25 @@ def ironing_board(style: Style) -> Build:
         regions=(shelf_top(0.3 * x, y / 2 - 0.02, z, at=(0.18 * x, 0.0)),),
         mass=style.vary(5.5),
     )
+
+
+@entry("conveyor belt", family="appliances", material="metal", colours=("gray", "blue", "green"), accents=("black",),
+       synonyms=("conveyor", "conveyer belt", "belt conveyor"))  # fmt: skip
+def conveyor_belt(style: Style) -> Build:
+    """A level belt between two rails on four legs, its rollers at both ends; it stands still."""
+    x, y, z = style.vary(1.4, 0.04) * stretch(style)[0], style.vary(0.45, 0.03), style.vary(0.75, 0.03)
+    belt = box(x, y - 0.08, 0.05).moved(z=z - 0.05)
+    rails = [box(x, 0.03, 0.09).moved(0.0, s * (y / 2 - 0.015), z - 0.1) for s in (-1, 1)]
+    rollers = [
+        cylinder(0.03, y - 0.09, 12).turned("x", 90).moved(s * x / 2, (y - 0.09) / 2, z - 0.032) for s in (-1, 1)
+    ]
+    struts = [box(0.03, y - 0.04, 0.03).moved(s * (x / 2 - 0.12), 0.0, 0.18) for s in (-1, 1)]
+    stand = legs(x - 0.2, y - 0.005, z - 0.06, 0.04)
+    seams = [span((at, at + 0.004), (-0.45 * y, 0.45 * y), (z - 0.002, z + 0.001)) for at in (-0.3 * x, 0.0, 0.3 * x)]
+    return Build(
+        parts=((join(*rails), style.colour()), (join(stand, *struts), style.shade(style.colour(), 0.75)),
+               (belt, style.colour(1)), (join(*rollers), STEEL)),
+        paint=((drawn(together(seams)), GRAY),),
+        regions=(shelf_top(x / 2 - 0.02, y / 2 - 0.045, z),),
+        mass=style.vary(38.0),
+    )  # fmt: skip

@@ -136,7 +136,8 @@ def shampoo(style: Style) -> Build:
     )
 
 
-@entry("towel", family="bathroom", synonyms=("folded towel", "hand towel", "bath towel", "washcloth", "face cloth"),
+@entry("towel", family="bathroom", synonyms=("folded towel", "hand towel", "bath towel", "washcloth", "face cloth",
+       "dish towel", "dishcloth", "dish cloth", "tea towel", "kitchen towel", "cloth"),
        material="cotton", colours=("white", "teal", "pink", "beige", "blue"), accents=("white",))  # fmt: skip
 def towel(style: Style) -> Build:
     """A towel folded in four, its folds to the right, with a woven border."""

@@ -277,8 +277,7 @@ def deck_of_cards(style: Style) -> Build:
     )
 
 
-@entry("golf ball", family="basics", material="plastic", colours=("white", "orange"), synonyms=("racquetball",
-       "squash ball"))  # fmt: skip
+@entry("golf ball", family="basics", material="plastic", colours=("white", "orange"))
 def golf_ball(style: Style) -> Build:
     """A golf ball: 42.7 mm, 46 g, with dimples."""
     r = style.vary(0.02135, 0.003)
@@ -295,6 +294,17 @@ def golf_ball(style: Style) -> Build:
     marks = Shape(together([Shape(dimple.solid, ()) for dimple in dimples]).solid, ())
     return Build(
         parts=((resting_ball(r), style.colour()),), paint=((marks, style.shade(style.colour(), 0.82)),), mass=0.046
+    )
+
+
+@entry("racquetball", family="basics", material="rubber", colours=("blue", "black"), synonyms=("squash ball",
+       "rubber ball"))  # fmt: skip
+def racquetball(style: Style) -> Build:
+    """A hollow rubber ball: 55.3 mm, 41 g, with its seam."""
+    r = style.vary(0.02765, 0.005)
+    seam = unseen(box(1, 1, 0.0012)).turned("x", 24).moved(z=r)
+    return Build(
+        parts=((resting_ball(r), style.colour()),), paint=((seam, style.shade(style.colour(), 0.7)),), mass=0.041
     )
 
 
@@ -325,8 +335,7 @@ def pool_ball(style: Style) -> Build:
     return Build(parts=((resting_ball(r), style.colour()),), paint=((spot_, style.colour(1)), (bar, BLACK)), mass=0.165)
 
 
-@entry("bowling ball", family="basics", material="plastic", colours=("blue", "black", "purple", "red"),
-       synonyms=("medicine ball",))  # fmt: skip
+@entry("bowling ball", family="basics", material="plastic", colours=("blue", "black", "purple", "red"))
 def bowling_ball(style: Style) -> Build:
     """A bowling ball: 216 mm, 5.4 kg, with three finger holes to the eye."""
     r = style.vary(0.108, 0.005)

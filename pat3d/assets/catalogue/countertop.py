@@ -129,7 +129,7 @@ def blender(style: Style) -> Build:
 
 
 @entry("stand mixer", family="appliances", material="metal", colours=("red", "mint", "cream", "black"),
-       accents=("steel",), synonyms=("mixer", "kitchen mixer", "food mixer", "food processor"))  # fmt: skip
+       accents=("steel",), synonyms=("mixer", "kitchen mixer", "food mixer"))  # fmt: skip
 def stand_mixer(style: Style) -> Build:
     """A tilt-head mixer facing left, its steel bowl under the beater."""
     k, colour = style.vary(1.0, 0.04), style.colour()

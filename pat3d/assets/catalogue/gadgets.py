@@ -74,8 +74,8 @@ def power_strip(style: Style) -> Build:
 
 
 @entry("extension cord", family="electronics", synonyms=("cable", "usb cable", "power cord", "charging cable",
-       "power cable", "electric cable", "extension cable", "cord", "rope", "coil of rope", "coil of cable"),
-       material="rubber", colours=("orange", "black", "white"), accents=("black",))  # fmt: skip
+       "power cable", "electric cable", "extension cable", "cord", "coil of cable"), material="rubber",
+       colours=("orange", "black", "white"), accents=("black",))  # fmt: skip
 def extension_cord(style: Style) -> Build:
     """A cable wound into a tied coil lying flat, its plug in front."""
     r = style.vary(0.085)
@@ -86,6 +86,15 @@ def extension_cord(style: Style) -> Build:
     return Build(
         parts=((coil, style.colour()), (tie, other), (plug, style.colour()), (pins, STEEL)), mass=style.vary(0.4)
     )
+
+
+@entry("rope", family="tools", synonyms=("coil of rope", "string", "coiled rope"), material="cotton", colours=("beige",
+       "orange", "white"), accents=("brown",))  # fmt: skip
+def rope(style: Style) -> Build:
+    """A rope wound into a tied coil lying flat."""
+    coil, tie = _coil(style.vary(0.075), 0.011, 3)
+    other = style.colour(1) if style.colour(1) != style.colour() else GRAY
+    return Build(parts=((coil, style.colour()), (tie, other)), mass=style.vary(0.2))
 
 
 @entry("usb stick", family="electronics", synonyms=("flash drive", "thumb drive", "usb drive", "memory stick",
@@ -190,18 +199,29 @@ def tripod(style: Style) -> Build:
     )
 
 
-@entry("battery", family="electronics", synonyms=("aa battery", "batteries pack", "d battery", "dry cell"),
-       plurals=("batteries",), material="metal", colours=("black", "red", "blue"), accents=("copper",
-       "gold"))  # fmt: skip
+@entry("battery", family="electronics", synonyms=("d battery", "dry cell"), plurals=("batteries",), material="metal",
+       colours=("black", "red", "blue"), accents=("copper", "gold"))  # fmt: skip
 def battery(style: Style) -> Build:
     """A round D cell standing on its flat end."""
-    r, z = style.vary(0.0165, 0.02), style.vary(0.058, 0.02)
+    return _cell(style, style.vary(0.0165, 0.02), style.vary(0.058, 0.02), 0.14)
+
+
+@entry("aa battery", family="electronics", synonyms=("double-a battery", "penlight battery"),
+       plurals=("aa batteries",), material="metal", colours=("black", "red", "blue"), accents=("copper",
+       "gold"))  # fmt: skip
+def aa_battery(style: Style) -> Build:
+    """A round AA cell standing on its flat end."""
+    return _cell(style, style.vary(0.0071, 0.02), style.vary(0.049, 0.02), 0.023)
+
+
+def _cell(style: Style, r: float, z: float, mass: float) -> Build:
+    """An upright round cell of radius r and height z [m], its positive end up."""
     cell, tip = cylinder(r, z), cylinder(0.3 * r, 0.003, 8).moved(z=z - 0.0005)
     top = span((-1, 1), (-1, 1), (0.74 * z, 1))
     return Build(
         parts=((cell, style.colour()), (tip, STEEL)),
         paint=((drawn(Shape(top.solid ^ cylinder(2 * r, z - 0.001).solid, ())), style.colour(1)),),
-        mass=0.14,
+        mass=mass,
     )
 
 

@@ -96,6 +96,9 @@ def soda_can(style: Style) -> Build:
 @entry("milk carton", family="kitchen", synonyms=("carton of milk", "milk", "juice carton", "juice box"),
        plurals=("cartons of milk",), material="cardboard", colours=("white", "blue", "green"),
        accents=("blue", "white"))  # fmt: skip
+@entry("orange juice", family="kitchen", synonyms=("orange juice carton", "carton of orange juice",
+       "carton of juice"), plurals=("cartons of juice",), material="cardboard",
+       colours=("orange",), accents=("white", "green"))  # fmt: skip
 def milk_carton(style: Style) -> Build:
     """A full gable-top carton with a cap."""
     w, h = style.vary(0.072), height(style, 0.195)

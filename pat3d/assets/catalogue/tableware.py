@@ -197,7 +197,8 @@ def fork(style: Style) -> Build:
     return Build(parts=((shape, style.colour()),))
 
 
-@entry("knife", family="tableware", synonyms=("table knife", "kitchen knife", "dinner knife", "chef's knife"),
+@entry("knife", family="tableware", synonyms=("table knife", "kitchen knife", "dinner knife", "chef's knife",
+       "bread knife", "butter knife", "steak knife", "paring knife"),
        plurals=("knives", "table knives", "kitchen knives"), material="steel", colours=("black", "brown", "red"),
        accents=("steel",))  # fmt: skip
 def knife(style: Style) -> Build:

@@ -105,10 +105,10 @@ def baseball_bat(style: Style) -> Build:
         (0.0325, 0.46 * n),
         (0.022, n / 2),
     ]
-    barrel = lathe(profile, cuts=(-n / 2 + 0.024, -0.1 * n), angles=(0.0, 20.0), sides=8).turned("y", 90)
+    barrel = lathe(profile, cuts=(-n / 2 + 0.024, -0.1 * n), angles=(0.0, 20.0), sides=6).turned("y", 90)
     heights = [hull[:, 2].min() for hull in barrel.hulls]
     low = -min(heights)
-    heel = box(0.02, 0.02, low + float(heights[0]) + 0.004).moved(-n / 2 + 0.012, 0.0, 0.0)
+    heel = box(0.03, 0.036, low + float(heights[0]) + 0.004).moved(-n / 2 + 0.012, 0.0, 0.0)
     grip = span((-n / 2 + 0.02, -0.2 * n), (-1, 1), (-1, 1))
     return Build(
         parts=((barrel.moved(z=low), style.colour()), (heel, style.colour(1))),
