@@ -177,7 +177,7 @@ FLOOR = (
     "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
-    "kitchen island", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt",
+    "kitchen island", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
 )  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = (
@@ -222,7 +222,7 @@ FRUIT = (
 )  # fmt: skip
 WIDER = {"bowl": "fruit bowl"}
 """What a vessel becomes when it holds fruit or more than two things."""
-OPENED = {"box": "storage box"}
+OPENED = {"box": "storage box", "toolbox": "open toolbox"}
 """What a closed thing becomes when the prompt puts something in it."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder",
           "beaker", "flask", "graduated cylinder")  # fmt: skip
@@ -239,7 +239,8 @@ NOT_ON_DISH = (
     "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",
 )  # fmt: skip
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
-        "cutting board", "table", "towel", "pillow", "cushion")  # fmt: skip
+        "cutting board", "table", "towel", "pillow", "cushion", "yoga mat", "mouse pad",
+        "trivet", "chessboard")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")

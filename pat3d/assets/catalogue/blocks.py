@@ -43,8 +43,8 @@ def wood_block(style: Style) -> Build:
 @entry("foam brick", family="basics", material="foam", colours=("red", "terracotta", "blue"), synonyms=("foam block",
        "sponge brick", "toy foam brick", "soft brick"))  # fmt: skip
 def foam_brick(style: Style) -> Build:
-    """The foam brick of the YCB set, lying: 78 by 53 by 51 mm, 28 g, with three holes to the eye."""
-    x, y, z = style.vary(0.078, 0.01), style.vary(0.053, 0.01), style.vary(0.051, 0.01)
+    """The foam brick of the YCB set, lying: 75 by 50 by 50 mm, 28 g, with three holes to the eye."""
+    x, y, z = style.vary(0.075, 0.01), style.vary(0.05, 0.01), style.vary(0.05, 0.01)
     body = box(x, y, z)
     holes = [Shape(cylinder(0.0085, 1).moved(s * 0.29 * x, 0.0, -0.5).solid, ()) for s in (-1, 0, 1)]
     return Build(
@@ -174,7 +174,7 @@ def disc_(style: Style) -> Build:
 
 
 @entry("peg board", family="basics", material="wood", colours=("wood", "tan"), synonyms=("pegboard", "peg stand",
-       "peg base", "nine hole peg test"))  # fmt: skip
+       "peg base"))  # fmt: skip
 def peg_board(style: Style) -> Build:
     """A board with three upright pegs in a row, for rings and nuts."""
     x, y, z = style.vary(0.3, 0.03), style.vary(0.12, 0.03), 0.02

@@ -268,7 +268,7 @@ def power_bank(style: Style) -> Build:
        colours=("white", "red", "mint"), accents=("black",))  # fmt: skip
 def timer(style: Style) -> Build:
     """A digital timer standing on its lower edge, its display to the front."""
-    x, z, y = style.vary(0.085, 0.03), style.vary(0.08, 0.03), style.vary(0.04, 0.03)
+    x, z, y = style.vary(0.085, 0.02), style.vary(0.08, 0.02), style.vary(0.036, 0.02)
     body = padded(x, y, z, 0.008)
     screen = span((-0.38 * x, 0.38 * x), (-1, -y / 2 + 0.006), (0.5 * z, 0.86 * z))
     digits = join(

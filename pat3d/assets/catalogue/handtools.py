@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pat3d.assets.catalogue.joinery import (
     STEEL,
+    cavity,
     drawn,
     lying,
     padded,
@@ -11,7 +12,7 @@ from pat3d.assets.catalogue.joinery import (
 )
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
 from pat3d.assets.rounded import lathe, slab
-from pat3d.assets.shapes import box, convex, join, prism
+from pat3d.assets.shapes import box, convex, join, prism, tray
 
 DARK_STEEL: RGB = (112, 116, 124)
 
@@ -219,3 +220,22 @@ def paint_roller(style: Style) -> Build:
     )
     grip = lying(r - 0.006, 0.12, sides=8).turned("z", 90).moved(0.0, -0.205)
     return Build(parts=((sleeve, style.colour()), (wire, STEEL), (grip, style.colour(1))), mass=0.26)
+
+
+@entry("open toolbox", family="tools", material="metal", colours=("red", "blue", "gray"), accents=("black",),
+       plurals=("open toolboxes",), synonyms=("tool tote", "tool tray", "tool caddy"))  # fmt: skip
+def open_toolbox(style: Style) -> Build:
+    """A tool tray without a lid: two compartments under a carrying bar."""
+    x, y, z = style.vary(0.42), style.vary(0.24), style.vary(0.12)
+    wall, floor, colour = 0.006, 0.006, style.colour()
+    divider = box(x - 2 * wall + 0.001, 0.012, 0.12).moved(z=0.0)
+    posts = [box(0.016, 0.012, 0.12).moved(s * (x / 2 - 0.011), 0.0, 0.1) for s in (-1, 1)]
+    bar = padded(x - 0.006, 0.026, 0.024, 0.009).moved(z=0.205)
+    half = (y / 2 - wall - 0.006) / 2
+    return Build(
+        parts=((join(tray(x, y, z, wall, floor), divider), colour), (join(*posts, bar), style.colour(1))),
+        regions=tuple(
+            cavity(x / 2 - wall - 0.001, half - 0.008, floor, z - floor, at=(0.0, s * (half + 0.014))) for s in (-1, 1)
+        ),
+        mass=style.vary(1.9),
+    )

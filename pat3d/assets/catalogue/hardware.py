@@ -201,7 +201,7 @@ def spirit_level(style: Style) -> Build:
        accents=("steel",))  # fmt: skip
 def padlock(style: Style) -> Build:
     """A closed padlock standing on its body."""
-    x, z, y = style.vary(0.047, 0.03), style.vary(0.038, 0.03), style.vary(0.024, 0.03)
+    x, z, y = style.vary(0.047, 0.01), style.vary(0.036, 0.01), style.vary(0.024, 0.01)
     body = slab(x, y, z, 0.006)
     path = [
         (-0.3 * x, 0, z - 0.003),

@@ -69,24 +69,24 @@ def yoga_block(style: Style) -> Build:
 
 
 @entry("yoga mat", family="outdoor", material="rubber", colours=("purple", "teal", "blue", "pink"),
-       synonyms=("rolled yoga mat", "exercise mat", "gym mat"))  # fmt: skip
+       synonyms=("exercise mat", "gym mat"))  # fmt: skip
 def yoga_mat(style: Style) -> Build:
-    """A rolled mat standing on its end, its spiral showing."""
+    """A mat spread on the floor with a seam around it; when rolled, standing on its end with its spiral showing."""
+    main, dark = style.colour(), style.shade(style.colour(), 0.7)
+    if "rolled" not in style.adjectives:
+        x, y, z = style.vary(1.73, 0.03), style.vary(0.61, 0.03), 0.006
+        edge = Shape(box(2, 2, 1).solid - box(x - 0.03, y - 0.03, 3).moved(z=-1).solid, ())
+        return Build(
+            parts=((box(x, y, z), main),), paint=((edge, dark),), regions=(shelf_top(x / 2, y / 2, z),), mass=1.1
+        )
     r, z = style.vary(0.058), style.vary(0.61, 0.03)
-    main = style.colour()
-    rings = together(
-        [
-            Shape(cylinder(a, 1).solid - cylinder(a - 0.0022, 3).moved(z=-1).solid, ()).moved(z=z - 0.001)
-            for a in np.arange(0.012, 0.95 * r, 0.009)
-        ]
-    )
+    discs = [
+        (cylinder(a, 1).solid, cylinder(a - 0.0022, 3).moved(z=-1).solid) for a in np.arange(0.012, 0.95 * r, 0.009)
+    ]
+    rings = together([Shape(outer - inner, ()).moved(z=z - 0.001) for outer, inner in discs])
     flap = unseen(box(0.0025, 0.02, 3)).moved(0.2 * r, -r, -1)
-    bands = together([Shape(box(1, 1, 0.025).solid, ()).moved(z=t * z) for t in (0.22, 0.74)])
     return Build(
-        parts=((cylinder(r, z), main),),
-        paint=((rings, style.shade(main, 0.6)), (flap, style.shade(main, 0.6)), (bands, style.shade(main, 0.78))),
-        regions=(disc_top(r, z),),
-        mass=1.1,
+        parts=((cylinder(r, z), main),), paint=((rings, dark), (flap, dark)), regions=(disc_top(r, z),), mass=1.1
     )
 
 

@@ -213,7 +213,7 @@ def knife_block(style: Style) -> Build:
        "plate rack"), material="steel", colours=("steel", "black", "white"))  # fmt: skip
 def dish_rack(style: Style) -> Build:
     """An open rack of wires on a drip tray: a basin for dishes."""
-    x, y, h, floor = length(style, 0.42, 0.03), style.vary(0.3, 0.03), style.vary(0.12, 0.03), 0.022
+    x, y, h, floor = length(style, 0.45, 0.02), style.vary(0.34, 0.02), style.vary(0.12, 0.03), 0.022
     low = box(x, y, floor)
     posts = [
         box(0.007, 0.007, h - 0.001).moved(s * (x / 2 - 0.0035), t * (y / 2 - 0.0035)) for s in (-1, 1) for t in (-1, 1)
