@@ -19,8 +19,8 @@ from pat3d.assets.catalogue.joinery import (
 )
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.colours import COLOURS
-from pat3d.assets.rounded import slab, tube, unseen
-from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, prism, tray
+from pat3d.assets.rounded import merged, slab, spot, tube, unseen
+from pat3d.assets.shapes import Shape, box, convex, cylinder, join, prism, tray
 
 TOY = ("red", "blue", "yellow", "green", "orange", "purple")
 
@@ -285,13 +285,10 @@ def golf_ball(style: Style) -> Build:
     dimples = []
     for k in range(130):
         z = 1 - 2 * (k + 0.5) / 130
-        flat = math.sqrt(1 - z * z)
-        dimples.append(
-            unseen(ellipsoid(0.0012)).moved(
-                1.005 * r * flat * math.cos(golden * k), 1.005 * r * flat * math.sin(golden * k), r + 1.005 * r * z
-            )
-        )
-    marks = Shape(together([Shape(dimple.solid, ()) for dimple in dimples]).solid, ())
+        turn, flat = golden * k, math.sqrt(1 - z * z)
+        x, y, up = (1.005 * r * part for part in (flat * math.cos(turn), flat * math.sin(turn), 1 + z))
+        dimples.append(spot(0.0012).moved(x, y, up))
+    marks = merged(dimples)
     return Build(
         parts=((resting_ball(r), style.colour()),), paint=((marks, style.shade(style.colour(), 0.82)),), mass=0.046
     )
