@@ -75,7 +75,8 @@ def razor(style: Style) -> Build:
     )
 
 
-@entry("soap", family="bathroom", synonyms=("bar of soap", "soap bar", "bar"), plurals=("bars of soap", "soap bars"),
+@entry("soap", family="bathroom", synonyms=("bar of soap", "soap bar", "bar soap", "bar"),
+       plurals=("bars of soap", "soap bars"),
        material="soap", colours=("white", "beige", "mint", "pink"))  # fmt: skip
 def soap(style: Style) -> Build:
     """A rounded bar with a stamped oval."""

@@ -151,8 +151,9 @@ def tissue_box(style: Style) -> Build:
     )
 
 
-@entry("basket", family="kitchen", synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket"),
-       material="wicker", colours=("wicker", "tan", "brown"), accents=("brown",))  # fmt: skip
+@entry("basket", family="kitchen", synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket",
+       "picnic basket", "shopping basket"), material="wicker",
+       colours=("wicker", "tan", "brown"), accents=("brown",))  # fmt: skip
 def basket(style: Style) -> Build:
     """A round woven basket, open at the top, wide enough for five fruits."""
     r, h, wall = length(style, 0.155, 0.03), height(style, 0.115, 0.04), 0.009

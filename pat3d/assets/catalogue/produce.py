@@ -163,7 +163,7 @@ def corn(style: Style) -> Build:
     low = -float(np.concatenate(cob.hulls)[:, 2].min())
     cob = cob.moved(z=low)
     lines = [box(0.0014, 1, 1).moved(x=x, z=-0.5) for x in np.arange(-0.34 * n, 0.5 * n, 0.0075)]
-    rows = [box(1, 0.0012, 1).moved(z=-0.5).turned("x", turn).moved(z=r) for turn in np.arange(0, 180, 15)]
+    rows = [box(1, 0.0012, 1).moved(z=-0.5).turned("x", turn).moved(z=r) for turn in range(0, 180, 15)]
     husk = lathe([(1.06 * r, -0.34 * n), (0.5 * r, -0.5 * n), (0.3 * r, -0.62 * n)][::-1], angles=(0.0, -25.0)).turned(
         "y", 90
     )

@@ -107,8 +107,8 @@ def waffle(style: Style) -> Build:
     )
 
 
-@entry("bun", family="food", synonyms=("bread roll", "dinner roll", "burger bun", "bread bun", "hamburger bun"),
-       material="bread", colours=("bread", "golden"))  # fmt: skip
+@entry("bun", family="food", synonyms=("bread roll", "dinner roll", "burger bun", "bread bun", "hamburger bun",
+       "hot dog bun", "hotdog bun"), material="bread", colours=("bread", "golden"))  # fmt: skip
 def bun(style: Style) -> Build:
     """A round roll with a cross cut in its top."""
     r = style.vary(0.045)

@@ -342,7 +342,8 @@ def cardboard_sheet(style: Style) -> Build:
 
 
 @entry("drawer organizer", family="storage", material="bamboo", colours=("bamboo", "white", "gray"),
-       synonyms=("drawer organiser", "desk organizer", "desk organiser", "organizer", "organizer tray"))  # fmt: skip
+       synonyms=("drawer organiser", "desk organizer", "desk organiser", "organizer", "organizer tray",
+                 "cutlery tray", "utensil tray", "silverware tray"))  # fmt: skip
 def drawer_organizer(style: Style) -> Build:
     """A flat tray with three compartments."""
     x, y, z = style.vary(0.34), style.vary(0.24), style.vary(0.055)
