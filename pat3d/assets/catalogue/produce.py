@@ -52,7 +52,7 @@ def avocado(style: Style) -> Build:
     """A dark avocado lying on its side."""
     k = style.vary(1.0)
     body = _egg(0.052 * k, 0.033 * k, 0.033 * k, 0.3)
-    dark = style.shade(style.colour(), 0.7)
+    dark = style.shade(style.colour(), 0.75)
     fine = _speckles(style, 70, (0.05 * k, 0.033 * k, 0.033 * k), 0.0016)
     return Build(
         parts=((body, dark),), paint=((fine, style.colour()), (spot(0.007).moved(x=0.052 * k, z=0.033 * k), STALK))
