@@ -177,15 +177,18 @@ FLOOR = (
     "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
+    "kitchen island", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
 )  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = (
     "table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
     "tv stand", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
+    "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard",
 )  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
-DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat")
+DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat",
+          "baking tray", "trivet")  # fmt: skip
 """What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
 HOLLOW = (
     "colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box",
@@ -194,6 +197,9 @@ HOLLOW = (
     "pencil case", "pencil cup", "tumbler", "storage bin", "laundry basket", "goblet", "pitcher", "jug",
     "fish bowl", "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl", "mixing bowl", "hamper",
     "picnic basket", "pail", "casserole", "frying pan", "cooking pot", "flower pot",
+    "sink", "dish rack", "measuring cup", "measuring spoon", "beaker", "flask", "graduated cylinder", "petri dish",
+    "lunch box", "ice cube tray", "ramekin", "mortar", "baking dish", "coffee pot", "creamer", "paper bag",
+    "cube tray",
 )  # fmt: skip
 BOWLS = ("bowl", "fruit bowl", "mixing bowl", "fish bowl", "pan", "frying pan", "saucepan", "pot", "cooking pot",
          "soap dish", "casserole")  # fmt: skip
@@ -201,11 +207,13 @@ BOWLS = ("bowl", "fruit bowl", "mixing bowl", "fish bowl", "pan", "frying pan", 
 LARGE_VESSELS = (
     "basket", "crate", "box", "bin", "bucket", "pool", "inflatable pool", "laundry basket", "hamper", "storage box",
     "storage bin", "trash can", "wastebasket", "picnic basket", "shopping basket", "planter",
+    "sink", "dish rack", "paper bag", "cube tray",
 )  # fmt: skip
 NOT_IN_VESSEL = (
     "lamp", "table lamp", "desk lamp", "floor lamp", "lantern", "fire extinguisher", "monitor", "television",
     "computer", "laptop", "printer", "microwave", "guitar", "globe", "aquarium", "radio", "vase", "potted plant",
     "bag", "handbag", "backpack", "suitcase", "briefcase", "toaster", "blender", "keyboard",
+    "coffee machine", "stand mixer", "air fryer", "rice cooker", "toaster oven", "microscope", "game console",
 )  # fmt: skip
 """What a list after a vessel never puts into it: too large, or made to stand by itself."""
 FRUIT = (
@@ -214,14 +222,16 @@ FRUIT = (
 )  # fmt: skip
 WIDER = {"bowl": "fruit bowl"}
 """What a vessel becomes when it holds fruit or more than two things."""
-OPENED = {"box": "storage box"}
+OPENED = {"box": "storage box", "toolbox": "open toolbox"}
 """What a closed thing becomes when the prompt puts something in it."""
-NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder")
+NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder",
+          "beaker", "flask", "graduated cylinder")  # fmt: skip
 SLENDER = (
     "pen", "pencil", "ruler", "scissors", "toothbrush", "toothpaste", "razor", "spoon", "fork", "knife", "flower",
     "bouquet", "brush", "straw", "chopstick", "chopsticks", "candle", "wand", "spatula", "whisk", "plant", "marker",
     "comb", "rose", "tulip", "crayon", "paintbrush", "ladle", "screwdriver", "wrench", "sunflower", "daisy", "eraser",
     "hairbrush", "candy cane", "lollipop", "twig", "branch", "stylus", "highlighter", "tongs", "feather", "umbrella",
+    "peeler", "pipette", "test tube", "syringe", "chisel", "pizza cutter", "rod",
 )  # fmt: skip
 """What a narrow vessel holds; anything else in a list after it stands outside."""
 NOT_ON_DISH = (
@@ -229,7 +239,8 @@ NOT_ON_DISH = (
     "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",
 )  # fmt: skip
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
-        "cutting board", "table", "towel", "pillow", "cushion")  # fmt: skip
+        "cutting board", "table", "towel", "pillow", "cushion", "yoga mat", "mouse pad",
+        "trivet", "chessboard")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")

@@ -13,7 +13,7 @@ from pat3d.assets.catalogue.joinery import padded, resting_ball, wrapped
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import convex
 
-FAMILIES = ("basics", "desk", "electronics", "furniture", "room", "storage", "tools")
+FAMILIES = ("appliances", "basics", "desk", "electronics", "furniture", "room", "storage", "tools")
 NOUNS = [made.noun for made in entries() if made.family in FAMILIES]
 _CACHE: dict[tuple, Asset] = {}
 

@@ -14,7 +14,7 @@ from pat3d.assets.catalogue import entries, find, make
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import SMOOTH_SEGMENTS
 
-FAMILIES = ("bathroom", "decor", "food", "kitchen", "tableware")
+FAMILIES = ("bathroom", "decor", "food", "grocery", "household", "kitchen", "laboratory", "tableware")
 NOUNS = [entry.noun for entry in entries() if entry.family in FAMILIES]
 
 # Longest side [m] and mass [kg] that a person would find plausible.

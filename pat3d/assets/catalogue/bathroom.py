@@ -75,7 +75,8 @@ def razor(style: Style) -> Build:
     )
 
 
-@entry("soap", family="bathroom", synonyms=("bar of soap", "soap bar", "bar"), plurals=("bars of soap", "soap bars"),
+@entry("soap", family="bathroom", synonyms=("bar of soap", "soap bar", "bar soap", "bar"),
+       plurals=("bars of soap", "soap bars"),
        material="soap", colours=("white", "beige", "mint", "pink"))  # fmt: skip
 def soap(style: Style) -> Build:
     """A rounded bar with a stamped oval."""
@@ -136,7 +137,8 @@ def shampoo(style: Style) -> Build:
     )
 
 
-@entry("towel", family="bathroom", synonyms=("folded towel", "hand towel", "bath towel", "washcloth", "face cloth"),
+@entry("towel", family="bathroom", synonyms=("folded towel", "hand towel", "bath towel", "washcloth", "face cloth",
+       "dish towel", "dishcloth", "dish cloth", "tea towel", "kitchen towel", "cloth"),
        material="cotton", colours=("white", "teal", "pink", "beige", "blue"), accents=("white",))  # fmt: skip
 def towel(style: Style) -> Build:
     """A towel folded in four, its folds to the right, with a woven border."""
@@ -153,8 +155,8 @@ def towel(style: Style) -> Build:
     return Build(parts=((Shape(cloth.solid, cover.hulls), style.colour()),), paint=((border, other),))
 
 
-@entry("toilet paper", family="bathroom", synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper",
-       "paper towel", "paper towel roll"), plurals=("rolls of toilet paper",), material="foam",
+@entry("toilet paper", family="bathroom", synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper"),
+       plurals=("rolls of toilet paper",), material="foam",
        colours=("white",))  # fmt: skip
 def toilet_paper(style: Style) -> Build:
     """A roll standing on its end, its cardboard core showing."""

@@ -156,7 +156,7 @@ def workbench(style: Style) -> Build:
 
 
 @entry("chair", family="furniture", material="wood", colours=("wood", "brown", "tan"),
-       synonyms=("dining chair", "kitchen chair", "side chair", "desk chair"))  # fmt: skip
+       synonyms=("dining chair", "kitchen chair", "side chair", "desk chair", "office chair"))  # fmt: skip
 def chair(style: Style) -> Build:
     """A wooden chair with a slatted back."""
     x, y, seat, top = style.vary(0.44), style.vary(0.43), style.vary(0.45, 0.03), style.vary(0.88, 0.03)

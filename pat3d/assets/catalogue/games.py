@@ -13,7 +13,8 @@ from pat3d.assets.shapes import Shape, box, cylinder, ellipsoid, join, soft_box
 _Axis = Literal["x", "y", "z"]
 
 
-@entry("toy brick", family="toys", synonyms=("lego brick", "lego", "lego block", "plastic brick", "building brick"),
+@entry("toy brick", family="toys", synonyms=("lego brick", "lego", "lego block", "plastic brick", "building brick",
+       "lego duplo", "duplo block", "duplo"),
        colours=("red", "blue", "yellow", "green", "white"))  # fmt: skip
 def toy_brick(style: Style) -> Build:
     """A large plastic building brick with two rows of four studs, 6.4 cm long."""

@@ -99,11 +99,22 @@ def kettle(style: Style) -> Build:
     return Build(parts=((body, main), (lid, main), (knob, dark), (spout, main), (handle, dark)), mass=1.1)
 
 
-@entry("pitcher", family="kitchen", synonyms=("jug", "water jug", "milk jug", "carafe"), material="ceramic",
+@entry("pitcher", family="kitchen", synonyms=("jug", "water jug", "carafe", "pitcher base"), material="ceramic",
        colours=("white", "blue", "mint", "yellow"), accents=("blue",))  # fmt: skip
 def pitcher(style: Style) -> Build:
     """An open jug with a lip on its left and a handle on its right."""
-    r, h = style.vary(0.06), height(style, 0.2)
+    return _jug(style, style.vary(0.06), height(style, 0.2))
+
+
+@entry("creamer", family="kitchen", synonyms=("milk jug", "cream jug", "milk pitcher", "small jug", "gravy boat"),
+       material="porcelain", colours=("white", "cream", "blue"), accents=("blue",))  # fmt: skip
+def creamer(style: Style) -> Build:
+    """A small jug for milk or cream."""
+    return _jug(style, style.vary(0.036), height(style, 0.09))
+
+
+def _jug(style: Style, r: float, h: float) -> Build:
+    """An open jug of belly radius `r` and height `h` [m], its lip on its left."""
     outer = [(0.74 * r, 0), (0.98 * r, 0.22 * h), (r, 0.36 * h), (0.76 * r, 0.75 * h), (0.85 * r, h)]
     inner = [(0.68 * r, 0.009), (0.91 * r, 0.23 * h), (0.92 * r, 0.36 * h), (0.69 * r, 0.75 * h), (0.79 * r, h)]
     body = hollow(outer, inner, levels=(0.5 * h,), segments=8)
@@ -135,7 +146,7 @@ def pot(style: Style) -> Build:
     )
 
 
-@entry("pan", family="kitchen", synonyms=("frying pan", "skillet", "saute pan"), material="iron",
+@entry("pan", family="kitchen", synonyms=("frying pan", "skillet", "saute pan", "frypan"), material="iron",
        colours=("black", "gray"), accents=("brown",))  # fmt: skip
 def pan(style: Style) -> Build:
     """A frying pan with a long handle on its right."""
@@ -153,7 +164,12 @@ def pan(style: Style) -> Build:
 
 
 @entry(
-    "lid", family="kitchen", synonyms=("pot lid", "pan lid"), material="steel", colours=("steel",), accents=("black",)
+    "lid",
+    family="kitchen",
+    synonyms=("pot lid", "pan lid", "skillet lid"),
+    material="steel",
+    colours=("steel",),
+    accents=("black",),
 )
 def lid(style: Style) -> Build:
     """A flat domed lid with a knob."""

@@ -96,6 +96,9 @@ def soda_can(style: Style) -> Build:
 @entry("milk carton", family="kitchen", synonyms=("carton of milk", "milk", "juice carton", "juice box"),
        plurals=("cartons of milk",), material="cardboard", colours=("white", "blue", "green"),
        accents=("blue", "white"))  # fmt: skip
+@entry("orange juice", family="kitchen", synonyms=("orange juice carton", "carton of orange juice",
+       "carton of juice"), plurals=("cartons of juice",), material="cardboard",
+       colours=("orange",), accents=("white", "green"))  # fmt: skip
 def milk_carton(style: Style) -> Build:
     """A full gable-top carton with a cap."""
     w, h = style.vary(0.072), height(style, 0.195)
@@ -148,8 +151,9 @@ def tissue_box(style: Style) -> Build:
     )
 
 
-@entry("basket", family="kitchen", synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket"),
-       material="wicker", colours=("wicker", "tan", "brown"), accents=("brown",))  # fmt: skip
+@entry("basket", family="kitchen", synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket",
+       "picnic basket", "shopping basket"), material="wicker",
+       colours=("wicker", "tan", "brown"), accents=("brown",))  # fmt: skip
 def basket(style: Style) -> Build:
     """A round woven basket, open at the top, wide enough for five fruits."""
     r, h, wall = length(style, 0.155, 0.03), height(style, 0.115, 0.04), 0.009

@@ -43,7 +43,7 @@ GREENS: tuple[RGB, ...] = ((76, 142, 74), (58, 118, 62), (100, 160, 84))
 
 
 @entry("rug", family="room", material="wool", colours=("burgundy", "beige", "navy", "teal"), accents=("cream",),
-       synonyms=("carpet", "mat", "area rug", "floor mat", "doormat", "throw rug"))  # fmt: skip
+       synonyms=("carpet", "mat", "area rug", "floor mat", "doormat", "throw rug", "bath mat"))  # fmt: skip
 def rug(style: Style) -> Build:
     """A thin rug with a border; a disc when round."""
     wide, deep, _ = stretch(style)

@@ -140,7 +140,7 @@ def ruler(style: Style) -> Build:
 
 
 @entry("eraser", family="desk", material="rubber", colours=("pink", "white"), accents=("blue",),
-       synonyms=("rubber eraser", "pencil eraser"))  # fmt: skip
+       synonyms=("rubber eraser", "pencil eraser", "whiteboard eraser", "blackboard eraser"))  # fmt: skip
 def eraser(style: Style) -> Build:
     """A block eraser in a paper sleeve."""
     x, y, z = style.vary(0.055), style.vary(0.022), style.vary(0.012)
@@ -195,7 +195,8 @@ def stapler(style: Style) -> Build:
 
 
 @entry("tape", family="desk", material="plastic", colours=("yellow", "tan", "silver", "blue"), accents=("cardboard",),
-       synonyms=("roll of tape", "tape roll", "duct tape", "masking tape", "sticky tape", "adhesive tape"))  # fmt: skip
+       synonyms=("roll of tape", "tape roll", "duct tape", "masking tape", "sticky tape", "adhesive tape",
+                 "electrical tape", "packing tape", "scotch tape"))  # fmt: skip
 def tape(style: Style) -> Build:
     """A roll of tape lying on its side, open through its core."""
     outer, inner, z = style.vary(0.05), style.vary(0.035), style.vary(0.032, 0.15)

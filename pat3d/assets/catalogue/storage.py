@@ -111,7 +111,8 @@ def _case(style: Style, x: float, y: float, z: float, *, columns: int, rows: int
 
 
 @entry("cabinet", family="storage", material="wood", colours=WOODS, accents=("black",),
-       synonyms=("cupboard", "sideboard", "credenza", "storage cabinet", "buffet cabinet"))  # fmt: skip
+       synonyms=("cupboard", "sideboard", "credenza", "storage cabinet", "buffet cabinet",
+                 "kitchen cabinet", "bathroom cabinet", "wall cabinet"))  # fmt: skip
 def cabinet(style: Style) -> Build:
     """A low cabinet with two doors."""
     return _case(style, 0.85, 0.42, 0.85, columns=2, rows=1, mass=32.0, doors=True)
@@ -341,7 +342,8 @@ def cardboard_sheet(style: Style) -> Build:
 
 
 @entry("drawer organizer", family="storage", material="bamboo", colours=("bamboo", "white", "gray"),
-       synonyms=("drawer organiser", "desk organizer", "desk organiser", "organizer", "organizer tray"))  # fmt: skip
+       synonyms=("drawer organiser", "desk organizer", "desk organiser", "organizer", "organizer tray",
+                 "cutlery tray", "utensil tray", "silverware tray"))  # fmt: skip
 def drawer_organizer(style: Style) -> Build:
     """A flat tray with three compartments."""
     x, y, z = style.vary(0.34), style.vary(0.24), style.vary(0.055)

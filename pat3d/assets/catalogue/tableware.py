@@ -56,7 +56,8 @@ def mug(style: Style) -> Build:
     )
 
 
-@entry("cup", family="tableware", synonyms=("paper cup", "plastic cup", "drinking cup", "beaker"), material="ceramic",
+@entry("cup", family="tableware", synonyms=("paper cup", "plastic cup", "drinking cup", "stacking cup"),
+       material="ceramic",
        colours=("white", "blue", "orange", "turquoise", "green", "pink"), accents=("blue",))  # fmt: skip
 def cup(style: Style) -> Build:
     """A tapered cup without a handle; cups of any seed nest, each base resting on the ribs in the next."""
@@ -136,7 +137,8 @@ def _bowl(style: Style, r: float, h: float, well: float) -> Build:
     return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.35 * h,)),), paint=stripes(style, r, h))
 
 
-@entry("bowl", family="tableware", synonyms=("cereal bowl", "soup bowl", "rice bowl"), material="ceramic",
+@entry("bowl", family="tableware", synonyms=("cereal bowl", "soup bowl", "rice bowl", "dog bowl", "pet bowl"),
+       material="ceramic",
        colours=("white", "teal", "blue", "coral", "yellow"), accents=("white",))  # fmt: skip
 def bowl(style: Style) -> Build:
     """A cereal bowl."""
@@ -197,7 +199,8 @@ def fork(style: Style) -> Build:
     return Build(parts=((shape, style.colour()),))
 
 
-@entry("knife", family="tableware", synonyms=("table knife", "kitchen knife", "dinner knife", "chef's knife"),
+@entry("knife", family="tableware", synonyms=("table knife", "kitchen knife", "dinner knife", "chef's knife",
+       "bread knife", "butter knife", "steak knife", "paring knife"),
        plurals=("knives", "table knives", "kitchen knives"), material="steel", colours=("black", "brown", "red"),
        accents=("steel",))  # fmt: skip
 def knife(style: Style) -> Build:

@@ -40,7 +40,7 @@ def hammer(style: Style) -> Build:
 
 
 @entry("screwdriver", family="tools", material="steel", colours=("red", "yellow", "blue", "orange"), accents=("black",),
-       synonyms=("screw driver", "phillips screwdriver"))  # fmt: skip
+       synonyms=("screw driver", "phillips screwdriver", "flat screwdriver", "flathead screwdriver"))  # fmt: skip
 def screwdriver(style: Style) -> Build:
     """A screwdriver lying on a flat of its fluted handle."""
     r, n = style.vary(0.0145), style.vary(0.2)
@@ -60,7 +60,8 @@ def screwdriver(style: Style) -> Build:
 
 
 @entry("wrench", family="tools", material="steel", colours=("steel", "gray"), plurals=("wrenches",),
-       synonyms=("spanner", "open-end wrench", "combination wrench"))  # fmt: skip
+       synonyms=("spanner", "open-end wrench", "combination wrench", "adjustable wrench", "socket wrench",
+                 "ratchet"))  # fmt: skip
 def wrench(style: Style) -> Build:
     """A combination wrench lying flat: an open jaw, a bar, a ring."""
     n, thick, colour = style.vary(0.2), 0.007, style.colour()
@@ -76,7 +77,7 @@ def wrench(style: Style) -> Build:
 
 
 @entry("pliers", family="tools", material="steel", colours=("red", "blue", "yellow"),
-       synonyms=("pair of pliers", "tongs pliers"))  # fmt: skip
+       synonyms=("pair of pliers", "tongs pliers", "wire cutter", "wire stripper", "wire cutters"))  # fmt: skip
 def pliers(style: Style) -> Build:
     """Pliers lying a little open, grips in the main colour."""
     n, thick = style.vary(0.18), 0.012

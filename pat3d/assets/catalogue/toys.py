@@ -53,7 +53,7 @@ def _profile(outline: Sequence[tuple[float, float]], width: float, narrow: float
 @entry(
     "toy car",
     family="toys",
-    synonyms=("car", "model car", "race car", "racing car", "matchbox car"),
+    synonyms=("car", "model car", "race car", "racing car", "matchbox car", "police car", "taxi"),
     colours=("red", "blue", "yellow", "green"),
 )
 def toy_car(style: Style) -> Build:
@@ -85,8 +85,8 @@ def toy_car(style: Style) -> Build:
     )
 
 
-@entry("toy truck", family="toys", synonyms=("truck", "dump truck", "lorry", "model truck"),
-       plurals=("lorries",), colours=("yellow", "red", "green"), accents=("gray",))  # fmt: skip
+@entry("toy truck", family="toys", synonyms=("truck", "dump truck", "lorry", "model truck", "fire truck",
+       "pickup truck"), plurals=("lorries",), colours=("yellow", "red", "green"), accents=("gray",))  # fmt: skip
 def toy_truck(style: Style) -> Build:
     """A toy dump truck with an open bed and six wheels, 22 cm long."""
     colour, chassis = style.colour(), style.colour(1)

@@ -322,7 +322,13 @@ def slipper(style: Style) -> Build:
     )
 
 
-@entry("mitten", family="wear", synonyms=("glove", "winter glove"), material="wool", colours=("red", "blue", "gray"))
+@entry(
+    "mitten",
+    family="wear",
+    synonyms=("glove", "winter glove", "work glove"),
+    material="wool",
+    colours=("red", "blue", "gray"),
+)
 def mitten(style: Style) -> Build:
     """A knitted mitten lying flat, its thumb to one side."""
     colour = style.colour()
