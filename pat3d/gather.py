@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -82,19 +83,23 @@ def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredi
     found = []
     for number, obj in enumerate(plan.objects):
         progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
-        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.adjectives)
+        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
         entry = catalogue.find(obj.noun)
         shared = entry is not None and entry.family in MATCHING
         key = (look, obj.phrase if shared else obj.name)
         if key not in made:
-            made[key] = catalogue.make(
+            make = partial(
+                catalogue.make,
                 obj.noun,
                 colours=obj.colours,
                 material=obj.material,
-                scale=obj.scale,
                 adjectives=obj.adjectives,
                 seed=derived_seed(seed, obj.name),
             )
+            asset = make(scale=obj.scale)
+            if obj.extent is not None:
+                asset = make(scale=obj.scale * obj.extent.factor(asset.size.tolist()))
+            made[key] = asset
         found.append(Ingredient(name=obj.name, asset=made[key], phrase=obj.phrase))
     return tuple(found)
 
@@ -104,4 +109,5 @@ def _plain(obj: PlannedObject) -> dict[str, Any]:
     return {
         "name": obj.name, "noun": obj.noun, "phrase": obj.phrase, "colours": list(obj.colours),
         "material": obj.material, "scale": obj.scale, "adjectives": list(obj.adjectives), "proxy": obj.proxy,
+        "extent": asdict(obj.extent) if obj.extent else None,
     }  # fmt: skip

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
-from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.plan.postures import is_natural
+from pat3d.plan.scene_plan import Extent, PlannedObject, ScenePlan
 from pat3d.scene import GROUND, LateralKind, Relation
 
 
@@ -71,6 +73,7 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
     bare: list[tuple[Group, list[PlannedObject]]] = []
     for group in draft.groups:
         words, objects = group.modifiers, []
+        extent = _extent(draft, group)
         for index in range(group.count):
             colours = words.colours
             if index < len(group.member_colours):
@@ -92,6 +95,7 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
                     colours=colours,
                     material=words.material or plush,
                     scale=words.scale,
+                    extent=extent,
                     adjectives=words.adjectives,
                     proxy=group.proxy,
                 )
@@ -110,20 +114,33 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
                 while f"{name} {seen[name]}" in taken:
                     seen[name] += 1
                 name = f"{name} {seen[name]}"
-            kept.append(_renamed(obj, name))
+            kept.append(replace(obj, name=name))
     return named
+
+
+def _extent(draft: Draft, group: Group) -> Extent | None:
+    """The size that the prompt gives the objects of `group`; notes on what it gives and the scene does not have."""
+    said, notes = group.phrase, draft.notes
+    lies = draft.is_a(group, lexicon.LYING)
+    for posture in group.modifiers.postures:
+        if not is_natural(posture, lies=lies):
+            notes.append(f'"{posture}" is left out: "{said}" is placed the way the catalogue makes it.')
+    extent = None
+    for measure in group.modifiers.measures:
+        if not measure.metres:
+            notes.append(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
+        elif extent is not None:
+            notes.append(f'"{measure.said}" is left out: "{said}" keeps its proportions, and one size is given already.')
+        else:
+            extent = Extent(metres=max(measure.metres), axis=measure.axis)
+            if len(measure.metres) > 1:
+                notes.append(f'"{measure.said}": the longest side of "{said}" is {extent.metres:g} m, the others follow.')
+    return extent
 
 
 def _material_word(group: Group, said: str) -> str:
     word = group.modifiers.material_word
     return "" if word in said.split() or word == group.modifiers.size_word else word
-
-
-def _renamed(obj: PlannedObject, name: str) -> PlannedObject:
-    return PlannedObject(
-        name=name, noun=obj.noun, phrase=obj.phrase, colours=obj.colours, material=obj.material, scale=obj.scale,
-        adjectives=obj.adjectives, proxy=obj.proxy,
-    )  # fmt: skip
 
 
 def _bases(group: Group, members: list[PlannedObject]) -> list[str]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
 from pat3d.plan.lexing import Token, normalise, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
+from pat3d.plan.measures import Measure, is_measure
+from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
 from pat3d.plan.phrases import Phrase, PhraseReader, link_at
 from pat3d.plan.vocabulary import Nouns
 
@@ -17,6 +18,9 @@ ChunkKind = Literal[
     "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality",
     "aside",
 ]  # fmt: skip
+
+_AWAY = frozenset({"apart", "away", "from", "off"})
+"""Words after a length that make it a distance."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +48,8 @@ class _Chunker:
         self._nouns = nouns
         self._chunks: list[Chunk] = []
         self._at = 0
+        self._ahead = NO_MODIFIERS
+        """Measures and postures that wait for the phrase they are said of."""
 
     @staticmethod
     def _repaired(tokens: list[Token], nouns: Nouns) -> list[Token]:
@@ -107,6 +113,8 @@ class _Chunker:
             return self._add("link", link=LINKS[("with",)])
         if token.mark:
             return self._add({",": "comma", ".": "stop", "-": "dash"}[word])  # type: ignore[arg-type]
+        if is_marked(word):
+            return self._mark()
         if word in lexicon.MOOD_VERBS and self._chunks and self._chunks[-1].kind != "stop":
             return self._remark()
         if word in ("there", "there's", "here") or (word == "'s" and self._previous_word() in ("there", "here")):
@@ -160,7 +168,31 @@ class _Chunker:
             self._at += 1
             return None
         phrase, after = read
+        if phrase.kind in ("object", "unknown"):
+            phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         return self._add("phrase", after - self._at, phrase=phrase)
+
+    def _mark(self) -> None:
+        """Read a measure or a posture that stands outside a noun phrase: "a vase 20 cm tall", "is upside down"."""
+        word, after = self._tokens[self._at].text, self._at + 1
+        said = read_modifiers([word])
+        away = self._tokens[after].text in _AWAY or link_at(self._tokens, after) > 0
+        if away and is_measure(word) and said.measures[0].axis is None:
+            # A distance is no size.
+            said = Modifiers(measures=(Measure(said=said.measures[0].said),))
+        elif self._chunks and self._chunks[-1].kind == "verb":
+            return self._add("quality", modifiers=said)
+        self._at += 2 if self._tokens[after].text == "apart" else 1
+        for index in range(len(self._chunks) - 1, -1, -1):
+            piece = self._chunks[index]
+            if piece.kind in ("stop", "clause"):
+                break
+            if piece.phrase is not None and piece.phrase.kind in ("object", "unknown"):
+                whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
+                self._chunks[index] = replace(piece, phrase=whole)
+                return None
+        self._ahead = self._ahead.marked_as(said)
+        return None
 
     def _previous_word(self) -> str:
         return self._tokens[self._at - 1].text if self._at else ""

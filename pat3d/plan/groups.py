@@ -220,7 +220,7 @@ def recolour(group: Group, modifiers: Modifiers, part: str = "") -> None:
     if part and not own.colours and part not in lexicon.MAIN_PARTS:
         adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()
     group.modifiers = replace(
-        own,
+        own.marked_as(modifiers),
         colours=tuple(dict.fromkeys((*own.colours, *colours))),
         material=own.material or (modifiers.material if not part else None),
         adjectives=(*own.adjectives, *adjectives),

@@ -224,6 +224,13 @@ SLENDER = (
     "hairbrush", "candy cane", "lollipop", "twig", "branch", "stylus", "highlighter", "tongs", "feather", "umbrella",
 )  # fmt: skip
 """What a narrow vessel holds; anything else in a list after it stands outside."""
+LYING = (
+    "book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphone", "plate", "saucer", "coaster", "tray",
+    "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
+    "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet", "pizza",
+    "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper", "envelope",
+)  # fmt: skip
+"""What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 NOT_ON_DISH = (
     "vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket", "radio",
     "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",

@@ -13,6 +13,7 @@ from pat3d.plan.modifiers import (
     NO_MODIFIERS,
     Modifiers,
     is_colour_word,
+    is_marked,
     is_modifier,
     looks_like_adjective,
     read_modifiers,
@@ -189,7 +190,7 @@ class PhraseReader:
             return False
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
-        verb = multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
+        verb = is_marked(word) or multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
         verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
             follower = self._tokens[at + 1]

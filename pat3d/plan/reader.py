@@ -177,6 +177,7 @@ class Reader:
         """The group that `phrase`, said of `besides`, means, and whether it was known before."""
         known = self._now.maker.refer(phrase, besides=besides)
         if known is not None:
+            known.modifiers = known.modifiers.marked_as(phrase.modifiers)
             return known, True
         frame = self._now.frames[-1] if self._now.frames else None
         return self._now.maker.make(phrase, filling=bool(frame and frame.fresh and frame.link.filling)), False

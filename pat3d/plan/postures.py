@@ -1,0 +1,34 @@
+"""Words for how an object is turned ("upside down", "on its side"), none of which the layout can do.
+
+A posture becomes one token whose text begins with "_", which no word of a prompt can.
+"""
+
+from __future__ import annotations
+
+POSTURE = (
+    r"upside[ -]down|bottom[ -]up|face[ -](?:down|up)|(?:on|onto) (?:its|their|one's) (?:side|back|face|head|end)s?(?! of)"
+    r"|on end|upright|inverted|overturned|toppled(?: over)?|tipped over|knocked over|flipped(?: over)?|tilted|slanted"
+    r"|sideways|diagonally|crosswise"
+)
+"""Pattern of a posture."""
+_UPRIGHT = "upright"
+
+
+def token_text(said: str) -> str:
+    """The text of the token for `said`."""
+    return f"_posture:{said.lower()}"
+
+
+def is_posture(word: str) -> bool:
+    """Whether `word` is the text of a posture token."""
+    return word.startswith("_posture:")
+
+
+def read_posture(word: str) -> str:
+    """What the posture token with text `word` says."""
+    return word.removeprefix("_posture:")
+
+
+def is_natural(posture: str, *, lies: bool) -> bool:
+    """Whether an object that by nature lies, or else stands, has `posture` anyway."""
+    return posture == _UPRIGHT and not lies
