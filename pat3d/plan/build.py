@@ -8,6 +8,7 @@ from dataclasses import replace
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
+from pat3d.plan.measures import LARGEST, SMALLEST
 from pat3d.plan.postures import is_natural
 from pat3d.plan.scene_plan import Extent, PlannedObject, ScenePlan
 from pat3d.scene import GROUND, LateralKind, Relation
@@ -119,7 +120,11 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
 
 
 def _extent(draft: Draft, group: Group) -> Extent | None:
-    """The size that the prompt gives the objects of `group`; notes on what it gives and the scene does not have."""
+    """The size that the prompt gives the objects of `group`; notes on what it gives and the scene does not have.
+
+    Raises:
+        PromptError: no object has that size.
+    """
     said, notes = group.phrase, draft.notes
     lies = draft.is_a(group, lexicon.LYING)
     for posture in group.modifiers.postures:
@@ -130,11 +135,15 @@ def _extent(draft: Draft, group: Group) -> Extent | None:
         if not measure.metres:
             notes.append(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
         elif extent is not None:
-            notes.append(f'"{measure.said}" is left out: "{said}" keeps its proportions, and one size is given already.')
+            notes.append(
+                f'"{measure.said}" is left out: "{said}" keeps its proportions, and one size is given already.'
+            )
         else:
             extent = Extent(metres=max(measure.metres), axis=measure.axis)
             if len(measure.metres) > 1:
-                notes.append(f'"{measure.said}": the longest side of "{said}" is {extent.metres:g} m, the others follow.')
+                notes.append(
+                    f'"{measure.said}": the longest side of "{said}" is {extent.metres:g} m, the others follow.'
+                )
     return extent
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
+from pat3d.plan.boundaries import Boundaries, link_at
 from pat3d.plan.lexing import Token, normalise, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
 from pat3d.plan.measures import Measure, is_measure
 from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
-from pat3d.plan.phrases import Phrase, PhraseReader, link_at
+from pat3d.plan.phrases import Phrase, PhraseReader
 from pat3d.plan.vocabulary import Nouns
 
 ChunkKind = Literal[
@@ -46,6 +47,7 @@ class _Chunker:
         self._tokens = self._repaired(tokenise(text), nouns)
         self._phrases = PhraseReader(text, self._tokens, nouns)
         self._nouns = nouns
+        self._bounds = Boundaries(self._tokens, nouns)
         self._chunks: list[Chunk] = []
         self._at = 0
         self._ahead = NO_MODIFIERS
@@ -244,7 +246,7 @@ class _Chunker:
                 self._add("link", size, link=link)
                 return True
             follower = self._tokens[min(self._at + size, len(self._tokens) - 1)]
-            whole = key[-1] == "side" or follower.mark or not self._phrases.goes_on(self._at + size)
+            whole = key[-1] == "side" or follower.mark or not self._bounds.goes_on(self._at + size)
             if key in SIDES and whole and follower.text != "of":
                 side = SIDES[key]
                 self._add("side", size)

@@ -227,8 +227,9 @@ SLENDER = (
 LYING = (
     "book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphone", "plate", "saucer", "coaster", "tray",
     "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
-    "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet", "pizza",
-    "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper", "envelope",
+    "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet",
+    "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
+    "envelope",
 )  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 NOT_ON_DISH = (

@@ -9,7 +9,6 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-from pat3d.errors import PromptError
 from pat3d.plan.lexicon import NUMBERS
 
 Axis = Literal["height", "width", "depth", "length", "thickness"]
@@ -19,8 +18,8 @@ SMALLEST, LARGEST = 0.002, 20.0
 
 _METRES = {
     "mm": 0.001, "millimetre": 0.001, "millimeter": 0.001, "cm": 0.01, "centimetre": 0.01, "centimeter": 0.01,
-    "dm": 0.1, "in": 0.0254, "m": 1.0, "metre": 1.0, "meter": 1.0, "inch": 0.0254, "inches": 0.0254, "ft": 0.3048, "foot": 0.3048,
-    "feet": 0.3048,
+    "dm": 0.1, "in": 0.0254, "m": 1.0, "metre": 1.0, "meter": 1.0, "inch": 0.0254,
+    "inches": 0.0254, "ft": 0.3048, "foot": 0.3048, "feet": 0.3048,
 }  # fmt: skip
 _AXES: dict[str, Axis] = {
     "tall": "height", "high": "height", "height": "height", "wide": "width", "width": "width", "deep": "depth",
@@ -71,11 +70,7 @@ def is_measure(word: str) -> bool:
 
 
 def read_measure(word: str) -> Measure:
-    """What the measured token with text `word` says.
-
-    Raises:
-        PromptError: no object has that size.
-    """
+    """What the measured token with text `word` says."""
     said = word.removeprefix("_measure:")
     words = re.findall(r"\d+(?:[.]\d+)?|[^\W\d_]+", said.lower())
     axis = next((_AXES[each] for each in words if each in _AXES), None)
@@ -86,8 +81,6 @@ def read_measure(word: str) -> Measure:
     for number, follower in zip(words, [*words[1:], ""], strict=True):
         if (value := _value(number)) is not None:
             metres.append(value * (_unit(follower) or unit))
-    if not all(SMALLEST <= value <= LARGEST for value in metres):
-        raise PromptError(f'"{said}": an object may measure {SMALLEST * 1000:g} mm to {LARGEST:g} m.')
     return Measure(said=said, axis=axis, metres=tuple(metres))
 
 

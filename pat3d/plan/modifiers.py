@@ -61,9 +61,7 @@ class Modifiers:
 
     def marked_as(self, other: Modifiers) -> Modifiers:
         """These, with the measures and postures of `other`."""
-        return replace(
-            self, measures=(*self.measures, *other.measures), postures=(*self.postures, *other.postures)
-        )
+        return replace(self, measures=(*self.measures, *other.measures), postures=(*self.postures, *other.postures))
 
 
 NO_MODIFIERS = Modifiers()

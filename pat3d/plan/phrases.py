@@ -7,28 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
+from pat3d.plan.boundaries import Boundaries
 from pat3d.plan.lexing import Token, singulars
-from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
-from pat3d.plan.modifiers import (
-    NO_MODIFIERS,
-    Modifiers,
-    is_colour_word,
-    is_marked,
-    is_modifier,
-    looks_like_adjective,
-    read_modifiers,
-)
+from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
 from pat3d.plan.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
-JOINERS = frozenset({
-    "and", "or", "plus", "while", "whereas", "but", "there", "there's", "without", "no", "not", "than", "as", "which",
-    "meanwhile", "where", "who", "for", "from", "through", "via", "per", "if", "because", "so", "that", "'s", "against",
-})  # fmt: skip
-_ALWAYS_BREAK = (
-    frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
-    - {"hold", "contain", "feature", "carry", "support", "show", "have", "display"}
-) | frozenset({"besides", "across", "has", "is", "are", "was", "were"})  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,11 +55,12 @@ class PhraseReader:
         self._text = text
         self._tokens = tokens
         self._nouns = nouns
+        self._bounds = Boundaries(tokens, nouns)
 
     def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
         at, count, flags = self._opening(start)
-        run, after = self._run(at)
+        run, after = self._bounds.run(at)
         tokens = self._tokens
         if not run:
             if after == start:
@@ -146,130 +131,6 @@ class PhraseReader:
                 break
             at += 1
         return at, count, flags
-
-    def _run(self, at: int) -> tuple[list[Token], int]:
-        """Modifiers and head from token `at`, and the token after them."""
-        run: list[Token] = []
-        start = at
-        while True:
-            token = self._tokens[at]
-            if token.mark or token.text in ("and", "or"):
-                if self._opens_joined_name(run, at):
-                    run.append(token)
-                    at += 1
-                    continue
-                onward = self._coordination(run, at)
-                if onward is None:
-                    break
-                at = onward
-                continue
-            if self._breaks(run, at):
-                break
-            run.append(token)
-            at += 1
-        # Words between the last noun and the break belong to no phrase ("mug gently" on ...).
-        return run, at if run else start
-
-    def _breaks(self, run: list[Token], at: int) -> bool:
-        word = self._tokens[at].text
-        if self._opens_joined_name(run, at):
-            return False
-        words = [token.text for token in run]
-        if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
-            return True
-        if word in lexicon.DETERMINERS or (
-            (word in lexicon.NUMBERS or word.isdigit()) and word not in ("set", "single")
-        ):
-            return not (word in ("couple", "dozen", "trio") and self._tokens[at + 1].text == "of" and not run)
-        if word == "of":
-            return True
-        multi = link_at(self._tokens, at)
-        if multi > 1 and not self._extends(words, word):
-            return True
-        if not words:
-            return False
-        if not self._ends_in_noun(words):
-            return self._breaks_unknown(words, at)
-        verb = is_marked(word) or multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
-        verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
-        if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
-            follower = self._tokens[at + 1]
-            runs_on = not follower.mark and follower.text not in ("and", "or", "of")
-            verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
-        return bool(verb) and not self._extends(words, word)
-
-    def _breaks_unknown(self, words: list[str], at: int) -> bool:
-        """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
-        word = self._tokens[at].text
-        verb = word in lexicon.PARTICIPLES or (word,) in LINKS
-        if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
-            return False
-        # "a free standing lamp": the participle belongs to the noun after it.
-        return not self._extends(words, word) and self._nouns.match([word, self._tokens[at + 1].text]) is None
-
-    def goes_on(self, at: int) -> bool:
-        """Whether token `at` may be the noun that a participle before it describes."""
-        word = self._tokens[at].text
-        function = word in JOINERS or word in lexicon.DETERMINERS or word in lexicon.NUMBERS or word in _ALWAYS_BREAK
-        return not (function or link_at(self._tokens, at) or word in lexicon.ADVERBS or word.endswith("ly")
-                    or word in lexicon.POSSESSIVES or word in lexicon.PRONOUNS)  # fmt: skip
-
-    def _extends(self, words: list[str], word: str) -> bool:
-        """Whether `word` makes a longer known noun of the run ("teddy" + "bears")."""
-        return any(self._nouns.match([*words[-size:], word]) for size in (1, 2, 3) if size <= len(words))
-
-    def _opens_joined_name(self, run: list[Token], at: int) -> bool:
-        if self._tokens[at].text not in ("of", "and", "in", "on", "with") or not run or not self._nouns.joined:
-            return False
-        tokens = self._tokens
-        for back in (1, 2):
-            for ahead in (1, 2):
-                if back <= len(run) and at + ahead < len(tokens):
-                    words = [token.text for token in (*run[-back:], *tokens[at : at + ahead + 1])]
-                    if self._nouns.match(words):
-                        return True
-        return False
-
-    def _ends_in_noun(self, words: list[str]) -> bool:
-        head = words[-1]
-        singular = (head, *singulars(head))
-        general = lexicon.BACKGROUND | lexicon.ITEMS | lexicon.PIECES | lexicon.STACK_NOUNS | lexicon.GENERICS.keys()
-        return bool(self._nouns.match(words[-1:]) or self._nouns.longest(words)) or any(
-            word in general or word in lexicon.PARTS for word in singular
-        )
-
-    def _coordination(self, run: list[Token], at: int) -> int | None:
-        """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
-            return None
-        colours = is_colour_word(run[-1].text)
-        if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
-            return None
-        first = self._skip_joint(at)
-        look = first
-        if colours:
-            # Every member of the list is a colour, and the last stands directly before more of the phrase.
-            while is_colour_word(self._tokens[look].text):
-                look += 1
-                if (onward := self._skip_joint(look)) > look:
-                    if not is_colour_word(self._tokens[onward].text):
-                        return None
-                    look = onward
-                elif self.goes_on(look):
-                    return first
-            return None
-        words: list[str] = []
-        while not self._tokens[look].mark and self.goes_on(look) and len(words) < 5:
-            words.append(self._tokens[look].text)
-            look += 1
-        return first if words and self._ends_in_noun(words) else None
-
-    def _skip_joint(self, at: int) -> int:
-        if self._tokens[at].text == ",":
-            at += 1
-        if self._tokens[at].text in ("and", "or"):
-            at += 1
-        return at
 
     def _simple(self, run: list[Token], count: int | None) -> Phrase:
         """The phrase of a run without "of"."""
@@ -389,12 +250,3 @@ class PhraseReader:
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in names if self._nouns.resolve(name))
-
-
-def link_at(tokens: Sequence[Token], at: int) -> int:
-    """Number of tokens of the longest relation phrase that begins at token `at`; 0 where none does."""
-    for size in range(LONGEST_LINK, 0, -1):
-        key = tuple(token.text for token in tokens[at : at + size])
-        if key in LINKS or key in SIDES or key in EACH_OTHER:
-            return size
-    return 0

@@ -6,9 +6,9 @@ A posture becomes one token whose text begins with "_", which no word of a promp
 from __future__ import annotations
 
 POSTURE = (
-    r"upside[ -]down|bottom[ -]up|face[ -](?:down|up)|(?:on|onto) (?:its|their|one's) (?:side|back|face|head|end)s?(?! of)"
-    r"|on end|upright|inverted|overturned|toppled(?: over)?|tipped over|knocked over|flipped(?: over)?|tilted|slanted"
-    r"|sideways|diagonally|crosswise"
+    r"upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on (?:its|their) sides?(?! of)|on end|upright|inverted|overturned"
+    r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
+    r"|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally|crosswise"
 )
 """Pattern of a posture."""
 _UPRIGHT = "upright"
