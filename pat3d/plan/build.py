@@ -135,15 +135,13 @@ def _extent(draft: Draft, group: Group) -> Extent | None:
         if not measure.metres:
             notes.append(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
         elif extent is not None:
-            notes.append(
-                f'"{measure.said}" is left out: "{said}" keeps its proportions, and one size is given already.'
-            )
+            notes.append(f'"{measure.said}" is left out: "{said}" has a size already and keeps its proportions.')
+        elif not all(SMALLEST <= metres <= LARGEST for metres in measure.metres):
+            raise PromptError(f'"{measure.said}": an object may measure {SMALLEST * 1000:g} mm to {LARGEST:g} m.')
         else:
             extent = Extent(metres=max(measure.metres), axis=measure.axis)
             if len(measure.metres) > 1:
-                notes.append(
-                    f'"{measure.said}": the longest side of "{said}" is {extent.metres:g} m, the others follow.'
-                )
+                notes.append(f'"{measure.said}": the longest side is {extent.metres:g} m, the others follow.')
     return extent
 
 
