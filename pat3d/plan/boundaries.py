@@ -17,7 +17,7 @@ JOINERS = frozenset({
 _ALWAYS_BREAK = (
     frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
     - {"hold", "contain", "feature", "carry", "support", "show", "have", "display"}
-) | frozenset({"besides", "across", "has", "is", "are", "was", "were"})  # fmt: skip
+) | frozenset({"besides", "has", "is", "are", "was", "were"})  # fmt: skip
 
 
 class Boundaries:
@@ -72,15 +72,22 @@ class Boundaries:
             return True
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
-        verb = (
-            is_marked(word) or multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
-        )
+        posture = word in lexicon.VERBS and not self._names_a_stand(words, at)
+        verb = is_marked(word) or multi or posture or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
         verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
             follower = self._tokens[at + 1]
             runs_on = not follower.mark and follower.text not in ("and", "or", "of")
             verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
         return bool(verb) and not self._extends(words, word)
+
+    def _names_a_stand(self, words: list[str], at: int) -> bool:
+        """Whether "stand" at token `at` is a noun ("a TV stand") and no verb ("a lamp and a TV stand on a desk")."""
+        if self._tokens[at].text not in lexicon.NOUNS_LIKE_VERBS or singulars(words[-1]):
+            return False
+        sentence = [token.text for token in self._tokens[:at]]
+        sentence = sentence[len(sentence) - sentence[::-1].index(".") :] if "." in sentence else sentence
+        return "and" not in sentence or not link_at(self._tokens, at + 1)
 
     def _breaks_unknown(self, words: list[str], at: int) -> bool:
         """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""

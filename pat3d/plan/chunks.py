@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
+from pat3d.plan.arrangements import RINGS, of_what, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries, link_at
 from pat3d.plan.lexing import Token, normalise, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
@@ -66,6 +67,7 @@ class _Chunker:
             for owner, token in zip([tokens[0], *tokens], tokens, strict=False)
             if token.text != "'s" or owner.text in plain or nouns.match([owner.text])
         ]
+        tokens = of_what(tokens)
         if nouns.match(["bedside", "table"]) is None:
             return tokens
         return [
@@ -220,6 +222,8 @@ class _Chunker:
 
     def _relation(self) -> bool:
         """Read the longest relation, side or arrangement that begins here, if one does."""
+        if self._shape():
+            return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
             if key in EACH_OTHER:
@@ -253,6 +257,31 @@ class _Chunker:
                 self._chunks[-1] = Chunk(kind="side", text=side)
                 return True
         return False
+
+    def _shape(self) -> bool:
+        """Read "in a circle" before "around" or after "surrounded by", where it says nothing more.
+
+        Raises:
+            PromptError: objects stand in a shape that no plan expresses.
+        """
+        words = self._words(4)
+        size = 2 if words[:1] in (("in",), ("into",), ("as",)) and words[1:2] in (("a",), ("an",)) else 1
+        said = words[size] if len(words) > size else ""
+        if words[:1] not in (("in",), ("into",), ("as",)) or shape_said(said) is None or words[size + 1 :] == ("of",):
+            return False
+        size += 1
+        ahead = self._at + size
+        link = next(
+            (LINKS[key] for key in (self._words(size + 1)[size:], self._words(size + 2)[size:]) if key in LINKS), None
+        )
+        sentence = [piece.link for piece in self._chunks if piece.link is not None]
+        ring = link is not None and link.kind == "around" or any(one.manner == "surround" for one in sentence[-1:])
+        if said not in RINGS or not ring:
+            if self._chunks and self._chunks[-1].kind in ("phrase", "comma", "verb"):
+                raise refuse(said, self._tokens[ahead - 1].number)
+            return False
+        self._at = ahead
+        return True
 
     def _stacked_noun(self, size: int) -> bool:
         """Whether "stacked" describes the noun after it ("and stacked cups")."""

@@ -50,6 +50,8 @@ VERBS = frozenset({
     "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
+NOUNS_LIKE_VERBS = frozenset({"stand", "rest"})
+"""Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
     "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "propped", "laid",

@@ -28,6 +28,8 @@ class Link:
     """"filled with": a bare plural means many."""
     side: Side | None = None
     """For manner "half": which part of the parent."""
+    instead: str = ""
+    """What the words say and no relation does ("leaning against"): `kind` stands in, and a note says so."""
 
     @property
     def inverse(self) -> bool:
@@ -52,9 +54,18 @@ def _table() -> dict[tuple[str, ...], Link]:
         Link(kind="next_to"),
         "beside", "besides", "next to", "near", "near to", "nearby to", "by", "close to", "alongside", "adjacent to",
         "at", "against", "right next to", "to the side of", "on the side of", "at the side of", "off to the side of",
-        "close by", "with its side to", "across from", "along", "leaning against", "leaning on",
+        "close by", "with its side to", "across from", "along",
         "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
+    leaning = ("leaning", "leaned", "leant", "propped", "propped up", "resting", "standing")
+    add(Link(kind="next_to", instead="leaning"), *(f"{word} against" for word in leaning), "leaning on",
+        "leaning up against")  # fmt: skip
+    add(Link(kind="next_to", instead="leaning", finite=True), "leans against", "lean against", "leans on", "lean on",
+        "rests against", "rest against")  # fmt: skip
+    add(Link(kind="on", instead="bridging"), "across", "bridging", "spanning", "straddling", "laid across",
+        "lying across", "placed across", "resting across")  # fmt: skip
+    add(Link(kind="on", instead="bridging", finite=True), "bridges", "spans", "straddles", "lies across",
+        "rests across")  # fmt: skip
     sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
     for side, kind in sides:
         add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
+from pat3d.plan.arrangements import refuse, shape_said
 from pat3d.plan.boundaries import Boundaries
 from pat3d.plan.lexing import Token, singulars
 from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
@@ -198,6 +199,8 @@ class PhraseReader:
             own = read_modifiers(words[:-1])
             return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
+        if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
+            raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:
             return None
         if head in lexicon.ROWS or head in lexicon.COLLECTIVES:
