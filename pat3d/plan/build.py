@@ -190,10 +190,18 @@ def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
         for index, name in enumerate(_bases(child, members[id(child)])):
             relations.append(Relation(child=name, kind=edge.kind, parent=places[index % len(places)]))
     for group in draft.groups:
-        if group.row:
-            names = [obj.name for obj in members[id(group)]]
-            pairs = zip(names, names[1:], strict=False)
+        if group.rows:
+            names = _bases(group, members[id(group)])
+            length = -(-len(names) // group.rows)
+            lines = [names[at : at + length] for at in range(0, len(names), length)]
+            pairs = [pair for line in lines for pair in zip(line, line[1:], strict=False)]
             relations += [Relation(child=left, kind="left_of", parent=right) for left, right in pairs]
+            pairs = [
+                pair
+                for line, next_line in zip(lines, lines[1:], strict=False)
+                for pair in zip(next_line, line, strict=False)
+            ]
+            relations += [Relation(child=back, kind="behind", parent=front) for back, front in pairs]
     return relations
 
 

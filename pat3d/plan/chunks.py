@@ -7,14 +7,15 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
-from pat3d.plan.arrangements import RINGS, of_what, refuse, shape_said
+from pat3d.plan.arrangements import RINGS, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries, link_at
-from pat3d.plan.lexing import Token, normalise, tokenise
+from pat3d.plan.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
 from pat3d.plan.measures import Measure, is_measure
 from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
 from pat3d.plan.phrases import Phrase, PhraseReader
 from pat3d.plan.vocabulary import Nouns
+from pat3d.plan.wording import plainer
 
 ChunkKind = Literal[
     "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality",
@@ -35,6 +36,8 @@ class Chunk:
     link: Link | None = None
     modifiers: Modifiers = NO_MODIFIERS
     """For kind "quality": what "is red" says."""
+    size: int = 0
+    """For kind "arrange": how many stacks or rows, or how many phrases are one tower."""
 
 
 def chunk(prompt: str, nouns: Nouns) -> list[Chunk]:
@@ -67,7 +70,7 @@ class _Chunker:
             for owner, token in zip([tokens[0], *tokens], tokens, strict=False)
             if token.text != "'s" or owner.text in plain or nouns.match([owner.text])
         ]
-        tokens = of_what(tokens)
+        tokens = plainer(tokens, nouns)
         if nouns.match(["bedside", "table"]) is None:
             return tokens
         return [
@@ -222,17 +225,15 @@ class _Chunker:
 
     def _relation(self) -> bool:
         """Read the longest relation, side or arrangement that begins here, if one does."""
-        if self._shape():
+        if self._shape() or self._several():
             return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
             if key in EACH_OTHER:
                 last = self._chunks[-1] if self._chunks else None
-                if (
-                    last is not None
-                    and last.kind in ("phrase", "comma", "link", "verb")
-                    and not self._stacked_noun(size)
-                ):
+                fronted = EACH_OTHER[key] in ("order", "reverse")
+                after = last is not None and last.kind in ("phrase", "comma", "link", "verb")
+                if fronted or (after and not self._stacked_noun(size)):
                     self._add("arrange", size)
                     self._chunks[-1] = Chunk(kind="arrange", text=EACH_OTHER[key])
                     return True
@@ -264,23 +265,35 @@ class _Chunker:
         Raises:
             PromptError: objects stand in a shape that no plan expresses.
         """
-        words = self._words(4)
-        size = 2 if words[:1] in (("in",), ("into",), ("as",)) and words[1:2] in (("a",), ("an",)) else 1
-        said = words[size] if len(words) > size else ""
-        if words[:1] not in (("in",), ("into",), ("as",)) or shape_said(said) is None or words[size + 1 :] == ("of",):
+        words = self._words(3)
+        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or not shape_said(words[-1]):
             return False
-        size += 1
-        ahead = self._at + size
-        link = next(
-            (LINKS[key] for key in (self._words(size + 1)[size:], self._words(size + 2)[size:]) if key in LINKS), None
+        after = self._at + 3
+        if self._bounds.goes_on(after) and not self._tokens[after].mark:
+            return False
+        related = [piece.link for piece in self._chunks if piece.link is not None][-1:]
+        around = self._tokens[after].text in ("around", "surrounding") or any(
+            link.manner == "surround" for link in related
         )
-        sentence = [piece.link for piece in self._chunks if piece.link is not None]
-        ring = link is not None and link.kind == "around" or any(one.manner == "surround" for one in sentence[-1:])
-        if said not in RINGS or not ring:
-            if self._chunks and self._chunks[-1].kind in ("phrase", "comma", "verb"):
-                raise refuse(said, self._tokens[ahead - 1].number)
+        if words[-1] not in RINGS or not around:
+            raise refuse(words[-1], self._tokens[after - 1].number)
+        self._at = after
+        return True
+
+    def _several(self) -> bool:
+        """Read "in two rows", "in three stacks of four"."""
+        preposition, number, what = (*self._words(3), "", "")[:3]
+        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdigit() else 0)
+        kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
+        kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
+        if preposition not in ("in", "into") or count < 1 or kind is None:
             return False
-        self._at = ahead
+        tail = self._tokens[self._at + 3 : self._at + 5]
+        of_each = (
+            len(tail) == 2 and tail[0].text == "of" and (tail[1].text in lexicon.NUMBERS or tail[1].text.isdigit())
+        )
+        self._add("arrange", 5 if of_each else 3)
+        self._chunks[-1] = Chunk(kind="arrange", text=kind, size=count)
         return True
 
     def _stacked_noun(self, size: int) -> bool:
@@ -293,6 +306,9 @@ class _Chunker:
         size = 0
         while not (token := self._tokens[self._at + size]).mark or token.text != ".":
             size += 1
+            after = self._tokens[self._at + size]
+            if shape_said(token.text) and self._tokens[self._at + size - 2].text in ("a", "an") and after.mark:
+                raise refuse(token.text, token.number)
         self._add("aside", size)
 
     def _absence(self) -> None:

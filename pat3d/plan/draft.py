@@ -28,7 +28,8 @@ class Group:
     cycle: tuple[str, ...] = ()
     height: int = 1
     """Objects in each stack; 1 where they are not stacked."""
-    row: bool = False
+    rows: int = 0
+    """Rows that the objects stand in, one behind the other; 0 where nothing is said."""
     proxy: bool = False
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""

@@ -6,6 +6,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.build import build
 from pat3d.plan.chunks import chunk
 from pat3d.plan.draft import Draft
+from pat3d.plan.ellipsis import completed
 from pat3d.plan.groups import GroupMaker
 from pat3d.plan.reader import Reader
 from pat3d.plan.scene_plan import ScenePlan
@@ -43,5 +44,5 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         draft = Draft(self._nouns)
         maker = GroupMaker(draft, allow_proxies=self._allow_proxies)
-        Reader(draft, maker).read(chunk(prompt, self._nouns))
+        Reader(draft, maker).read(completed(chunk(prompt, self._nouns), self._nouns))
         return build(prompt, draft)

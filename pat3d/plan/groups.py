@@ -68,7 +68,7 @@ class GroupMaker:
         count, height = self._count(phrase, filling)
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
-            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, row=phrase.row,
+            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, rows=phrase.rows,
             proxy=proxy,
         )  # fmt: skip
         self._share_colours(group)

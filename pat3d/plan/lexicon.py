@@ -50,7 +50,7 @@ VERBS = frozenset({
     "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
-NOUNS_LIKE_VERBS = frozenset({"stand", "rest"})
+NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",

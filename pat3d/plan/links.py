@@ -140,12 +140,26 @@ for _phrase in ("on the other side", "to the other side", "at the other side", "
 """Places without a landmark ("on the left side"), which only relate objects to each other."""
 
 EACH_OTHER: dict[tuple[str, ...], str] = {
-    ("on", "top", "of", "each", "other"): "stack", ("on", "each", "other"): "stack", ("atop", "each", "other"): "stack",
-    ("one", "on", "top", "of", "the", "other"): "stack", ("one", "on", "top", "of", "another"): "stack",
-    ("on", "top", "of", "one", "another"): "stack", ("one", "atop", "the", "other"): "stack",
-    ("one", "atop", "another"): "stack", ("stacked", "up"): "stack", ("stacked",): "stack", ("piled",): "stack",
-    ("piled", "up"): "stack", ("next", "to", "each", "other"): "row", ("beside", "each", "other"): "row",
-    ("side", "by", "side"): "row", ("in", "a", "row"): "row", ("in", "a", "line"): "row", ("lined", "up"): "row",
-    ("near", "each", "other"): "row", ("next", "to", "one", "another"): "row", ("close", "together"): "row",
+    tuple(words.split()): how
+    for how, phrases in {
+        "stack": (
+            "on top of each other", "on each other", "atop each other", "one on top of the other", "one on another",
+            "one on top of another", "on top of one another", "one atop the other", "one atop another", "stacked up",
+            "stacked", "piled", "piled up", "in a stack", "in a pile", "in a tower", "in a column", "into a stack",
+            "into a tower", "into a pile", "in one stack", "on top of one other", "one above the other",
+            "on one another",
+        ),
+        "row": (
+            "in a row", "in a line", "lined up", "in one row", "in a single row", "in a straight line", "into a row",
+            "in a single line", "in a horizontal line", "in line", "in one line",
+        ),
+        "beside": (
+            "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
+            "next to one another", "close together",
+        ),
+        "order": ("from left to right", "left to right", "ordered from left to right"),
+        "reverse": ("from right to left", "right to left"),
+    }.items()
+    for words in phrases
 }  # fmt: skip
-"""Words that arrange the members of one group."""
+"""Words that arrange the members of one group, or of one list."""

@@ -44,7 +44,8 @@ class Phrase:
     """Objects in one stack; 0 for a stack of unstated height."""
     chains: int = 1
     """Number of stacks."""
-    row: bool = False
+    rows: int = 0
+    """Rows that they stand in; 0 where nothing is said."""
     substance: str = ""
     """Content that is no rigid body ("tea")."""
 
@@ -81,6 +82,8 @@ class PhraseReader:
         elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
             phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
         else:
+            if run[-1].text == "one" and flags.get("determined"):
+                count = count or 1
             phrase = self._simple(run, count)
         flags.pop("one", None)
         words = self._text[tokens[start].start : tokens[after - 1].end]
@@ -192,7 +195,8 @@ class PhraseReader:
         if inner.head in lexicon.SUBSTANCES and not inner.determined:
             inner = replace(inner, kind="background", substance=inner.head)
         if any(word in lexicon.STACK_NOUNS for word in singular):
-            if inner.kind not in ("object", "unknown"):
+            single = inner.determined and not inner.plural and inner.count in (None, 1) and not inner.cycle
+            if inner.kind not in ("object", "unknown") or single:
                 return None
             chains = count if count is not None else (2 if plural else 1)
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
@@ -203,7 +207,12 @@ class PhraseReader:
             raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:
             return None
-        if head in lexicon.ROWS or head in lexicon.COLLECTIVES:
+        rows = any(word in lexicon.ROWS for word in singular)
+        if rows and plural and head != "series":
+            number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
+            return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
+                           modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
+        if rows or head in lexicon.COLLECTIVES:
             taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
             taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
             taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
@@ -212,7 +221,7 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
-            return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
+            return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
         part = any(word in lexicon.PARTS for word in singular)

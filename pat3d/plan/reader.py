@@ -8,6 +8,7 @@ from pat3d.plan.chunks import Chunk
 from pat3d.plan.clauses import lists_on, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
+from pat3d.plan.ellipsis import TOWER
 from pat3d.plan.groups import GroupMaker, recolour
 from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
@@ -30,6 +31,12 @@ class Reader:
         self._relative = False
         """A relative pronoun stands before the verb: what was read last is its subject."""
         self._side = ""
+        self._ordered = ""
+        """What stands before the list that it orders: "from left to right"."""
+        self._unordered = 0
+        """Groups that were read before it."""
+        self._read: list[Group] = []
+        """Every group, in the order in which it was last spoken of."""
 
     def read(self, chunks: Sequence[Chunk]) -> None:
         """Read all chunks."""
@@ -55,7 +62,7 @@ class Reader:
         elif piece.kind == "quality":
             self._qualify(piece)
         elif piece.kind == "arrange":
-            self._arrange(piece.text)
+            self._arrange(piece, at)
         elif piece.kind == "each":
             self._on_each(at)
         elif piece.kind == "side":
@@ -69,6 +76,9 @@ class Reader:
         return at + 1
 
     def _end_clause(self) -> None:
+        if self._ordered:
+            self._line_up(self._read[self._unordered :], self._ordered)
+        self._ordered = ""
         self._now.close()
         self._now.maker.end_sentence()
         self._verb = self._had_verb = self._all = self._each = False
@@ -94,20 +104,48 @@ class Reader:
         else:
             self._now.draft.set_aside.append(piece.text)
 
-    def _arrange(self, how: str) -> None:
-        groups = self._now.last or self._now.subject
-        if how == "stack":
-            if len(groups) == 1 and groups[0].count > 1:
-                groups[0].height = groups[0].count if groups[0].height == 1 else groups[0].height
-            elif len(self._now.top) > 1:
-                for lower, upper in zip(self._now.top, self._now.top[1:], strict=False):
-                    self._now.draft.place(upper, "on", lower)
+    def _arrange(self, piece: Chunk, at: int) -> None:
+        """Read what a list or a group forms: a stack, a row, a tower of what the list names."""
+        groups = self._now.subject if self._verb else self._now.last or self._now.subject
+        follower = self._chunks[at + 1]
+        fronted = follower.kind in ("phrase", "there") or (follower.link is not None and follower.text == ":")
+        whole = groups[-1:] if len(groups) == 1 and groups[0].count > 1 else []
+        if piece.text in ("rows", "stacks") and whole:
+            if piece.text == "rows":
+                whole[0].rows = piece.size
+            else:
+                whole[0].height = -(-whole[0].count // piece.size)
+        elif piece.text == TOWER:
+            self._stack(self._read[-piece.size :], tall=True)
+        elif piece.text == "stack":
+            self._stack(whole or (groups if self._verb else self._now.top), tall=bool(whole))
+        elif piece.text in ("order", "reverse") and (fronted or not groups):
+            self._ordered, self._unordered = piece.text, len(self._read)
+        elif whole:
+            whole[0].rows = 1
         else:
-            for group in groups[-1:]:
-                group.row = True
-            if len(groups) == 1 and groups[0].count == 1:
-                for left, right in zip(self._now.top, self._now.top[1:], strict=False):
-                    self._now.draft.beside(right, "next_to", left)
+            self._line_up(self._now.top if len(self._now.top) > 1 else self._listed(groups), piece.text)
+
+    def _stack(self, groups: Sequence[Group], *, tall: bool) -> None:
+        """Put each of `groups` on the one before, or where they are several objects each on one another."""
+        for group in groups:
+            if group.height == 1 and (tall or all(each.count > 1 for each in groups)):
+                group.height = group.count
+        if tall or any(each.count == 1 for each in groups):
+            for lower, upper in zip(groups, groups[1:], strict=False):
+                self._now.draft.place(upper, "on", lower)
+
+    def _listed(self, groups: Sequence[Group]) -> list[Group]:
+        frame = self._now.holder.get(id(groups[-1])) if groups else None
+        return frame.members if frame is not None else list(groups)
+
+    def _line_up(self, groups: Sequence[Group], how: str) -> None:
+        ordered = groups[::-1] if how == "reverse" else groups
+        for left, right in zip(ordered, ordered[1:], strict=False):
+            if how == "beside":
+                self._now.draft.beside(right, "next_to", left)
+            else:
+                self._now.draft.beside(left, "left_of", right)
 
     def _on_each(self, at: int) -> None:
         follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
@@ -146,6 +184,7 @@ class Reader:
         if group is None:
             return
         self._all = False
+        self._read.append(group)
         self._now.more = lists_on(self._chunks, at + 1)
         if (
             self._had_verb
