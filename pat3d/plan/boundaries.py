@@ -16,7 +16,7 @@ JOINERS = frozenset({
 })  # fmt: skip
 _ALWAYS_BREAK = (
     frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
-    - {"hold", "contain", "feature", "carry", "support", "show", "have", "display"}
+    - {"nearby", "hold", "contain", "feature", "carry", "support", "show", "have", "display"}
 ) | frozenset({"besides", "has", "is", "are", "was", "were"})  # fmt: skip
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
-from pat3d.plan.draft import Draft, Group
+from pat3d.plan.draft import Draft, Group, Sided, carried_by_two
 from pat3d.plan.measures import LARGEST, SMALLEST
 from pat3d.plan.postures import is_natural
 from pat3d.plan.scene_plan import Extent, PlannedObject, ScenePlan
@@ -25,7 +25,11 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
     for edge in gone:
         del draft.supports[id(edge.child)]
     draft.laterals = [edge for edge in draft.laterals if not (edge.parent.replaced or edge.child.replaced)]
-    draft.sided = [(one, side, of) for one, side, of in draft.sided if not (one.replaced or (of and of.replaced))]
+    draft.sided = [
+        each
+        for each in draft.sided
+        if not any(group is not None and group.replaced for group in (each.group, each.owner, each.implied))
+    ]
     draft.flanks = [flank for flank in draft.flanks if not flank.parent.replaced]
     for flank in draft.flanks:
         flank.members = [group for group in flank.members if not group.replaced and group is not flank.parent]
@@ -167,12 +171,27 @@ def _supports(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
         edge = draft.supports.get(id(group))
         if edge is not None:
             places = _tops(edge.parent, members[id(edge.parent)])
+            if len(places) > len(_bases(group, own)) == 1:
+                _check_one_carrier(draft, group, edge.parent, places[0])
             for index, name in enumerate(_bases(group, own)):
                 relations.append(Relation(child=name, kind=edge.kind, parent=places[index % len(places)]))
         for index, obj in enumerate(own):
             if index % max(group.height, 1):
                 relations.append(Relation(child=obj.name, kind="on", parent=own[index - 1].name))
     return relations
+
+
+def _check_one_carrier(draft: Draft, group: Group, parents: Group, chosen: str) -> None:
+    """Say that one thing "on two books" is on one of them.
+
+    Raises:
+        PromptError: the two are no flat things, of which people mean one stack or one of many.
+    """
+    if not parents.exact or parents.one_of:
+        return
+    if not draft.is_a(parents, lexicon.THIN):
+        raise carried_by_two(group, parents)
+    draft.notes.append(f'"{group.phrase}" on "{parents.phrase}" is placed on "{chosen}".')
 
 
 def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Relation]:
@@ -240,25 +259,52 @@ def _siblings(draft: Draft, child: Group, parent: Group) -> tuple[Group | None, 
     return None, None
 
 
+_ORDER = {
+    "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
+}  # fmt: skip
+_KINDS: dict[tuple[int, int], LateralKind] = {
+    (0, 0): "left_of", (0, 2): "right_of", (1, 0): "in_front_of", (1, 2): "behind",
+}  # fmt: skip
+
+
 def _pair_sides(draft: Draft) -> None:
     """Objects on the left are left of what is on the right or in the middle, on the same support."""
-    for group, side, owner in draft.sided:
+    told: set[int] = set()
+    for each in draft.sided:
+        group, owner = each.group, each.owner
         if owner is not None and owner is not group:
             level = draft.is_a(owner, lexicon.LEVEL + lexicon.SEATS) and draft.support(group) is owner
-            if not level and side != "centre":
-                draft.beside(group, "left_of" if side in ("left", "one") else "right_of", owner)
-    order = {"left": 0, "one": 0, "centre": 1, "right": 2, "other": 2}
-    for index, (group, side, _) in enumerate(draft.sided):
-        for other, where, _ in draft.sided[index + 1 :]:
-            if group is other or draft.support(group) is not draft.support(other) or order[side] == order[where]:
+            if not level and each.side != "centre":
+                told.add(id(group))
+                draft.beside(group, _KINDS[_ORDER[each.side]], owner)
+    for index, each in enumerate(draft.sided):
+        for other in draft.sided[index + 1 :]:
+            (axis, place), (other_axis, other_place) = _ORDER[each.side], _ORDER[other.side]
+            apart = draft.support(each.group) is not draft.support(other.group)
+            if each.group is other.group or apart or axis != other_axis or place == other_place:
                 continue
             if any(
-                owner is not None and draft.support(each) is None
-                for each, _, owner in draft.sided
-                if each in (group, other)
+                one.owner is not None and draft.support(one.group) is None
+                for one in draft.sided
+                if one.group in (each.group, other.group)
             ):
                 continue
-            draft.beside(group, "left_of" if order[side] < order[where] else "right_of", other)
+            told |= {id(each.group), id(other.group)}
+            draft.beside(each.group, _KINDS[axis, 0 if place < other_place else 2], other.group)
+    for each in draft.sided:
+        inside = any(one.group in draft.ancestors(each.group) for one in draft.sided)
+        if id(each.group) not in told and each.side != "centre" and not inside:
+            _side_alone(draft, each)
+
+
+def _side_alone(draft: Draft, told: Sided) -> None:
+    """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
+    kind = _KINDS[_ORDER[told.side]]
+    if told.implied is not None and told.implied is not told.group:
+        draft.beside(told.group, kind, told.implied)
+    elif all(edge.parent is not told.group and edge.child is not told.group for edge in draft.laterals):
+        where = kind.removesuffix("_of").replace("_", " ")
+        draft.notes.append(f'"{told.group.phrase}" ({where}): there is nothing beside it that it could be {where} of.')
 
 
 def _share_supports(draft: Draft) -> None:

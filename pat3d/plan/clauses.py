@@ -28,5 +28,11 @@ def lists_on(chunks: Sequence[Chunk], at: int) -> bool:
     return False
 
 
+def names_second(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether chunks `at` to `at` + 2 end the relation before them with a second phrase: "and a chair."."""
+    kinds = [piece.kind for piece in chunks[at : at + 3]]
+    return kinds[:2] == ["and", "phrase"] and kinds[2:] not in (["link"], ["side"], ["verb"], ["there"])
+
+
 def _finite(piece: Chunk) -> bool:
     return piece.link is not None and piece.link.finite

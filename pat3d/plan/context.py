@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from pat3d.plan import lexicon
-from pat3d.plan.draft import Draft, Flank, Group
+from pat3d.plan.draft import Draft, Flank, Group, Sided, carried_by_two
 from pat3d.plan.groups import GroupMaker
 from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
@@ -55,6 +55,8 @@ class Context:
     """Whether "and" stood before the last of them."""
     more: bool = False
     """Whether the clause goes on to list after the phrase being read."""
+    second: bool = False
+    """Whether the relation being read has a second phrase after its first: "across a box and a chair"."""
     holder: dict[int, Frame] = field(default_factory=dict)
     """The list that a group is a member of, by id of the group."""
     carried: dict[int, list[Group]] = field(default_factory=dict)
@@ -65,6 +67,10 @@ class Context:
     """What "the left side of" or "to the left of" was last said of."""
     landmark_is_surface: bool = True
     """Whether it was "the left side of": on it rather than beside it."""
+    landmark_sentence: int = 0
+    """The sentence that said it."""
+    sentence: int = 0
+    """Sentences read."""
     mark: str = "start"
     """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
 
@@ -180,8 +186,10 @@ class Context:
             stacks = [group for group in self.draft.groups if group.height != 1 and group is not child]
             return stacks[-1:]
         frame = self.holder.get(id(child)) if child is not None else None
+        if child is not None and phrase.head in lexicon.DEMONSTRATIVES:
+            return self.draft.groups[: self.draft.groups.index(child)][-1:]
         if frame is not None and frame.parents and frame.flank is None:
-            central = [group for group, side, _ in self.draft.sided if side == "centre" and group in frame.members]
+            central = [each.group for each in self.draft.sided if each.side == "centre" and each.group in frame.members]
             if central and child not in central:
                 return central[-1:]
             return frame.parents[:1]
@@ -211,7 +219,9 @@ class Context:
         # "a mug, a pear on a plate and a lamp": the list goes on, so only the pear is on the plate.
         ends = not self.more or self.top_joined
         if ends and len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
-            return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
+            told = [edge.child for edge in draft.laterals]
+            free = [group for group in self.top if group not in told or group in children]
+            return [group for group in free if not (supports and draft.on_floor(group) and floor)] or children
         child = self._carrier(children[-1], link, parent)
         if child is not children[-1] and len(self.top) > 1 and child is self.top[-1]:
             return self.climb([child], link, parent)
@@ -279,8 +289,13 @@ class Context:
         return child
 
     def relate(self, child: Group, link: Link, parent: Group) -> None:
-        """Record that `child` stands in relation `link` to `parent`."""
+        """Record that `child` stands in relation `link` to `parent`.
+
+        Raises:
+            PromptError: `child` would rest on two things at once.
+        """
         draft = self.draft
+        self._stand_in(child, link, parent)
         if link.manner == "gaze" or (link.kind is None and link.manner != "under"):
             return
         if link.manner == "under":
@@ -308,21 +323,37 @@ class Context:
             draft.place(child, kind, parent)
         else:
             if link.kind in ("left_of", "right_of"):
-                self.landmark, self.landmark_is_surface = parent, False
+                self._set_landmark(parent, surface=False)
             draft.beside(child, link.kind or "next_to", parent)
+
+    def _stand_in(self, child: Group, link: Link, parent: Group) -> None:
+        """Say what stands in for a relation that no plan has."""
+        if link.instead == "bridging":
+            if parent.count > 1 or self.second:
+                raise carried_by_two(child, parent)
+        elif link.instead:
+            where = "on" if link.kind == "on" else "next to"
+            self.draft.notes.append(f'"{child.phrase}" {link.instead} "{parent.phrase}" is placed {where} it.')
+
+    def _set_landmark(self, group: Group | None, *, surface: bool) -> None:
+        self.landmark, self.landmark_is_surface, self.landmark_sentence = group, surface, self.sentence
+
+    def open_beside(self, link: Link, landmark: Group) -> None:
+        """What is named next stands in relation `link` to `landmark`."""
+        self.frames = [Frame(link=link, parents=[landmark])]
 
     def on_half(self, children: list[Group], side: str, parent: Group | None) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         for child in children:
             level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
-            self.landmark, self.landmark_is_surface = parent or self.landmark, True
+            self._set_landmark(parent or self.landmark, surface=True)
             if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
                 self.draft.place(child, self.draft.containment(parent), parent)
-                self.draft.sided.append((child, side, None))
+                self.draft.sided.append(Sided(group=child, side=side))
             elif parent is not None:
                 self.draft.beside(child, "left_of" if side == "left" else "right_of", parent)
             else:
-                self.draft.sided.append((child, side, None))
+                self.draft.sided.append(Sided(group=child, side=side))
 
     def side_owner(self, group: Group, side: str) -> tuple[Group, Frame] | None:
         """The listed group that "on the other side" speaks of, from the innermost list outwards."""
@@ -336,6 +367,6 @@ class Context:
             return flanked[0]
         if side in ("other", "right"):
             for each, frame in found:
-                if any(group in frame.members and group is not each for group, _, _ in self.draft.sided):
+                if any(told.group in frame.members and told.group is not each for told in self.draft.sided):
                     return each, frame
         return found[0] if found else None

@@ -21,6 +21,8 @@ class Group:
     count: int
     counted: bool
     """Whether the prompt gives the number."""
+    exact: bool
+    """Whether it is a number of objects and not "some"."""
     plural: bool
     modifiers: Modifiers
     member_colours: list[tuple[str, ...]] = field(default_factory=list)
@@ -31,6 +33,8 @@ class Group:
     rows: int = 0
     """Rows that the objects stand in, one behind the other; 0 where nothing is said."""
     proxy: bool = False
+    one_of: bool = False
+    """The prompt speaks of one of them: "on one of two boxes"."""
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""
 
@@ -55,6 +59,28 @@ class Flank:
     sides: dict[int, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sided:
+    """A group said to be on the left, in the middle, behind, ... of something that is not said with it."""
+
+    group: Group
+    side: str
+    """left, right, one, other, centre, front or back."""
+    owner: Group | None = None
+    """What has the side, where the prompt lets know."""
+    implied: Group | None = None
+    """What the group stands beside where nothing else is on a side."""
+
+
+def carried_by_two(child: Group, parents: Group) -> PromptError:
+    """The error for one thing that would rest on several."""
+    what = f'"{parents.phrase}" together' if parents.count > 1 else f'"{parents.phrase}" and something else'
+    hint = f'Say "on one of ..." or "on a stack of {parents.count} ...".' if parents.count > 1 else "Say which one."
+    return PromptError(
+        f'"{child.phrase}" cannot be carried by {what}: every object of a scene is carried by one other. {hint}'
+    )
+
+
 class Draft:
     """Groups, supports and lateral relations, kept a tree while they are collected."""
 
@@ -65,8 +91,7 @@ class Draft:
         """The support edge of each group that has one, by id of the group."""
         self.laterals: list[Edge] = []
         self.flanks: list[Flank] = []
-        self.sided: list[tuple[Group, str, Group | None]] = []
-        """Groups said to be on the left, right, ...; and of what, where known."""
+        self.sided: list[Sided] = []
         self.set_aside: list[str] = []
         self.notes: list[str] = []
 

@@ -68,6 +68,7 @@ class GroupMaker:
         count, height = self._count(phrase, filling)
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
+            exact=phrase.count is not None and not phrase.vague, one_of=phrase.one_of,
             plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, rows=phrase.rows,
             proxy=proxy,
         )  # fmt: skip

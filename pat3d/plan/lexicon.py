@@ -41,6 +41,8 @@ DETERMINERS = frozenset({
     "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "any", "all",
 })  # fmt: skip
 DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both"})
+DEMONSTRATIVES = frozenset({"that", "this"})
+"""Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
@@ -82,7 +84,7 @@ ADVERBS = frozenset({
     "very", "neatly", "quite", "really", "slightly", "carefully", "directly", "right", "just", "vertically",
     "horizontally", "upright", "loosely", "closely", "together", "nicely", "partially", "too", "so", "still",
     "precariously", "gently", "randomly", "evenly", "happily", "also", "comfortably", "currently", "up", "down",
-    "neat", "nearby",
+    "neat",
 })  # fmt: skip
 
 BACKGROUND = frozenset({

@@ -47,21 +47,21 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(
         Link(kind="on"),
         "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "up on",
-        "above",
     )  # fmt: skip
+    add(Link(kind="on", instead="above"), "above")
     add(Link(kind="in"), "in", "inside", "inside of", "into", "within", "amid")
     add(
         Link(kind="next_to"),
-        "beside", "besides", "next to", "near", "near to", "nearby to", "by", "close to", "alongside", "adjacent to",
-        "at", "against", "right next to", "to the side of", "on the side of", "at the side of", "off to the side of",
-        "close by", "with its side to", "across from", "along",
+        "beside", "besides", "next to", "near", "near to", "nearby", "nearby to", "by", "close to", "alongside",
+        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
+        "off to the side of", "close by", "with its side to", "across from", "along",
         "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
     leaning = ("leaning", "leaned", "leant", "propped", "propped up", "resting", "standing")
-    add(Link(kind="next_to", instead="leaning"), *(f"{word} against" for word in leaning), "leaning on",
+    add(Link(kind="next_to", instead="leaning against"), *(f"{word} against" for word in leaning), "leaning on",
         "leaning up against")  # fmt: skip
-    add(Link(kind="next_to", instead="leaning", finite=True), "leans against", "lean against", "leans on", "lean on",
-        "rests against", "rest against")  # fmt: skip
+    add(Link(kind="next_to", instead="leaning against", finite=True), "leans against", "lean against", "leans on",
+        "lean on", "rests against", "rest against")  # fmt: skip
     add(Link(kind="on", instead="bridging"), "across", "bridging", "spanning", "straddling", "laid across",
         "lying across", "placed across", "resting across")  # fmt: skip
     add(Link(kind="on", instead="bridging", finite=True), "bridges", "spans", "straddles", "lies across",

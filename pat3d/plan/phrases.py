@@ -36,6 +36,8 @@ class Phrase:
     """Opens with a determiner or a number."""
     definite: bool = False
     each: bool = False
+    one_of: bool = False
+    """"one of two boxes"."""
     possessive: bool = False
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
@@ -75,7 +77,9 @@ class PhraseReader:
                 and (inner := self.read(after + 1, depth + 1))
             ):
                 single = flags.get("one", False)
-                phrase, after = replace(inner[0], count=count, definite=inner[0].definite or single), inner[1]
+                phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
+                if single and (phrase.count or 1) > 1:
+                    phrase, count = replace(phrase, one_of=True), phrase.count
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined
             count = phrase.count
@@ -255,7 +259,8 @@ class PhraseReader:
             if portion and not holds and inner.kind == "pieces":
                 return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
-                return replace(inner, plural=plural, count=count, modifiers=inner.modifiers.under(rest)), after
+                amount = inner.count if count is None and plural else count
+                return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
             return self._simple(run, count), after
         return None

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.clauses import lists_on, starts_clause
+from pat3d.plan.clauses import lists_on, names_second, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
-from pat3d.plan.ellipsis import TOWER
+from pat3d.plan.formations import Formations
 from pat3d.plan.groups import GroupMaker, recolour
 from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
+from pat3d.plan.sides import Sides
 from pat3d.scene import SUPPORT_KINDS
 
 
@@ -31,12 +33,8 @@ class Reader:
         self._relative = False
         """A relative pronoun stands before the verb: what was read last is its subject."""
         self._side = ""
-        self._ordered = ""
-        """What stands before the list that it orders: "from left to right"."""
-        self._unordered = 0
-        """Groups that were read before it."""
-        self._read: list[Group] = []
-        """Every group, in the order in which it was last spoken of."""
+        self._formations = Formations(self._now)
+        self._sides = Sides(self._now)
 
     def read(self, chunks: Sequence[Chunk]) -> None:
         """Read all chunks."""
@@ -49,6 +47,7 @@ class Reader:
         piece = self._chunks[at]
         if piece.kind in ("stop", "clause"):
             self._end_clause()
+            self._now.sentence += piece.kind == "stop"
         elif piece.kind in ("comma", "and", "dash"):
             joined = piece.kind == "and" and self._now.mark == "comma"
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
@@ -62,11 +61,11 @@ class Reader:
         elif piece.kind == "quality":
             self._qualify(piece)
         elif piece.kind == "arrange":
-            self._arrange(piece, at)
+            self._formations.arrange(piece, self._chunks[at + 1], verb=self._verb)
         elif piece.kind == "each":
             self._on_each(at)
         elif piece.kind == "side":
-            self._on_side(piece.text, at)
+            self._on_side(piece, at)
         elif piece.kind == "link" and piece.link is not None:
             return self._on_link(piece.link, at)
         elif piece.phrase is not None:
@@ -76,13 +75,12 @@ class Reader:
         return at + 1
 
     def _end_clause(self) -> None:
-        if self._ordered:
-            self._line_up(self._read[self._unordered :], self._ordered)
-        self._ordered = ""
+        self._formations.end_clause()
         self._now.close()
         self._now.maker.end_sentence()
         self._verb = self._had_verb = self._all = self._each = False
-        self._side, self._now.mark = "", "start"
+        self._sides.end_clause()
+        self._now.mark = "start"
 
     def _there(self) -> None:
         waiting = any(not frame.link.inverse for frame in self._now.frames)
@@ -103,49 +101,6 @@ class Reader:
                 recolour(group, piece.modifiers)
         else:
             self._now.draft.set_aside.append(piece.text)
-
-    def _arrange(self, piece: Chunk, at: int) -> None:
-        """Read what a list or a group forms: a stack, a row, a tower of what the list names."""
-        groups = self._now.subject if self._verb else self._now.last or self._now.subject
-        follower = self._chunks[at + 1]
-        fronted = follower.kind in ("phrase", "there") or (follower.link is not None and follower.text == ":")
-        whole = groups[-1:] if len(groups) == 1 and groups[0].count > 1 else []
-        if piece.text in ("rows", "stacks") and whole:
-            if piece.text == "rows":
-                whole[0].rows = piece.size
-            else:
-                whole[0].height = -(-whole[0].count // piece.size)
-        elif piece.text == TOWER:
-            self._stack(self._read[-piece.size :], tall=True)
-        elif piece.text == "stack":
-            self._stack(whole or (groups if self._verb else self._now.top), tall=bool(whole))
-        elif piece.text in ("order", "reverse") and (fronted or not groups):
-            self._ordered, self._unordered = piece.text, len(self._read)
-        elif whole:
-            whole[0].rows = 1
-        else:
-            self._line_up(self._now.top if len(self._now.top) > 1 else self._listed(groups), piece.text)
-
-    def _stack(self, groups: Sequence[Group], *, tall: bool) -> None:
-        """Put each of `groups` on the one before, or where they are several objects each on one another."""
-        for group in groups:
-            if group.height == 1 and (tall or all(each.count > 1 for each in groups)):
-                group.height = group.count
-        if tall or any(each.count == 1 for each in groups):
-            for lower, upper in zip(groups, groups[1:], strict=False):
-                self._now.draft.place(upper, "on", lower)
-
-    def _listed(self, groups: Sequence[Group]) -> list[Group]:
-        frame = self._now.holder.get(id(groups[-1])) if groups else None
-        return frame.members if frame is not None else list(groups)
-
-    def _line_up(self, groups: Sequence[Group], how: str) -> None:
-        ordered = groups[::-1] if how == "reverse" else groups
-        for left, right in zip(ordered, ordered[1:], strict=False):
-            if how == "beside":
-                self._now.draft.beside(right, "next_to", left)
-            else:
-                self._now.draft.beside(left, "left_of", right)
 
     def _on_each(self, at: int) -> None:
         follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
@@ -184,7 +139,7 @@ class Reader:
         if group is None:
             return
         self._all = False
-        self._read.append(group)
+        self._formations.read.append(group)
         self._now.more = lists_on(self._chunks, at + 1)
         if (
             self._had_verb
@@ -209,8 +164,7 @@ class Reader:
             self._now.subject = [*self._now.subject, group]
         self._verb = False
         self._now.last = [group]
-        if self._side:
-            self._now.draft.sided.append((group, self._side, None))
+        self._sides.follow(group)
 
     def _group(self, phrase: Phrase, besides: Sequence[Group] = ()) -> tuple[Group | None, bool]:
         """The group that `phrase`, said of `besides`, means, and whether it was known before."""
@@ -220,6 +174,20 @@ class Reader:
             return known, True
         frame = self._now.frames[-1] if self._now.frames else None
         return self._now.maker.make(phrase, filling=bool(frame and frame.fresh and frame.link.filling)), False
+
+    def _on_side(self, piece: Chunk, at: int) -> None:
+        """Read "on the left": of the clause's next phrase when it comes first, else of what was read last."""
+        kinds = [each.kind for each in self._chunks[at + 1 : at + 3]]
+        coming = kinds[:1] in (["there"], ["verb"]) or (
+            kinds in (["comma", "there"], ["comma", "phrase"]) and self._now.mark == "start"
+        )
+        if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
+            if self._now.mark != "start":
+                self._end_clause()
+            self._sides.lead(piece.text)
+        else:
+            self._sides.trail(piece.text, self._now.subject if self._verb else self._now.last)
+            self._verb = False
 
     def _background(self, phrase: Phrase, at: int) -> None:
         self._now.draft.set_aside.append(phrase.words)
@@ -275,10 +243,11 @@ class Reader:
         if follower is not None and follower.kind == "each":
             target = Phrase(kind="pronoun", head="each", each=True)
         if target is None:
-            self._without_target(link)
+            self._sides.without_landmark(link)
             self._verb, self._now.mark = False, ""
             return at + 1
         fronted = self._fronted(at, near)
+        self._now.second = names_second(self._chunks, at + 2)
         self._now.more = lists_on(self._chunks, at + 2)
         if fronted and self._now.subject:
             inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
@@ -326,19 +295,6 @@ class Reader:
         self._now.frames.append(Frame(link=link, parents=parents, flank=flank, each=self._each))
         self._each = False
 
-    def _without_target(self, link: Link) -> None:
-        """Read "with a cat on top", "with two cushions in front": of what the list speaks of."""
-        for group in self._now.last[-1:]:
-            frame = self._now.holder.get(id(group))
-            parents = (
-                frame.parents
-                if frame
-                else [other for other in self._now.subject if other is not group] or self._now.before
-            )
-            for parent in parents[:1]:
-                if parent is not group:
-                    self._now.relate(group, link, parent)
-
     def _forward(self, link: Link, phrase: Phrase, children: list[Group], *, apart: bool) -> None:
         if link.manner == "half" and phrase.kind == "background":
             self._now.on_half(children, link.side or "centre", None)
@@ -362,7 +318,7 @@ class Reader:
             self._now.frames = [frame]
             self._now.last = [] if known and phrase.kind == "pronoun" else parents
             return
-        if not apart:
+        if not apart and phrase.head not in lexicon.DEMONSTRATIVES:
             children = self._now.climb(children, link, parent)
         if link.kind in ("on", "in") and link.manner == "place" and phrase.kind == "object":
             children = self._now.list_on(children, parent)
@@ -373,7 +329,7 @@ class Reader:
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
             if child is not parent or phrase.kind == "object":
-                self._now.relate(child, link, parent)
+                self._now.relate(child, self._sides.claimed(child, link), parent)
                 self._now.carried[id(parent)] = [child]
         self._now.top = []
         self._now.last = parents
@@ -406,34 +362,3 @@ class Reader:
                 self._now.frames = [Frame(link=link, parents=owners)]
             return
         self._now.draft.set_aside.append(phrase.words)
-
-    def _on_side(self, side: str, at: int) -> None:
-        """Read "on the left": of the clause's next phrase when it comes first, else of what was read last."""
-        kinds = [piece.kind for piece in self._chunks[at + 1 : at + 3]]
-        coming = kinds[:1] in (["there"], ["verb"]) or (
-            kinds in (["comma", "there"], ["comma", "phrase"]) and self._now.mark == "start"
-        )
-        if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
-            if self._now.mark != "start":
-                self._end_clause()
-            landmark = self._now.landmark
-            if landmark is not None and side in ("left", "right", "centre"):
-                link = Link(manner="half", kind="on", side=side)
-                if not self._now.landmark_is_surface and side != "centre":
-                    link = Link(kind="left_of" if side == "left" else "right_of")
-                self._now.frames = [Frame(link=link, parents=[landmark])]
-            else:
-                self._side = side
-            return
-        groups = self._now.subject if self._verb else self._now.last
-        for group in groups[-1:]:
-            owner = self._now.side_owner(group, side)
-            if owner is None:
-                self._now.draft.sided.append((group, side, None))
-            else:
-                member, frame = owner
-                if frame.flank is not None:
-                    frame.flank.sides[id(member)] = side
-                else:
-                    self._now.draft.sided.append((member, side, frame.parents[0]))
-        self._verb = False
