@@ -152,8 +152,9 @@ class _Chunker:
             return self._add("and")
         if self._relation():
             return None
-        if word == "each" and (follower in lexicon.COPULAS or follower == "of" or link_at(self._tokens, self._at + 1)
-                               or self._tokens[self._at + 1].mark):  # fmt: skip
+        of_each = follower == "of" and bool(self._chunks) and self._chunks[-1].kind == "link"
+        alone = follower in (*lexicon.COPULAS, "of") or link_at(self._tokens, self._at + 1) > 0
+        if word == "each" and not of_each and (alone or self._tokens[self._at + 1].mark):
             return self._add("each")
         relative = word in ("which", "that", "who") and not self._opens_sentence
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
@@ -194,7 +195,8 @@ class _Chunker:
             piece = self._chunks[index]
             if piece.kind in ("stop", "clause"):
                 break
-            if piece.phrase is not None and piece.phrase.kind in ("object", "unknown"):
+            nearest = index == len(self._chunks) - 1
+            if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or nearest):
                 whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
                 self._chunks[index] = replace(piece, phrase=whole)
                 return None
@@ -221,7 +223,8 @@ class _Chunker:
             return moving or after_phrase
         if word in lexicon.ADVERBS or (word.endswith("ly") and moving):
             return True
-        return after_phrase and word.endswith(("ing", "ed")) and word not in lexicon.NOT_VERBS and moving
+        participle = word.endswith(("ing", "ed")) and word not in lexicon.NOT_VERBS and not is_modifier(word)
+        return after_phrase and participle and moving
 
     def _relation(self) -> bool:
         """Read the longest relation, side or arrangement that begins here, if one does."""

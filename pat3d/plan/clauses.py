@@ -34,5 +34,15 @@ def names_second(chunks: Sequence[Chunk], at: int) -> bool:
     return kinds[:2] == ["and", "phrase"] and kinds[2:] not in (["link"], ["side"], ["verb"], ["there"])
 
 
+def only_describes(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether the headless phrase at chunk `at` ends a list that tells members apart: "one white and one beige"."""
+    listed = chunks[max(at - 3, 0) : at]
+    if len(listed) < 2 or listed[-1].kind not in ("and", "comma"):
+        return False
+    before = listed[-2].phrase
+    target = len(listed) == 3 and listed[0].kind == "link"
+    return before is not None and before.kind == "pieces" and not target
+
+
 def _finite(piece: Chunk) -> bool:
     return piece.link is not None and piece.link.finite

@@ -275,7 +275,7 @@ class Context:
                 break
             above = frame.parents[0]
             # A prompt may list two groups in each other.
-            if above is parent or above in seen:
+            if above is parent or above is parent.whole or above in seen:
                 break
             if draft.on_floor(above) and (supports or not floor):
                 break

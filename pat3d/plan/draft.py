@@ -35,6 +35,10 @@ class Group:
     proxy: bool = False
     one_of: bool = False
     """The prompt speaks of one of them: "on one of two boxes"."""
+    whole: Group | None = None
+    """The group that these are members of."""
+    place: str = ""
+    """By which it is told from others of its kind: "left" for "the left box"."""
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""
 

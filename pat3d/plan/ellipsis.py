@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.modifiers import is_modifier
+from pat3d.plan.modifiers import NO_MODIFIERS, is_modifier
 from pat3d.plan.phrases import Phrase
 from pat3d.plan.vocabulary import Nouns
 
@@ -17,7 +17,29 @@ TOWER = "tower"
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_with_nouns(list(chunks), nouns))
+    return _towers(_with_nouns(_described(chunks), nouns))
+
+
+def _described(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "two of them red" in one piece."""
+    made: list[Chunk] = []
+    for piece in chunks:
+        phrase, before = piece.phrase, made[-1].phrase if made else None
+        if phrase is not None and before is not None and _bare(before) and _colour_alone(phrase):
+            whole = replace(before, modifiers=phrase.modifiers, words=f"{before.words} {phrase.words}")
+            made[-1] = replace(made[-1], phrase=whole, text=whole.words)
+        else:
+            made.append(piece)
+    return made
+
+
+def _bare(phrase: Phrase) -> bool:
+    headless = phrase.kind == "pieces" and not phrase.said
+    return headless and phrase.count is not None and phrase.modifiers == NO_MODIFIERS
+
+
+def _colour_alone(phrase: Phrase) -> bool:
+    return phrase.kind == "pieces" and not phrase.said and phrase.count is None and not phrase.determined
 
 
 def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:

@@ -9,6 +9,7 @@ from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
 from pat3d.plan.lexing import singulars
+from pat3d.plan.members import Members, position
 from pat3d.plan.modifiers import Modifiers
 from pat3d.plan.phrases import Phrase
 
@@ -24,6 +25,7 @@ class GroupMaker:
         self._draft = draft
         self._allow_proxies = allow_proxies
         self._inherited: Group | None = None
+        self.members = Members(draft)
 
     def refer(self, phrase: Phrase, *, besides: Sequence[Group] = ()) -> Group | None:
         """The group already read that `phrase` speaks of, or None.
@@ -32,7 +34,8 @@ class GroupMaker:
         """
         if not phrase.definite or phrase.kind not in ("object", "unknown") or phrase.head == "another":
             return None
-        return self._same_noun(phrase) or self._same_head(phrase, besides) or self._storage(phrase)
+        known = self._same_noun(phrase) or self._same_head(phrase, besides)
+        return self.members.chosen(known, phrase) if known else self._storage(phrase)
 
     def _same_noun(self, phrase: Phrase) -> Group | None:
         if phrase.kind == "unknown":
@@ -70,12 +73,13 @@ class GroupMaker:
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
             exact=phrase.count is not None and not phrase.vague, one_of=phrase.one_of,
             plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, rows=phrase.rows,
-            proxy=proxy,
+            proxy=proxy, place=position(phrase),
         )  # fmt: skip
         self._share_colours(group)
         if self._inherited is not None:
             self._take_after(group, self._inherited)
         self._draft.groups.append(group)
+        self.members.line_up(group)
         self._check_total()
         return group
 
@@ -187,6 +191,7 @@ class GroupMaker:
     def tell_apart(self, group: Group, phrase: Phrase) -> None:
         """Read "two bars - one white and one beige", "blocks, featuring red, blue and green pieces"."""
         colours, palette = phrase.modifiers.colours, phrase.modifiers.palette
+        group.modifiers = group.modifiers.marked_as(phrase.modifiers)
         if phrase.determined and not phrase.plural and phrase.count is not None and group.count > 1:
             told = len(group.member_colours) % group.count
             listed = [*group.member_colours[:told], *[colours] * phrase.count]
@@ -232,6 +237,8 @@ def _agrees(group: Group, phrase: Phrase) -> bool:
     """Whether colours and number of `phrase` allow it to speak of `group`."""
     wanted = phrase.modifiers.colours
     if group.member_colours and wanted and (wanted[0],) not in group.member_colours:
+        return False
+    if position(phrase) and group.place and position(phrase) != group.place:
         return False
     clash = wanted and group.modifiers.colours and not set(wanted) & set(group.modifiers.colours)
     return not clash and (phrase.count is None or phrase.count <= group.count)

@@ -73,7 +73,7 @@ def read_measure(word: str) -> Measure:
     """What the measured token with text `word` says."""
     said = word.removeprefix("_measure:")
     words = re.findall(r"\d+(?:[.]\d+)?|[^\W\d_]+", said.lower())
-    axis = next((_AXES[each] for each in words if each in _AXES), None)
+    axis: Axis | None = next((_AXES[each] for each in words if each in _AXES), None)
     unit = next((_unit(each) for each in reversed(words) if _unit(each)), None)
     if unit is None:
         return Measure(said=said)

@@ -69,7 +69,10 @@ class PhraseReader:
         if not run:
             if after == start:
                 return None
-            phrase = Phrase(kind="pieces" if count is not None else "pronoun", head=tokens[after - 1].text)
+            rest = tokens[after - 1].text == "other"
+            phrase = Phrase(kind="pieces" if count is not None or rest else "pronoun", head=tokens[after - 1].text)
+            if tokens[after].text == "of" and tokens[after + 1].text in (*lexicon.PRONOUNS, "these", "those"):
+                after += 2
             if (
                 count is not None
                 and tokens[after].text == "of"
@@ -86,6 +89,8 @@ class PhraseReader:
         elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
             phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
         else:
+            if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
             if run[-1].text == "one" and flags.get("determined"):
                 count = count or 1
             phrase = self._simple(run, count)
@@ -104,7 +109,10 @@ class PhraseReader:
         while not (token := self._tokens[at]).mark:
             word = token.text
             follower = self._tokens[at + 1].text
-            if word in lexicon.POSSESSIVES:
+            if word == "each" and follower == "of":
+                flags["each"] = flags["determined"] = True
+                at += 1
+            elif word in lexicon.POSSESSIVES:
                 flags["possessive"] = flags["definite"] = True
             elif word == "half" and follower in ("a", "dozen"):
                 count, at = 6, at + (2 if follower == "a" else 1)

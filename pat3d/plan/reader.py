@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.clauses import lists_on, names_second, starts_clause
+from pat3d.plan.clauses import lists_on, names_second, only_describes, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.formations import Formations
 from pat3d.plan.groups import GroupMaker, recolour
 from pat3d.plan.links import Link
+from pat3d.plan.members import REST
 from pat3d.plan.phrases import Phrase
 from pat3d.plan.sides import Sides
 from pat3d.scene import SUPPORT_KINDS
@@ -47,7 +48,9 @@ class Reader:
         piece = self._chunks[at]
         if piece.kind in ("stop", "clause"):
             self._end_clause()
-            self._now.sentence += piece.kind == "stop"
+            if piece.kind == "stop":
+                self._now.sentence += 1
+                self._now.maker.members.end_sentence()
         elif piece.kind in ("comma", "and", "dash"):
             joined = piece.kind == "and" and self._now.mark == "comma"
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
@@ -129,6 +132,9 @@ class Reader:
                 self._now.subject, self._now.last, self._all = [], [], True
             self._now.draft.set_aside.append(phrase.words)
             return
+        if phrase.kind == "pieces" and not phrase.said and (told := self._members_told(phrase, at)):
+            self._begin_list(told)
+            return
         if phrase.kind in ("part", "pieces"):
             self._detail(phrase)
             return
@@ -165,6 +171,24 @@ class Reader:
         self._verb = False
         self._now.last = [group]
         self._sides.follow(group)
+
+    def _members_told(self, phrase: Phrase, at: int) -> Group | None:
+        """The members of a group that "one on a plate" speaks of; None where the phrase only describes."""
+        follower = self._chunks[at + 1]
+        placed = follower.kind in ("side", "verb") or (follower.link is not None and follower.link.manner != "of")
+        if not placed or only_describes(self._chunks, at):
+            return None
+        now = self._now
+        if follower.link is not None and follower.link.manner == "sides":
+            # "Two lamps, one on each side of the bed": the members are all told of at once.
+            return next((group for group in (*now.last, *now.subject) if group.count > 1), None)
+        return now.maker.members.told(phrase, [*now.last, *now.subject, *now.before, *now.draft.groups[::-1]])
+
+    def _begin_list(self, group: Group) -> None:
+        """What follows is said of `group`."""
+        self._now.frames = []
+        self._now.subject, self._now.top, self._now.listed, self._now.last = [group], [group], [group], [group]
+        self._formations.read.append(group)
 
     def _group(self, phrase: Phrase, besides: Sequence[Group] = ()) -> tuple[Group | None, bool]:
         """The group that `phrase`, said of `besides`, means, and whether it was known before."""
@@ -298,6 +322,10 @@ class Reader:
     def _forward(self, link: Link, phrase: Phrase, children: list[Group], *, apart: bool) -> None:
         if link.manner == "half" and phrase.kind == "background":
             self._now.on_half(children, link.side or "centre", None)
+        one = phrase.kind == "pieces" and not phrase.said and (phrase.modifiers.colours or phrase.head in REST)
+        if one and (told := self._now.maker.members.told(phrase, self._now.draft.groups[::-1])):
+            self._join(link, [told], phrase, children, known=True, apart=apart)
+            return
         if phrase.kind in ("background", "part", "pieces", "items"):
             self._to_place(phrase, children, link)
             return
@@ -306,8 +334,13 @@ class Reader:
         else:
             group, known = self._group(phrase, children)
             parents = [group] if group is not None else []
-        if not parents:
-            return
+        if parents:
+            self._join(link, parents, phrase, children, known=known, apart=apart)
+
+    def _join(
+        self, link: Link, parents: list[Group], phrase: Phrase, children: list[Group], *, known: bool, apart: bool
+    ) -> None:
+        """Relate `children` to the first of `parents`, which `phrase` speaks of."""
         parent = parents[0]
         if self._all:
             if link.kind in SUPPORT_KINDS:
