@@ -197,7 +197,9 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
     show_optimisation(target, delivery.checked.rest.optimisation)
     show_parity(target, report.exports)
-    for note in (*report.order.get("notes", ()), *best.notes):
+    aside = report.order.get("set_aside", ())
+    scenery = (f"set aside: {'; '.join(aside)}",) if aside else ()
+    for note in (*report.order.get("notes", ()), *scenery, *best.notes):
         target.print(f"note  {note}", markup=False)
     if report.failures and delivery.checked.rest.optimisation is None and not available():
         target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)

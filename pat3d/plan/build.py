@@ -209,6 +209,11 @@ def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
         for index, name in enumerate(_bases(child, members[id(child)])):
             relations.append(Relation(child=name, kind=edge.kind, parent=places[index % len(places)]))
     for group in draft.groups:
+        edge = draft.supports.get(id(group))
+        if group.heap and (edge is None or edge.kind != "in"):
+            names = [obj.name for obj in members[id(group)]]
+            relations += [Relation(child=b, kind="next_to", parent=a) for a, b in zip(names, names[1:], strict=False)]
+            draft.notes.append(f'"{group.phrase}": its objects lie side by side, since as a stack they would not stay.')
         if group.rows:
             names = _bases(group, members[id(group)])
             length = -(-len(names) // group.rows)

@@ -24,6 +24,10 @@ ChunkKind = Literal[
 
 _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
+_EMPTY = frozenset(
+    {"for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "from", "per", "than"}
+)
+"""Words that mean nothing by themselves."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,13 +44,14 @@ class Chunk:
     """For kind "arrange": how many stacks or rows, or how many phrases are one tower."""
 
 
-def chunk(prompt: str, nouns: Nouns) -> list[Chunk]:
-    """The chunks of `prompt`, ending in a stop."""
-    return _Chunker(normalise(prompt), nouns).run()
+def chunk(prompt: str, nouns: Nouns, unread: list[str]) -> list[Chunk]:
+    """The chunks of `prompt`, ending in a stop; words that are in none and mean something are added to `unread`."""
+    return _Chunker(normalise(prompt), nouns, unread).run()
 
 
 class _Chunker:
-    def __init__(self, text: str, nouns: Nouns) -> None:
+    def __init__(self, text: str, nouns: Nouns, unread: list[str]) -> None:
+        self._unread = unread
         self._text = text
         self._tokens = self._repaired(tokenise(text), nouns)
         self._phrases = PhraseReader(text, self._tokens, nouns)
@@ -149,6 +154,8 @@ class _Chunker:
             if self._words(len(key)) == key:
                 return self._add("and", len(key))
         if word in ("and", "plus", "or"):
+            if word == "or":
+                self._unread.append("or")
             return self._add("and")
         if self._relation():
             return None
@@ -167,14 +174,12 @@ class _Chunker:
         if word in lexicon.VERBS and not (self._opens_clause and follower == "of"):
             return self._add("verb")
         if self._meaningless(word, follower):
-            self._at += 1
-            return None
+            return self._drop()
         read = self._phrases.read(self._at)
         if read is None:
             if word in lexicon.PRONOUNS:
                 return self._add("phrase", phrase=Phrase(kind="pronoun", head=word, words=word, number=token.number))
-            self._at += 1
-            return None
+            return self._drop()
         phrase, after = read
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
@@ -202,6 +207,14 @@ class _Chunker:
                 return None
         self._ahead = self._ahead.marked_as(said)
         return None
+
+    def _drop(self) -> None:
+        """Leave out the next word."""
+        word = self._tokens[self._at].text
+        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
+        if word not in empty and not word.endswith("ly"):
+            self._unread.append(word)
+        self._at += 1
 
     def _previous_word(self) -> str:
         return self._tokens[self._at - 1].text if self._at else ""
@@ -354,7 +367,10 @@ class _Chunker:
             else:
                 words.append(token.text)
             size += 1
-        if words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
+        if {"as", "than", "like"} & set(words):
+            self._unread.append(" ".join(words))
+            self._at += size
+        elif words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
             self._add("quality", size, modifiers=read_modifiers(words))
 
 

@@ -307,7 +307,13 @@ class Context:
         elif link.manner == "sides":
             self.maker.multiply(child, 2 if child.count == 1 else 1)
             draft.flanks.append(Flank(parent=parent, members=[child]))
+        elif link.manner == "edge":
+            level = draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS + lexicon.DISHES)
+            self.relate(child, Link(kind="on" if level else "next_to"), parent)
         elif link.manner == "between":
+            weak = draft.supports.get(id(child))
+            if weak is not None and weak.weak and weak.parent is parent:
+                del draft.supports[id(child)]
             # Both neighbours are said of the one between them: "A left_of child", "B right_of child".
             flank = Flank(parent=child, members=[parent])
             draft.flanks.append(flank)

@@ -30,6 +30,7 @@ class Group:
     cycle: tuple[str, ...] = ()
     height: int = 1
     """Objects in each stack; 1 where they are not stacked."""
+    heap: bool = False
     rows: int = 0
     """Rows that the objects stand in, one behind the other; 0 where nothing is said."""
     proxy: bool = False
@@ -144,6 +145,10 @@ class Draft:
                 f'"{child.phrase}" would rest on itself: it already carries "{parent.phrase}". Say which one is below.'
             )
         if old is not None and not old.weak:
+            below = old.parent
+            if not weak and self.is_table(parent) and self.support(below) is None and not self.on_floor(below):
+                # "A lamp on a book" that is "on a table": the book is.
+                self.place(below, kind, parent)
             if weak or parent is old.parent or parent in self.ancestors(child):
                 return
             if old.parent not in self.ancestors(parent):

@@ -14,6 +14,7 @@ from pat3d.plan.vocabulary import Nouns, Vocabulary
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
+_CHOICE = '"or" is read as "and": everything named is placed.'
 
 
 class GrammarPlanner:
@@ -44,5 +45,7 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         draft = Draft(self._nouns)
         maker = GroupMaker(draft, allow_proxies=self._allow_proxies)
-        Reader(draft, maker).read(completed(chunk(prompt, self._nouns), self._nouns))
+        unread: list[str] = []
+        Reader(draft, maker).read(completed(chunk(prompt, self._nouns, unread), self._nouns))
+        draft.notes += [_CHOICE if word == "or" else f'"{word}" is left out.' for word in unread]
         return build(prompt, draft)

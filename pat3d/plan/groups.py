@@ -9,8 +9,8 @@ from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
 from pat3d.plan.lexing import singulars
-from pat3d.plan.members import Members, position
-from pat3d.plan.modifiers import Modifiers
+from pat3d.plan.members import POSITIONS, Members, position
+from pat3d.plan.modifiers import Modifiers, is_modifier, looks_like_adjective
 from pat3d.plan.phrases import Phrase
 
 MAX_OBJECTS = 60
@@ -72,9 +72,10 @@ class GroupMaker:
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
             exact=phrase.count is not None and not phrase.vague, one_of=phrase.one_of,
-            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, rows=phrase.rows,
-            proxy=proxy, place=position(phrase),
+            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height,
+            rows=phrase.rows, heap=phrase.heap, proxy=proxy, place=position(phrase),
         )  # fmt: skip
+        self._note_kind(phrase)
         self._share_colours(group)
         if self._inherited is not None:
             self._take_after(group, self._inherited)
@@ -82,6 +83,13 @@ class GroupMaker:
         self.members.line_up(group)
         self._check_total()
         return group
+
+    def _note_kind(self, phrase: Phrase) -> None:
+        """Say what a kind of object is made as where only its head is known: "knife block"."""
+        for word in phrase.modifiers.adjectives:
+            kind = self._draft.nouns.match([word]) is not None or word in lexicon.SUBSTANCES
+            if kind and word not in POSITIONS and not is_modifier(word) and not looks_like_adjective(word):
+                self._draft.notes.append(f'"{word}" of "{phrase.words}" is left out: it is made as a "{phrase.said}".')
 
     def _proxy(self, phrase: Phrase) -> tuple[str, str, bool]:
         if self._allow_proxies:

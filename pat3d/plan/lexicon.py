@@ -27,7 +27,7 @@ COMES_IN_TWOS = frozenset({"bedside table", "nightstand", "shoe", "slipper", "bo
 SIZES: dict[str, float] = {
     "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75, "compact": 0.8,
     "medium": 1.0, "medium-sized": 1.0, "large": 1.3, "big": 1.3, "oversized": 1.5, "huge": 1.6, "giant": 1.8,
-    "enormous": 1.8, "massive": 1.8,
+    "enormous": 1.8, "massive": 1.8, "bigger": 1.3, "larger": 1.3, "smaller": 0.75,
 }  # fmt: skip
 
 SHADES: dict[tuple[str, str], str] = {
@@ -220,6 +220,12 @@ WIDER = {"bowl": "fruit bowl"}
 """What a vessel becomes when it holds fruit or more than two things."""
 OPENED = {"box": "storage box"}
 """What a closed thing becomes when the prompt puts something in it."""
+ROUND = (
+    "ball", "apple", "orange", "lemon", "lime", "peach", "plum", "cherry", "egg", "tomato", "watermelon", "kiwi",
+    "crystal ball", "tennis ball", "basketball", "football", "soccer ball", "marble", "potato", "onion", "pear",
+    "avocado", "grapefruit", "melon", "coconut", "pumpkin", "baseball", "globe", "sphere",
+)  # fmt: skip
+"""What rolls: a pile of it is no stack."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder")
 SLENDER = (
     "pen", "pencil", "ruler", "scissors", "toothbrush", "toothpaste", "razor", "spoon", "fork", "knife", "flower",

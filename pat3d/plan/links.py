@@ -8,7 +8,19 @@ from typing import Literal
 from pat3d.scene import RelationKind
 
 Manner = Literal[
-    "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"
+    "place",
+    "with",
+    "hold",
+    "flank",
+    "surround",
+    "between",
+    "sides",
+    "gaze",
+    "include",
+    "under",
+    "of",
+    "half",
+    "edge",
 ]
 
 Side = Literal["left", "right", "centre"]
@@ -76,7 +88,7 @@ def _table() -> dict[tuple[str, ...], Link]:
             *(
                 f"{word} the {where} of"
                 for word in ("on", "at")
-                for where in (side, f"{side} side", f"{side}-hand side")
+                for where in (side, f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
             ),
         )
         add(half, f"to the {side} side of", f"on {side} of")
@@ -86,6 +98,10 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
+    places = [
+        f"{near} the {part} of" for near in ("at", "on", "near", "in", "by") for part in ("edge", "corner", "end")
+    ]
+    add(Link(manner="edge", kind="on", instead="at a certain place of"), *places)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
@@ -112,7 +128,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
         "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
-        "stuffed with", "overflowing with")  # fmt: skip
+        "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",
+        "overflowing with")  # fmt: skip
     add(Link(manner="include"), "including", "such as", "namely", "for example", "e.g", "consisting of", "composed of",
         "comprising", "like")  # fmt: skip
     add(Link(manner="flank"), "flanked by", "flanked with", "bordered by", "framed by", "sandwiched between",
@@ -130,6 +147,7 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
     for _side in ("left", "right"):
         for _tail in ("", " side", " hand side"):
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
+            SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
 for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
     SIDES[tuple(_phrase.split())] = "centre"

@@ -46,6 +46,8 @@ class Phrase:
     """Objects in one stack; 0 for a stack of unstated height."""
     chains: int = 1
     """Number of stacks."""
+    heap: bool = False
+    """Lies in a heap that is no stack: "a pile of toys"."""
     rows: int = 0
     """Rows that they stand in; 0 where nothing is said."""
     substance: str = ""
@@ -213,6 +215,10 @@ class PhraseReader:
             chains = count if count is not None else (2 if plural else 1)
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
+            if "pile" in singular and (inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)):
+                amount = inner.count or lexicon.STACK_HEIGHT
+                return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
+                               modifiers=inner.modifiers.under(own)), after  # fmt: skip
             return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
         if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):

@@ -358,6 +358,9 @@ class Reader:
         if link.kind in SUPPORT_KINDS and phrase.kind == "pronoun":
             children = self._now.list_of(children, parent)
         self._now.related = children
+        if link.manner == "sides" and len(children) > 1:
+            self._now.draft.flanks.append(Flank(parent=parent, members=children))
+            children = []
         for child in children:
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
