@@ -6,6 +6,7 @@ pyramid, where one thing rests on two, it has not.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from pat3d.errors import PromptError
@@ -26,6 +27,12 @@ _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assemb
 def shape_said(word: str) -> str | None:
     """The unplanned shape that `word` names, plural or singular, or None."""
     return next((each for each in (word, *singulars(word)) if each in UNPLANNED), None)
+
+
+def grid_size(words: Sequence[str]) -> tuple[int, int] | None:
+    """Rows and columns of words that end in "2x3 grid", or None."""
+    found = re.fullmatch(r"(\d{1,2})x(\d{1,2})", words[-2]) if len(words) > 1 and words[-1] == "grid" else None
+    return (int(found[1]), int(found[2])) if found else None
 
 
 def refuse(said: str, number: int) -> PromptError:

@@ -95,6 +95,9 @@ class Boundaries:
         """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
         word = self._tokens[at].text
         verb = word in lexicon.PARTICIPLES or (word,) in LINKS
+        follower = self._tokens[at + 1].text
+        if verb and (follower in lexicon.DETERMINERS or follower in lexicon.NUMBERS or follower.isdigit()):
+            return True
         if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
             return False
         # "a free standing lamp": the participle belongs to the noun after it.

@@ -136,7 +136,9 @@ def _extent(draft: Draft, group: Group) -> Extent | None:
             notes.append(f'"{posture}" is left out: "{said}" is placed the way the catalogue makes it.')
     extent = None
     for measure in group.modifiers.measures:
-        if not measure.metres:
+        if measure.distance:
+            notes.append(f'"{measure.said}" is left out: distances between objects are not planned.')
+        elif not measure.metres:
             notes.append(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
         elif extent is not None:
             notes.append(f'"{measure.said}" is left out: "{said}" has a size already and keeps its proportions.')

@@ -192,7 +192,7 @@ class _Chunker:
         away = self._tokens[after].text in _AWAY or link_at(self._tokens, after) > 0
         if away and is_measure(word) and said.measures[0].axis is None:
             # A distance is no size.
-            said = Modifiers(measures=(Measure(said=said.measures[0].said),))
+            said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
         elif self._chunks and self._chunks[-1].kind == "verb":
             return self._add("quality", modifiers=said)
         self._at += 2 if self._tokens[after].text == "apart" else 1

@@ -44,5 +44,11 @@ def only_describes(chunks: Sequence[Chunk], at: int) -> bool:
     return before is not None and before.kind == "pieces" and not target
 
 
+def precedes_phrase(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether what the relation at chunk `at` is said of comes next: "behind, a ball", "in front there is a ball"."""
+    kinds = [piece.kind for piece in chunks[at + 1 : at + 3]]
+    return kinds[:1] == ["there"] or kinds in (["comma", "there"], ["comma", "phrase"])
+
+
 def _finite(piece: Chunk) -> bool:
     return piece.link is not None and piece.link.finite

@@ -9,7 +9,7 @@ from pat3d.plan.draft import Draft, Flank, Group, Sided, carried_by_two
 from pat3d.plan.groups import GroupMaker
 from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
-from pat3d.scene import SUPPORT_KINDS
+from pat3d.scene import LATERAL_KINDS, SUPPORT_KINDS
 
 _BETWEEN = Link(manner="flank")
 
@@ -79,6 +79,14 @@ class Context:
         self.before = self.subject or self.before
         self.subject, self.last, self.top, self.frames, self.related = [], [], [], [], []
         self.listed = []
+
+    def begun(self) -> list[Group]:
+        """What the clause before is about: in "a bottle, behind it a can", the bottle."""
+        for group in self.before[-1:]:
+            frame = self.holder.get(id(group))
+            if frame is not None and frame.link.kind in LATERAL_KINDS and not frame.link.inverse:
+                return frame.parents
+        return self.before
 
     def wait_for_child(self) -> None:
         """Keep only the list opened by a relation in front ("On a table, there is ...")."""
@@ -331,6 +339,14 @@ class Context:
             if link.kind in ("left_of", "right_of"):
                 self._set_landmark(parent, surface=False)
             draft.beside(child, link.kind or "next_to", parent)
+
+    def carry_all(self, link: Link, parent: Group) -> None:
+        """Put everything that has no support yet on `parent`."""
+        for group in self.draft.groups:
+            loose = self.draft.support(group) is None and group not in self.draft.ancestors(parent)
+            if loose and group is not parent:
+                self.relate(group, link, parent)
+        self.subject, self.last = [parent], [parent]
 
     def _stand_in(self, child: Group, link: Link, parent: Group) -> None:
         """Say what stands in for a relation that no plan has."""

@@ -26,16 +26,27 @@ class GroupMaker:
         self._allow_proxies = allow_proxies
         self._inherited: Group | None = None
         self.members = Members(draft)
+        self._stated = 0
+        """Groups of the statements before this one."""
 
     def refer(self, phrase: Phrase, *, besides: Sequence[Group] = ()) -> Group | None:
         """The group already read that `phrase` speaks of, or None.
 
         "the bowl" is a bowl, or else what was last called some kind of bowl and is not one of `besides`.
         """
-        if not phrase.definite or phrase.kind not in ("object", "unknown") or phrase.head == "another":
+        if (
+            not (phrase.definite or self._bare(phrase))
+            or phrase.kind not in ("object", "unknown")
+            or phrase.head == "another"
+        ):
             return None
         known = self._same_noun(phrase) or self._same_head(phrase, besides)
         return self.members.chosen(known, phrase) if known else self._storage(phrase)
+
+    def _bare(self, phrase: Phrase) -> bool:
+        """Whether a noun without an article repeats one of an earlier statement: "mug on tray; spoon in mug"."""
+        bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
+        return bare and any(group.noun == phrase.noun for group in self._draft.groups[: self._stated])
 
     def _same_noun(self, phrase: Phrase) -> Group | None:
         if phrase.kind == "unknown":
@@ -175,6 +186,11 @@ class GroupMaker:
 
     def _forget_note(self, group: Group) -> None:
         self._draft.notes = [note for note in self._draft.notes if not note.startswith(f'"{group.phrase}": ')]
+
+    def end_statement(self) -> None:
+        """The sentence is over, or what stands before a semicolon."""
+        self._stated = len(self._draft.groups)
+        self.members.end_sentence()
 
     def end_sentence(self) -> None:
         """Nothing is inherited past the end of a list."""

@@ -121,11 +121,15 @@ MAIN_PARTS = frozenset({
 })  # fmt: skip
 """Parts whose colour is the colour of the whole."""
 
-STACK_NOUNS = frozenset({"stack", "pile", "tower", "column"})
+STACK_NOUNS = frozenset({"stack", "pile", "tower", "column", "heap", "mound"})
+HEAPS = frozenset({"heap", "mound"})
+"""What is never a stack, whatever lies in it; a pile of what rolls is none either."""
+DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"})
+"""Parts that things are put into and no asset has."""
 COLLECTIVES = frozenset({
     "set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful", "lot", "lots",
     "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio", "dozen",
-    "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit", "heap", "heaps",
+    "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit",
 })  # fmt: skip
 ROWS = frozenset({"row", "line", "series"})
 PORTIONS = frozenset({

@@ -98,10 +98,10 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
-    places = [
-        f"{near} the {part} of" for near in ("at", "on", "near", "in", "by") for part in ("edge", "corner", "end")
-    ]
-    add(Link(manner="edge", kind="on", instead="at a certain place of"), *places)
+    for near in ("at", "on", "near", "in", "by"):
+        for part in ("edge", "corner", "end"):
+            place = f"{near} the {part} of"
+            add(Link(manner="edge", kind="on", instead=place), place)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")

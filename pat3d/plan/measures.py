@@ -56,7 +56,8 @@ class Measure:
     axis: Axis | None = None
     """Along which it is measured; None for the longest side."""
     metres: tuple[float, ...] = ()
-    """Empty for what is no length; several for "10 x 10 x 5 cm"."""
+    """Empty for what is no length of the object; several for "10 x 10 x 5 cm"."""
+    distance: bool = False
 
 
 def token_text(said: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
-from pat3d.plan.arrangements import refuse, shape_said
+from pat3d.plan.arrangements import grid_size, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries
 from pat3d.plan.lexing import Token, singulars
 from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
@@ -50,6 +50,8 @@ class Phrase:
     """Lies in a heap that is no stack: "a pile of toys"."""
     rows: int = 0
     """Rows that they stand in; 0 where nothing is said."""
+    part: str = ""
+    """The part of it that is spoken of: "drawer" for "the top drawer of a desk"."""
     substance: str = ""
     """Content that is no rigid body ("tea")."""
 
@@ -215,12 +217,15 @@ class PhraseReader:
             chains = count if count is not None else (2 if plural else 1)
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
-            if "pile" in singular and (inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)):
+            rolls = inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)
+            if lexicon.HEAPS & set(singular) or ("pile" in singular and rolls):
                 amount = inner.count or lexicon.STACK_HEIGHT
                 return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
                                modifiers=inner.modifiers.under(own)), after  # fmt: skip
             return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
+        if (sides := grid_size(words)) and inner.kind in ("object", "unknown"):
+            return replace(inner, count=sides[0] * sides[1], rows=sides[0], vague=False), after
         if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
             raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:
@@ -249,7 +254,7 @@ class PhraseReader:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
         if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
-            return replace(inner, count=inner.count if inner.kind == "object" else None), after
+            return replace(inner, count=inner.count if inner.kind == "object" else None, part=head), after
         if inner.kind == "background" and inner.substance:
             whole = self._simple(run, count)
             compound = self._nouns.match([inner.head, singular[-1]])

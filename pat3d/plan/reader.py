@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.clauses import lists_on, names_second, only_describes, starts_clause
+from pat3d.plan.clauses import lists_on, names_second, only_describes, precedes_phrase, starts_clause
 from pat3d.plan.context import Context, Frame
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.formations import Formations
@@ -50,7 +50,7 @@ class Reader:
             self._end_clause()
             if piece.kind == "stop":
                 self._now.sentence += 1
-                self._now.maker.members.end_sentence()
+                self._now.maker.end_statement()
         elif piece.kind in ("comma", "and", "dash"):
             joined = piece.kind == "and" and self._now.mark == "comma"
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
@@ -266,6 +266,11 @@ class Reader:
         target = follower.phrase if follower is not None and follower.kind == "phrase" else None
         if follower is not None and follower.kind == "each":
             target = Phrase(kind="pronoun", head="each", each=True)
+        if target is None and self._now.mark and precedes_phrase(self._chunks, at):
+            self._end_clause()
+            self._sides.lead_with(link)
+            self._now.mark = ""
+            return at + 1
         if target is None:
             self._sides.without_landmark(link)
             self._verb, self._now.mark = False, ""
@@ -277,7 +282,7 @@ class Reader:
             inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
             self._now.close()
             # "a bowl, a book, and next to it a pen": the pen is next to the book.
-            self._now.before = self._now.before[-1:] if inside else self._now.before
+            self._now.before = self._now.begun()[-1:] if inside else self._now.before
         self._forward(link, target, [] if fronted else near, apart=apart)
         self._verb, self._now.mark = False, ""
         return at + 2
@@ -342,9 +347,12 @@ class Reader:
     ) -> None:
         """Relate `children` to the first of `parents`, which `phrase` speaks of."""
         parent = parents[0]
+        if phrase.part in lexicon.DRAWERS:
+            self._now.draft.notes.append(f'"{phrase.words}": "{parent.said}" has no parts of its own and is meant.')
         if self._all:
             if link.kind in SUPPORT_KINDS:
-                self._carry_all(link, parent)
+                self._now.carry_all(link, parent)
+                self._all = False
             return
         if not children:
             frame = Frame(link=link, parents=parents, each=phrase.each)
@@ -371,13 +379,6 @@ class Reader:
         self._now.last = parents
         if phrase.kind == "pronoun":
             self._now.last = children
-
-    def _carry_all(self, link: Link, parent: Group) -> None:
-        for group in self._now.draft.groups:
-            loose = self._now.draft.support(group) is None and group not in self._now.draft.ancestors(parent)
-            if loose and group is not parent:
-                self._now.relate(group, link, parent)
-        self._now.subject, self._now.last, self._all = [parent], [parent], False
 
     def _to_place(self, phrase: Phrase, children: list[Group], link: Link) -> None:
         """A relation to the floor, a part or the items in general."""

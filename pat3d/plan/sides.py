@@ -37,6 +37,14 @@ class Sides:
         else:
             self._leading = side
 
+    def lead_with(self, link: Link) -> None:
+        """Read "behind, a ball": of what the clause before is said of."""
+        draft, before = self._now.draft, self._now.before
+        edge = draft.laterals[-1] if draft.laterals else None
+        landmark = edge.parent if edge is not None and edge.child in before else next(iter(before), None)
+        if landmark is not None:
+            self._now.open_beside(link, landmark)
+
     def follow(self, group: Group) -> None:
         """`group` was named in a clause; a side may stand in front of it."""
         if self._leading:
