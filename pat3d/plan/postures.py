@@ -8,8 +8,8 @@ from __future__ import annotations
 POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
-    r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted|overturned"
-    r"|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally|crosswise"
+    r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
+    r"|overturned|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally|crosswise"
 )
 """Pattern of a posture."""
 _UPRIGHT = "upright"
