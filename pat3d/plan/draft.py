@@ -178,13 +178,17 @@ class Draft:
         """Record a lateral relation."""
         if child is parent:
             return
+        self.forget_guess(child, parent)
+        self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
+
+    def forget_guess(self, child: Group, parent: Group) -> None:
+        """`child` does not stand on or beside `parent` after all, unless the prompt says so outright."""
         old = self.supports.get(id(child))
         if old is not None and old.weak and old.parent is parent:
             del self.supports[id(child)]
         self.laterals = [
             edge for edge in self.laterals if not (edge.weak and edge.child is child and edge.parent is parent)
         ]
-        self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
 
     def fits(self, child: Group, parent: Group) -> bool:
         """Whether one would list `child` among what `parent` carries."""

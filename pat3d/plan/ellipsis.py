@@ -17,7 +17,46 @@ TOWER = "tower"
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_with_nouns(_described(chunks), nouns))
+    return _towers(_with_nouns(_from_below(_described(chunks)), nouns))
+
+
+def _from_below(chunks: list[Chunk]) -> list[Chunk]:
+    """`chunks` with "red at the bottom, blue in the middle and green on top" as "red, blue and green"."""
+    made: list[Chunk] = []
+    at = 0
+    while at < len(chunks):
+        levels: list[tuple[int, Chunk]] = []
+        after = at
+        while (phrase := chunks[after].phrase) is not None and _colour_alone(phrase):
+            level, size = _level(chunks, after + 1)
+            if not size:
+                break
+            levels.append((level, chunks[after]))
+            after += 1 + size
+            while chunks[after].kind in _JOINTS:
+                after += 1
+        if len(levels) > 1:
+            ordered = [piece.phrase for _, piece in sorted(levels, key=lambda each: each[0]) if piece.phrase]
+            colours = tuple(colour for phrase in ordered for colour in phrase.modifiers.colours)
+            whole = replace(ordered[0], modifiers=replace(ordered[0].modifiers, colours=colours))
+            made.append(Chunk(kind="phrase", text=whole.words, phrase=whole))
+            at = after
+        else:
+            made.append(chunks[at])
+            at += 1
+    return made
+
+
+def _level(chunks: Sequence[Chunk], at: int) -> tuple[int, int]:
+    """How high the place told at chunk `at` is (0, 1 or 2), and its chunks; no chunks where none is told."""
+    piece = chunks[at]
+    if piece.kind == "side" and piece.text == "centre":
+        return 1, 1
+    part = chunks[at + 1].phrase if piece.kind == "link" and at + 1 < len(chunks) else None
+    if part is not None and part.kind == "part" and part.said in ("bottom", "top", "middle"):
+        return {"bottom": 0, "middle": 1, "top": 2}[part.said], 2
+    top = piece.link is not None and piece.link.kind == "on" and piece.text.lower().endswith("top")
+    return (2, 1) if top else (0, 0)
 
 
 def _described(chunks: Sequence[Chunk]) -> list[Chunk]:

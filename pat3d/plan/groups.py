@@ -97,6 +97,8 @@ class GroupMaker:
 
     def _note_kind(self, phrase: Phrase) -> None:
         """Say what a kind of object is made as where only its head is known: "knife block"."""
+        if phrase.left_out:
+            self._draft.notes.append(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         for word in phrase.modifiers.adjectives:
             kind = self._draft.nouns.match([word]) is not None or word in lexicon.SUBSTANCES
             if kind and word not in POSITIONS and not is_modifier(word) and not looks_like_adjective(word):

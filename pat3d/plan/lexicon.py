@@ -253,6 +253,8 @@ NOT_ON_DISH = (
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
         "cutting board", "table", "towel", "pillow", "cushion")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
+STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
+"""What else is below rather than beside what it is "under", where that does not stand on the floor."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})

@@ -38,7 +38,7 @@ class Token:
 
 def normalise(prompt: str) -> str:
     """`prompt` with one kind of quote, one kind of blank and compatibility characters resolved."""
-    text = unicodedata.normalize("NFKC", prompt)
+    text = re.sub(r"(?<=\s)[&+](?=\s)", "and", unicodedata.normalize("NFKC", prompt))
     return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
 
 

@@ -149,6 +149,9 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
             SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+for _word in ("on", "at", "to"):
+    for _both in ("opposite sides", "both sides", "either side", "each side", "both its sides"):
+        SIDES[tuple(f"{_word} {_both}".split())] = "both"
 for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
     SIDES[tuple(_phrase.split())] = "centre"
 for _phrase in ("on one side", "to one side", "at one side", "on one"):
@@ -173,7 +176,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
         ),
         "beside": (
             "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
-            "next to one another", "close together",
+            "next to one another", "close together", "facing each other", "opposite each other", "face to face",
         ),
         "order": ("from left to right", "left to right", "ordered from left to right"),
         "reverse": ("from right to left", "right to left"),

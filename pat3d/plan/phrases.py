@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from pat3d.assets.materials import find_material
 from pat3d.plan import lexicon
 from pat3d.plan.arrangements import grid_size, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries
@@ -52,6 +53,8 @@ class Phrase:
     """Rows that they stand in; 0 where nothing is said."""
     part: str = ""
     """The part of it that is spoken of: "drawer" for "the top drawer of a desk"."""
+    left_out: str = ""
+    """What stands after "of" and means nothing here."""
     substance: str = ""
     """Content that is no rigid body ("tea")."""
 
@@ -281,7 +284,8 @@ class PhraseReader:
                 amount = inner.count if count is None and plural else count
                 return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
-            return self._simple(run, count), after
+            left_out = inner.words if inner.kind == "unknown" and not find_material(inner.head) else ""
+            return replace(self._simple(run, count), left_out=left_out), after
         return None
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
 from pat3d.plan.clauses import lists_on, names_second, only_describes, precedes_phrase, starts_clause
-from pat3d.plan.context import Context, Frame
+from pat3d.plan.context import Context
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.formations import Formations
 from pat3d.plan.groups import GroupMaker, recolour
 from pat3d.plan.links import Link
 from pat3d.plan.members import REST
 from pat3d.plan.phrases import Phrase
+from pat3d.plan.relations import Frame
 from pat3d.plan.sides import Sides
 from pat3d.scene import SUPPORT_KINDS
 
@@ -52,7 +53,7 @@ class Reader:
                 self._now.sentence += 1
                 self._now.maker.end_statement()
         elif piece.kind in ("comma", "and", "dash"):
-            joined = piece.kind == "and" and self._now.mark == "comma"
+            joined = {piece.kind, self._now.mark} == {"and", "comma"}
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
             return at + 1
         elif piece.kind == "aside":
@@ -275,6 +276,11 @@ class Reader:
             self._sides.without_landmark(link)
             self._verb, self._now.mark = False, ""
             return at + 1
+        if target.head == "which" and near:
+            # "A mug behind which is a bottle".
+            self._now.open_beside(link, near[-1])
+            self._verb, self._now.mark = False, ""
+            return at + 2
         fronted = self._fronted(at, near)
         self._now.second = names_second(self._chunks, at + 2)
         self._now.more = lists_on(self._chunks, at + 2)
@@ -296,9 +302,8 @@ class Reader:
             return True
         if not self._now.mark:
             return False
-        return (
-            kinds[:1] == ["there"] or kinds[:2] in (["comma", "there"], ["verb", "phrase"]) or kinds[:1] == ["phrase"]
-        )
+        inserted = "and" in self._now.mark and kinds[:2] == ["comma", "phrase"]
+        return inserted or kinds[:1] in (["there"], ["phrase"]) or kinds[:2] in (["comma", "there"], ["verb", "phrase"])
 
     def _open(self, link: Link, parents: list[Group]) -> None:
         if link.manner == "include" and parents and parents[-1].cycle and not parents[-1].replaced:

@@ -54,6 +54,12 @@ class Sides:
         """Read a side after what is there: "a mug on the left"."""
         for group in groups[-1:]:
             owner = self._now.side_owner(group, side)
+            if side == "both":
+                _, begun = self._children(group)
+                parents = owner[1].parents if owner is not None else [*begun, *self._now.before]
+                for parent in parents[:1]:
+                    self._now.relate(group, Link(manner="sides", kind="next_to"), parent)
+                continue
             if owner is None:
                 self._beside_landmark(side, group)
                 continue
