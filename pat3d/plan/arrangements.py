@@ -19,6 +19,11 @@ UNPLANNED = frozenset({
     "pentagon", "fan", "star", "wall", "fort", "castle", "cantilever",
 })  # fmt: skip
 """What objects may be said to form and no plan expresses; some are objects themselves ("a star")."""
+_CARRIED_BY_TWO = frozenset({
+    "pyramid", "bridge", "arch", "wall", "fort", "castle", "staircase", "stairway", "cantilever",
+})  # fmt: skip
+PLACES = frozenset({"wall", "fan", "star", "fort", "castle", "bridge", "arch", "cross", "diamond"})
+"""Shapes that things may also be in or on: "a clock in a wall"."""
 RINGS = frozenset({"circle", "ring"})
 """What objects "around" something form anyway."""
 _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assembled", "consisting"})
@@ -37,10 +42,11 @@ def grid_size(words: Sequence[str]) -> tuple[int, int] | None:
 
 def refuse(said: str, number: int) -> PromptError:
     """The error for the shape called `said`, word `number` of the prompt."""
+    why = ": every object of a scene is carried by one other" if said in _CARRIED_BY_TWO else ""
     return PromptError(
-        f'"{said}" (word {number}) is an arrangement that cannot be planned: every object of a scene is carried by one '
-        'other. Known are stacks ("three plates in a stack"), rows ("five cups in a row") and rings around something '
-        '("four cups around a jug").'
+        f'"{said}" (word {number}) is an arrangement that cannot be planned{why}. Known are stacks ("three plates in a '
+        'stack"), rows ("six cups in two rows", "a 2x3 grid of cups") and rings around something ("four cups around a '
+        'jug").'
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan import lexicon
-from pat3d.plan.arrangements import RINGS, refuse, shape_said
+from pat3d.plan.arrangements import PLACES, RINGS, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries, link_at
 from pat3d.plan.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
@@ -42,6 +42,8 @@ class Chunk:
     """For kind "quality": what "is red" says."""
     size: int = 0
     """For kind "arrange": how many stacks or rows, or how many phrases are one tower."""
+    each: int = 0
+    """For kind "arrange": objects in each stack or row; 0 where that is not said."""
 
 
 def chunk(prompt: str, nouns: Nouns, unread: list[str]) -> list[Chunk]:
@@ -166,11 +168,12 @@ class _Chunker:
         relative = word in ("which", "that", "who") and not self._opens_sentence
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
             return self._add("phrase", phrase=Phrase(kind="pronoun", head="which", words=word, number=token.number))
-        if word in lexicon.COPULAS or (word == "'s" and self._previous_word() in lexicon.PRONOUNS):
+        owned = word == "'s" and not (self._previous_word() in lexicon.PRONOUNS or link_at(self._tokens, self._at + 1))
+        if owned and follower not in lexicon.DETERMINERS:
+            return self._owned_part()
+        if word in lexicon.COPULAS:
             self._add("verb")
             return self._quality()
-        if word == "'s":
-            return self._owned_part()
         if word in lexicon.VERBS and not (self._opens_clause and follower == "of"):
             return self._add("verb")
         if self._meaningless(word, follower):
@@ -201,7 +204,8 @@ class _Chunker:
             if piece.kind in ("stop", "clause"):
                 break
             nearest = index == len(self._chunks) - 1
-            if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or nearest):
+            told = nearest and piece.phrase is not None and piece.phrase.kind == "pieces"
+            if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or told):
                 whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
                 self._chunks[index] = replace(piece, phrase=whole)
                 return None
@@ -282,7 +286,8 @@ class _Chunker:
             PromptError: objects stand in a shape that no plan expresses.
         """
         words = self._words(3)
-        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or not shape_said(words[-1]):
+        shape = shape_said(words[-1])
+        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape in (None, *PLACES):
             return False
         after = self._at + 3
         if self._bounds.goes_on(after) and not self._tokens[after].mark:
@@ -309,7 +314,8 @@ class _Chunker:
             len(tail) == 2 and tail[0].text == "of" and (tail[1].text in lexicon.NUMBERS or tail[1].text.isdigit())
         )
         self._add("arrange", 5 if of_each else 3)
-        self._chunks[-1] = Chunk(kind="arrange", text=kind, size=count)
+        each = lexicon.NUMBERS.get(tail[1].text) or int(tail[1].text[:3]) if of_each else 0
+        self._chunks[-1] = Chunk(kind="arrange", text=kind, size=count, each=each)
         return True
 
     def _stacked_noun(self, size: int) -> bool:
@@ -338,6 +344,8 @@ class _Chunker:
         read = self._phrases.read(self._at + 1)
         self._at += 1
         if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
+            if read[0].said in ("side", "corner", "edge", "end"):
+                self._unread.append(read[0].words)
             self._at = read[1]
 
     def _quality(self) -> None:

@@ -39,7 +39,12 @@ class Formations:
         groups = self._now.subject if verb else self._now.last or self._now.subject
         fronted = follower.kind in ("phrase", "there") or (follower.link is not None and follower.text == ":")
         whole = groups[-1:] if len(groups) == 1 and groups[0].count > 1 else []
-        if piece.text in ("rows", "stacks") and whole:
+        if piece.text in ("rows", "stacks"):
+            whole = [group for group in (*groups, *self._now.subject) if group.count > 1][:1]
+            if not whole:
+                self._now.draft.notes.append(f'"{piece.size} {piece.text}": of what is not said.')
+                return
+            self._now.maker.recount(whole[0], piece.size * piece.each)
             if piece.text == "rows":
                 whole[0].rows = piece.size
             else:

@@ -162,8 +162,15 @@ class GroupMaker:
             group.modifiers = replace(group.modifiers, colours=palette)
         elif palette:
             group.member_colours = [(palette[index % len(palette)],) for index in range(group.count)]
-        elif group.count > 1 and (len(named) == group.count or len(named) >= 3):
+        elif group.count > 1 and (
+            len(named) == group.count or len(named) >= 3 or (len(named) == 2 and self._in_turn(group))
+        ):
             group.member_colours = [(named[index % len(named)],) for index in range(group.count)]
+
+    @staticmethod
+    def _in_turn(group: Group) -> bool:
+        """Whether two colours are those of different objects: "red and blue blocks"."""
+        return not group.counted or "alternating" in group.modifiers.adjectives
 
     def _check_total(self) -> None:
         total = sum(group.count for group in self._draft.groups if not group.replaced)
@@ -172,6 +179,20 @@ class GroupMaker:
                 f'the prompt asks for {total} objects by "{self._draft.groups[-1].phrase[:60]}"; a scene holds at most '
                 f"{MAX_OBJECTS}. Ask for fewer."
             )
+
+    def recount(self, group: Group, count: int) -> None:
+        """`group` has `count` objects (0: nothing new is said): "in three rows of four".
+
+        Raises:
+            PromptError: the prompt has given another number, or there would be too many.
+        """
+        if group.exact and count not in (0, group.count):
+            raise PromptError(f'"{group.phrase}" are {group.count} objects and cannot stand as {count}.')
+        if count:
+            group.count = count
+            self._forget_note(group)
+            self._share_colours(group)
+            self._check_total()
 
     def multiply(self, group: Group, factor: int) -> None:
         """One `group` for each of `factor` objects."""

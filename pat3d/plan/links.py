@@ -107,7 +107,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
     add(Link(manner="between", kind="right_of"), "between", "in between")
     add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
-        "at either side of", "at both sides of", "to either side of")  # fmt: skip
+        "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
+        "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
     add(Link(manner="under"), "under", "beneath", "below", "underneath")
     add(
         Link(manner="gaze"),
@@ -150,7 +151,7 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
             SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
 for _word in ("on", "at", "to"):
-    for _both in ("opposite sides", "both sides", "either side", "each side", "both its sides"):
+    for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
         SIDES[tuple(f"{_word} {_both}".split())] = "both"
 for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
     SIDES[tuple(_phrase.split())] = "centre"

@@ -10,7 +10,8 @@ POSTURE = (
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
     r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
     r"|overturned|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally"
-    r"|crosswise"
+    r"|crosswise|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
+    r"|facing the (?:viewer|camera|front|left|right|wall)"
 )
 """Pattern of a posture."""
 _UPRIGHT = "upright"

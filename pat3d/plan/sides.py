@@ -8,6 +8,7 @@ from pat3d.plan.links import Link, Side
 from pat3d.scene import SUPPORT_KINDS
 
 _HALVES: dict[str, Side] = {"left": "left", "right": "right", "centre": "centre"}
+_BOTH = Link(manner="sides", kind="next_to")
 _DEPTHS = {"in_front_of": "front", "behind": "back"}
 
 
@@ -32,7 +33,10 @@ class Sides:
     def lead(self, side: str) -> None:
         """Read a side in front of what is there: "on the left, there is a mug"."""
         landmark = self._now.landmark
-        if landmark is not None and side in ("left", "right", "centre"):
+        if side == "both":
+            if self._now.before:
+                self._now.open_beside(_BOTH, self._now.before[0])
+        elif landmark is not None and side in ("left", "right", "centre"):
             self._now.open_beside(self._of_landmark(side), landmark)
         else:
             self._leading = side
@@ -58,7 +62,7 @@ class Sides:
                 _, begun = self._children(group)
                 parents = owner[1].parents if owner is not None else [*begun, *self._now.before]
                 for parent in parents[:1]:
-                    self._now.relate(group, Link(manner="sides", kind="next_to"), parent)
+                    self._now.relate(group, _BOTH, parent)
                 continue
             if owner is None:
                 self._beside_landmark(side, group)
@@ -94,7 +98,7 @@ class Sides:
         now, draft = self._now, self._now.draft
         listed = now.top if now.top[-1:] == [group] else [group]
         related = {id(each.group) for each in draft.sided} | {id(edge.child) for edge in draft.laterals}
-        related |= draft.supports.keys()
+        related |= draft.supports.keys() | {id(edge.parent) for edge in (*draft.laterals, *draft.supports.values())}
         children = [each for each in listed if each is group or id(each) not in related]
         begun = [each for each in now.subject if each not in children]
         if not begun and len(listed) > len(children):

@@ -63,7 +63,9 @@ def plainer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             )
         if token.text in _MODALS and follower.text == "be" and before not in ("", "."):
             continue
-        if (token.text in _MODALS or token.text in ("needs", "has")) and before in _ACTORS and not follower.mark:
+        if token.text == "can" and before in ("you", "we", "i") and follower.text in lexicon.COMMANDS:
+            continue
+        if before in _ACTORS and _obliges(before, token, follower):
             raise _instruction(tokens[at + 1 if follower.text != "to" else at + 2])
         if not opens or nouns.match([token.text, follower.text]):
             kept.append(token)
@@ -83,6 +85,14 @@ def plainer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         kept.append(token)
     return [*kept, *waiting, tokens[-1]]
+
+
+def _obliges(actor: str, token: Token, follower: Token) -> bool:
+    """Whether "the robot should sort" begins here; "you can see" and "a robot has a hat" do not."""
+    if token.text in ("needs", "has", "have"):
+        return follower.text == "to"
+    modals = _MODALS if actor != "you" else {"should", "must"}
+    return token.text in modals and not follower.mark
 
 
 def _leads(token: Token) -> bool:
