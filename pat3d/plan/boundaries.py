@@ -57,7 +57,7 @@ class Boundaries:
         words = [token.text for token in run]
         if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
             return True
-        if word in ("one", "ones") and words and all(is_modifier(each) for each in words):
+        if word in ("one", "ones") and words and all(is_modifier(each) or each in lexicon.PLACES for each in words):
             return False
         if word in lexicon.DETERMINERS or (
             (word in lexicon.NUMBERS or word.isdigit()) and word not in ("set", "single")

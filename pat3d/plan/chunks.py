@@ -178,6 +178,8 @@ class _Chunker:
             return self._add("verb")
         if self._meaningless(word, follower):
             return self._drop()
+        if word == "both" and (follower in ("a", "an") or self._tokens[self._at + 1].mark):
+            return self._add("phrase", phrase=Phrase(kind="pronoun", head="them", words=word, number=token.number))
         read = self._phrases.read(self._at)
         if read is None:
             if word in lexicon.PRONOUNS:

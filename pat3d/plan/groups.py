@@ -215,6 +215,10 @@ class GroupMaker:
         self._stated = len(self._draft.groups)
         self.members.end_sentence()
 
+    def end_relation(self) -> None:
+        """A relation of a list of relations is over: "bowl on plate, spoon in bowl"."""
+        self._stated = len(self._draft.groups)
+
     def end_sentence(self) -> None:
         """Nothing is inherited past the end of a list."""
         self._inherited = None

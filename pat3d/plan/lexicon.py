@@ -106,6 +106,8 @@ BACKGROUND = frozenset({
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
 PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
+PLACES = frozenset({"left", "right", "leftmost", "rightmost", "middle", "first", "second", "third", "last"})
+"""Words that tell one of several by its place: "the left one"."""
 PARTS = frozenset({
     "head", "top", "back", "edge", "side", "middle", "center", "centre", "seat", "lap", "rim", "bottom", "inside",
     "handle", "cover", "page", "stripe", "leg", "spout", "dot", "pattern", "label", "petal", "leaf", "wheel", "button",

@@ -10,7 +10,8 @@ from pat3d.plan.phrases import Phrase
 from pat3d.scene import LateralKind
 
 POSITIONS: dict[str, int] = {
-    "left": 0, "leftmost": 0, "first": 0, "right": -1, "rightmost": -1, "last": -1, "second": 1, "third": 2,
+    "left": 0, "leftmost": 0, "first": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
+    "second": 1, "third": 2,
 }  # fmt: skip
 """Words for one of several by its place, and its index."""
 _SAME = {"leftmost": "left", "rightmost": "right"}
@@ -48,6 +49,8 @@ class Members:
         if whole is None:
             return None
         self._whole, self._ended = whole, False
+        if (where := position(phrase)) and whole.count > 1:
+            return self._at(whole, where, phrase.modifiers)
         if rest and (phrase.count is None or phrase.count == whole.count):
             return whole
         return self.pick(whole, count, phrase.modifiers)
@@ -61,11 +64,17 @@ class Members:
             count = group.member_colours.count(colours) if phrase.count is None else phrase.count
             return self.pick(group, 1 if phrase.count is None and not phrase.plural else count, phrase.modifiers)
         where = position(phrase)
-        if not where or phrase.plural or not -group.count <= POSITIONS[where] < group.count:
+        return self._at(group, where, Modifiers()) if where and not phrase.plural else group
+
+    def _at(self, group: Group, where: str, told: Modifiers) -> Group:
+        """The member of `group` in place `where`."""
+        index = group.count // 2 if where == "middle" else POSITIONS[where]
+        if not -group.count <= index < group.count:
             return group
-        picked = self.pick(group, 1, Modifiers(), at=POSITIONS[where] % group.count)
+        in_row = bool(group.rows)
+        picked = self.pick(group, 1, told, at=index % group.count)
         picked.place = where
-        if group is not picked:
+        if group is not picked and not in_row:
             self.line_up(picked)
         return picked
 
@@ -80,9 +89,12 @@ class Members:
     def pick(self, group: Group, count: int, told: Modifiers, *, at: int = 0) -> Group:
         """`count` members of `group` as a group of their own, with all that was said of `group`."""
         if count >= group.count:
-            if told.colours and not group.member_colours and not group.modifiers.colours:
-                group.modifiers = replace(group.modifiers, colours=told.colours)
+            _tell(group, told)
             return group
+        if group.rows == 1 and at > 0 and at + count < group.count:
+            # The row in three: before, picked, after.
+            self.pick(group, at, Modifiers())
+            at = 0
         indices = list(range(at, at + count))
         if told.colours and group.member_colours:
             alike = [index for index, own in enumerate(group.member_colours) if own == told.colours[:1]]
@@ -91,10 +103,12 @@ class Members:
         if group.member_colours:
             picked.member_colours = [group.member_colours[i] for i in indices if i < len(group.member_colours)]
             group.member_colours = [own for i, own in enumerate(group.member_colours) if i not in indices]
-        elif told.colours:
-            picked.modifiers = replace(group.modifiers, colours=told.colours)
+        _tell(picked, told)
         group.count -= picked.count
         self._copy_relations(group, picked, before=indices[0] == 0)
+        if group.rows == 1:
+            left, right = (picked, group) if indices[0] == 0 else (group, picked)
+            self._draft.beside(left, "left_of", right)
         return picked
 
     def _copy_relations(self, group: Group, picked: Group, *, before: bool) -> None:
@@ -113,3 +127,13 @@ class Members:
                 flank.members.insert(flank.members.index(group), picked)
         draft.flanks += [Flank(parent=picked, members=[*each.members]) for each in draft.flanks if each.parent is group]
         draft.sided += [replace(each, group=picked) for each in draft.sided if each.group is group]
+
+
+def _tell(group: Group, told: Modifiers) -> None:
+    """Give `group` the colour and the size by which the prompt tells it from its like."""
+    own = group.modifiers
+    if told.colours and not group.member_colours and not own.colours:
+        own = replace(own, colours=told.colours)
+    if told.size_word and not own.size_word:
+        own = replace(own, size_word=told.size_word, scale=own.scale * told.scale)
+    group.modifiers = own

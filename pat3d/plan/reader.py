@@ -6,13 +6,15 @@ from collections.abc import Sequence
 
 from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.clauses import lists_on, names_second, only_describes, precedes_phrase, starts_clause
+from pat3d.plan.clauses import lists_on, names_second, precedes_phrase, starts_clause
 from pat3d.plan.context import Context
 from pat3d.plan.draft import Draft, Flank, Group
 from pat3d.plan.formations import Formations
 from pat3d.plan.groups import GroupMaker, recolour
+from pat3d.plan.headless import describe_owner, members_told
 from pat3d.plan.links import Link
-from pat3d.plan.members import REST
+from pat3d.plan.members import REST, position
+from pat3d.plan.modifiers import NO_MODIFIERS
 from pat3d.plan.phrases import Phrase
 from pat3d.plan.relations import Frame
 from pat3d.plan.sides import Sides
@@ -35,6 +37,8 @@ class Reader:
         self._relative = False
         """A relative pronoun stands before the verb: what was read last is its subject."""
         self._side = ""
+        self._which: Group | None = None
+        """What "to the left of which" was last said of."""
         self._formations = Formations(self._now)
         self._sides = Sides(self._now)
 
@@ -53,6 +57,8 @@ class Reader:
                 self._now.sentence += 1
                 self._now.maker.end_statement()
         elif piece.kind in ("comma", "and", "dash"):
+            if self._now.related and not self._now.top:
+                self._now.maker.end_relation()
             joined = {piece.kind, self._now.mark} == {"and", "comma"}
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
             return at + 1
@@ -133,11 +139,11 @@ class Reader:
                 self._now.subject, self._now.last, self._all = [], [], True
             self._now.draft.set_aside.append(phrase.words)
             return
-        if phrase.kind == "pieces" and not phrase.said and (told := self._members_told(phrase, at)):
+        if phrase.kind == "pieces" and not phrase.said and (told := members_told(self._now, self._chunks, at)):
             self._begin_list(told)
             return
         if phrase.kind in ("part", "pieces"):
-            self._detail(phrase)
+            describe_owner(self._now, phrase)
             return
         if phrase.kind == "background":
             self._background(phrase, at)
@@ -172,18 +178,6 @@ class Reader:
         self._verb = False
         self._now.last = [group]
         self._sides.follow(group)
-
-    def _members_told(self, phrase: Phrase, at: int) -> Group | None:
-        """The members of a group that "one on a plate" speaks of; None where the phrase only describes."""
-        follower = self._chunks[at + 1]
-        placed = follower.kind in ("side", "verb") or (follower.link is not None and follower.link.manner != "of")
-        if not placed or only_describes(self._chunks, at):
-            return None
-        now = self._now
-        if follower.link is not None and follower.link.manner == "sides":
-            # "Two lamps, one on each side of the bed": the members are all told of at once.
-            return next((group for group in (*now.last, *now.subject) if group.count > 1), None)
-        return now.maker.members.told(phrase, [*now.last, *now.subject, *now.before, *now.draft.groups[::-1]])
 
     def _begin_list(self, group: Group) -> None:
         """What follows is said of `group`."""
@@ -224,25 +218,6 @@ class Reader:
         if self._now.mark == "start" or starts_clause(self._chunks, at):
             self._now.close()
 
-    def _detail(self, phrase: Phrase) -> None:
-        """A part ("with red covers") or bare colours ("one white and one beige") describe what was read before."""
-        frame = self._now.frames[-1] if self._now.frames and self._now.frames[-1].fresh else None
-        owners = frame.parents if frame else self._now.last or self._now.subject
-        if not owners:
-            self._now.draft.set_aside.append(phrase.words)
-            return
-        owner = owners[-1]
-        if phrase.kind == "pieces" and phrase.count is not None and owner.count == 1:
-            plural = [*self._now.carried.get(id(owner), ()), *self._now.subject]
-            owner = next((group for group in plural if group.count > 1), owner)
-        if phrase.kind == "pieces" and not phrase.said:
-            self._now.maker.tell_apart(owner, phrase)
-        elif phrase.modifiers.colours or phrase.modifiers.palette:
-            recolour(owner, phrase.modifiers, part=phrase.said)
-        if frame:
-            frame.fresh = bool(frame.link.manner == "hold")
-            self._now.last = [owner]
-
     def _on_link(self, link: Link, at: int) -> int:
         if link.finite:
             self._now.frames = []
@@ -278,7 +253,8 @@ class Reader:
             return at + 1
         if target.head == "which" and near:
             # "A mug behind which is a bottle".
-            self._now.open_beside(link, near[-1])
+            self._which = self._which if self._which and "and" in self._now.mark else near[-1]
+            self._now.open_beside(link, self._which)
             self._verb, self._now.mark = False, ""
             return at + 2
         fronted = self._fronted(at, near)
@@ -332,7 +308,8 @@ class Reader:
     def _forward(self, link: Link, phrase: Phrase, children: list[Group], *, apart: bool) -> None:
         if link.manner == "half" and phrase.kind == "background":
             self._now.on_half(children, link.side or "centre", None)
-        one = phrase.kind == "pieces" and not phrase.said and (phrase.modifiers.colours or phrase.head in REST)
+        told_apart = phrase.modifiers.colours or phrase.modifiers.size_word or position(phrase)
+        one = phrase.kind == "pieces" and not phrase.said and (told_apart or phrase.head in REST)
         if one and (told := self._now.maker.members.told(phrase, self._now.draft.groups[::-1])):
             self._join(link, [told], phrase, children, known=True, apart=apart)
             return
@@ -374,7 +351,12 @@ class Reader:
         if link.manner == "sides" and len(children) > 1:
             self._now.draft.flanks.append(Flank(parent=parent, members=children))
             children = []
-        for child in children:
+        if self._each and not known and parent.count == 1 and len(children) > 0:
+            self._now.maker.multiply(parent, sum(child.count for child in children))
+            parents = [self._now.maker.members.pick(parent, child.count, NO_MODIFIERS) for child in children]
+        self._each = False
+        carriers = parents if len(parents) == len(children) else [parent] * len(children)
+        for child, parent in zip(children, carriers, strict=True):
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
             if child is not parent or phrase.kind == "object":

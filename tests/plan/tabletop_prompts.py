@@ -279,6 +279,26 @@ TABLETOP_PROMPTS = (
         {"small bowl": "bowl", "large bowl": "bowl", "table": "table"},
         "small bowl on table", "large bowl on table",
     ),
+    expect(
+        "Two plates: the left one with an apple and the right one with a pear.",
+        same("plate 1", "plate 2", "apple", "pear"),
+        "apple on plate 1", "pear on plate 2", "plate 1 left_of plate 2",
+    ),
+    expect(
+        "Three mugs in a row; the middle one is red.",
+        {"red mug": "mug", **same("mug 1", "mug 2")},
+        "mug 1 left_of red mug", "red mug left_of mug 2", "mug 1 left_of mug 2",
+    ),
+    expect(
+        "Two bowls, the smaller one inside the larger one.",
+        {"smaller bowl": "bowl", "larger bowl": "bowl"},
+        "smaller bowl in larger bowl",
+    ),
+    expect(
+        "A red, a blue and a green mug, each on its own plate.",
+        {**coloured("mug", "red", "blue", "green"), **same("plate 1", "plate 2", "plate 3")},
+        "red mug on plate 1", "blue mug on plate 2", "green mug on plate 3",
+    ),
     # Telling by placing, passive voice, fragments
     expect(
         "First put a plate on the table, then put a bowl on the plate, and finally place an egg inside the bowl.",
@@ -306,6 +326,38 @@ TABLETOP_PROMPTS = (
         "A book under a lamp on a table.",
         same("book", "lamp", "table"),
         "book on table", "lamp on book",
+    ),
+    expect(
+        "Bowl on plate, spoon in bowl, napkin left of plate.",
+        same("bowl", "plate", "spoon", "napkin"),
+        "bowl on plate", "spoon in bowl", "napkin left_of plate",
+    ),
+    expect(
+        "A plate, to the left of which is a fork and to the right of which is a knife.",
+        same("plate", "fork", "knife"),
+        "fork left_of plate", "knife right_of plate",
+    ),
+    expect(
+        "A tower of blocks: red at the bottom, blue in the middle and green on top.",
+        coloured("block", "red", "blue", "green"),
+        "blue block on red block", "green block on blue block",
+    ),
+    expect("A plate underneath a bowl underneath a cup.", same("plate", "bowl", "cup"), "bowl on plate", "cup on bowl"),
+    expect(
+        "A table with two chairs on opposite sides.",
+        same("table", "chair 1", "chair 2"),
+        "chair 1 left_of table", "chair 2 right_of table",
+    ),
+    expect(
+        "Mugs on a shelf, in two rows of two",
+        same("mug 1", "mug 2", "mug 3", "mug 4", "shelf"),
+        *(f"mug {i} on shelf" for i in (1, 2, 3, 4)), "mug 1 left_of mug 2", "mug 3 left_of mug 4",
+        "mug 3 behind mug 1", "mug 4 behind mug 2",
+    ),
+    expect(
+        "A basket, a jar and, in front of the jar, a mug",
+        same("basket", "jar", "mug"),
+        "mug in_front_of jar",
     ),
     expect("A mug at the edge of a table.", same("mug", "table"), "mug on table"),
     expect(
