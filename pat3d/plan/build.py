@@ -300,7 +300,8 @@ def _pair_sides(draft: Draft) -> None:
             draft.beside(each.group, _KINDS[axis, 0 if place < other_place else 2], other.group)
     for each in draft.sided:
         inside = any(one.group in draft.ancestors(each.group) for one in draft.sided)
-        if id(each.group) not in told and each.side != "centre" and not inside:
+        beside = each.begun and all(other.group is not each.implied for other in draft.sided)
+        if each.side != "centre" and not inside and (beside or id(each.group) not in told):
             _side_alone(draft, each)
 
 

@@ -24,6 +24,8 @@ ChunkKind = Literal[
 
 _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
+_FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
+"""Words before "in a cross" that make it a shape and no place."""
 _EMPTY = frozenset(
     {"for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "from", "per", "than"}
 )
@@ -289,7 +291,9 @@ class _Chunker:
         """
         words = self._words(3)
         shape = shape_said(words[-1])
-        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape in (None, *PLACES):
+        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
+            return False
+        if shape in PLACES and self._previous_word() not in _FORMED:
             return False
         after = self._at + 3
         if self._bounds.goes_on(after) and not self._tokens[after].mark:

@@ -75,6 +75,8 @@ class Sided:
     """What has the side, where the prompt lets know."""
     implied: Group | None = None
     """What the group stands beside where nothing else is on a side."""
+    begun: bool = False
+    """Whether the clause begins with `implied`, so that the side is its side: "a mug, a spoon on the left"."""
 
 
 def carried_by_two(child: Group, parents: Group) -> PromptError:

@@ -8,7 +8,7 @@ from typing import Literal
 
 from pat3d.assets.materials import find_material
 from pat3d.plan import lexicon
-from pat3d.plan.arrangements import grid_size, refuse, shape_said
+from pat3d.plan.arrangements import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.boundaries import Boundaries
 from pat3d.plan.lexing import Token, singulars
 from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
@@ -229,6 +229,8 @@ class PhraseReader:
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
         if (sides := grid_size(words)) and inner.kind in ("object", "unknown"):
             return replace(inner, count=sides[0] * sides[1], rows=sides[0], vague=False), after
+        if RINGS & set(singular) and self._tokens[after].text in ("around", "surrounding") and inner.kind == "object":
+            return inner, after
         if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
             raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:
@@ -284,7 +286,7 @@ class PhraseReader:
                 amount = inner.count if count is None and plural else count
                 return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
-            left_out = inner.words if inner.kind == "unknown" and not find_material(inner.head) else ""
+            left_out = inner.words if inner.kind in ("unknown", "object") and not find_material(inner.head) else ""
             return replace(self._simple(run, count), left_out=left_out), after
         return None
 

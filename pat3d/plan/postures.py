@@ -11,7 +11,7 @@ POSTURE = (
     r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
     r"|overturned|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally"
     r"|crosswise|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
-    r"|facing the (?:viewer|camera|front|left|right|wall)"
+    r"|leaning to (?:one|the|its) (?:side|left|right)|facing the (?:viewer|camera|front|left|right|wall)"
 )
 """Pattern of a posture."""
 _UPRIGHT = "upright"

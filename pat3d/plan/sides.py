@@ -83,15 +83,15 @@ class Sides:
             if landmark is not None and landmark not in children and side in ("left", "right", "centre"):
                 now.relate(child, self._of_landmark(side), landmark)
             else:
-                self._say(child, side, implied[0] if implied else None)
+                self._say(child, side, implied[0] if implied else None, begun=bool(begun))
 
     def _of_landmark(self, side: str) -> Link:
         if self._now.landmark_is_surface or side == "centre":
             return Link(manner="half", kind="on", side=_HALVES[side])
         return Link(kind="left_of" if side == "left" else "right_of")
 
-    def _say(self, group: Group, side: str, implied: Group | None) -> None:
-        self._now.draft.sided.append(Sided(group=group, side=side, implied=implied))
+    def _say(self, group: Group, side: str, implied: Group | None, *, begun: bool = False) -> None:
+        self._now.draft.sided.append(Sided(group=group, side=side, implied=implied, begun=begun))
 
     def _children(self, group: Group) -> tuple[list[Group], list[Group]]:
         """What the place is said of, of a list that ends in `group`, and what the clause begins with."""
@@ -99,6 +99,7 @@ class Sides:
         listed = now.top if now.top[-1:] == [group] else [group]
         related = {id(each.group) for each in draft.sided} | {id(edge.child) for edge in draft.laterals}
         related |= draft.supports.keys() | {id(edge.parent) for edge in (*draft.laterals, *draft.supports.values())}
+        related |= {id(each.implied) for each in draft.sided if each.begun}
         children = [each for each in listed if each is group or id(each) not in related]
         begun = [each for each in now.subject if each not in children]
         if not begun and len(listed) > len(children):

@@ -56,6 +56,11 @@ TABLETOP_PROMPTS = (
         "bottle on desk", "bowl on plate", "crate on desk", "crate right_of bottle",
     ),
     expect(
+        "A mug, a spoon on the left and a napkin on the right",
+        same("mug", "spoon", "napkin"),
+        "spoon left_of mug", "napkin right_of mug", "spoon left_of napkin",
+    ),
+    expect(
         "A pot with a spoon in it, and a bowl nearby.",
         same("pot", "spoon", "bowl"),
         "spoon in pot", "bowl next_to pot",
@@ -195,6 +200,11 @@ TABLETOP_PROMPTS = (
         "Four cups arranged in a circle around a teapot.",
         same("cup 1", "cup 2", "cup 3", "cup 4", "teapot"),
         *(f"cup {i} around teapot" for i in (1, 2, 3, 4)),
+    ),
+    expect(
+        "A ring of three cups around a teapot",
+        same("cup 1", "cup 2", "cup 3", "teapot"),
+        *(f"cup {i} around teapot" for i in (1, 2, 3)),
     ),
     expect(
         "A pile of apples in a crate.",
