@@ -225,8 +225,9 @@ class Attempts:
             prompt=self.order.prompt, seed=self.seed,
             settling_friction=self.friction, provenance=self._provenance(layout_seed),
         )  # fmt: skip
-        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, layout.notes)
-        return scene, layout.notes
+        notes = (*(one.note for one in self._ingredients if one.note), *layout.notes)
+        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
+        return scene, notes
 
     def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> Rest:
         kept = self.workspace.rest(number, inputs["rest"], scene)

@@ -28,6 +28,8 @@ class Ingredient:
     fixed: bool = False
     pose: Pose | None = None
     """Where the user wants it; None where the layout decides."""
+    note: str = ""
+    """What was decided about it where the prompt was silent."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -78,9 +80,27 @@ def order_of(plan: ScenePlan, allow_proxies: bool) -> Order:
 def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
     """An asset from the catalogue for every planned object; equal objects of a set share one."""
     from pat3d.assets import catalogue
+    from pat3d.widen import widened
+
+    planned = {obj.name: obj for obj in plan.objects}
+
+    def make(name: str, factor: float = 1.0) -> Asset:
+        obj = planned[name]
+        shape = partial(
+            catalogue.make,
+            obj.noun,
+            colours=obj.colours,
+            material=obj.material,
+            adjectives=obj.adjectives,
+            seed=derived_seed(seed, name),
+        )
+        asked = obj.scale
+        if obj.extent is not None:
+            asked *= obj.extent.factor(shape(scale=asked).size.tolist())
+        return shape(scale=asked * factor)
 
     made: dict[tuple, Asset] = {}
-    found = []
+    assets: dict[str, Asset] = {}
     for number, obj in enumerate(plan.objects):
         progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
         look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
@@ -88,20 +108,16 @@ def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredi
         shared = entry is not None and entry.family in MATCHING
         key = (look, obj.phrase if shared else obj.name)
         if key not in made:
-            make = partial(
-                catalogue.make,
-                obj.noun,
-                colours=obj.colours,
-                material=obj.material,
-                adjectives=obj.adjectives,
-                seed=derived_seed(seed, obj.name),
-            )
-            asset = make(scale=obj.scale)
-            if obj.extent is not None:
-                asset = make(scale=obj.scale * obj.extent.factor(asset.size.tolist()))
-            made[key] = asset
-        found.append(Ingredient(name=obj.name, asset=made[key], phrase=obj.phrase))
-    return tuple(found)
+            made[key] = make(obj.name)
+        assets[obj.name] = made[key]
+    notes: dict[str, str] = {}
+    for name, (larger, factor) in widened(plan, assets, make).items():
+        assets[name] = larger
+        notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
+    return tuple(
+        Ingredient(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
+        for obj in plan.objects
+    )
 
 
 def _plain(obj: PlannedObject) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 from pat3d.assets.asset import Region
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column
-from pat3d.layout.surfaces import Surface
+from pat3d.layout.flat import Surface
 
 _UPRIGHT = math.cos(math.radians(3.0))
 

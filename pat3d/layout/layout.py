@@ -16,11 +16,12 @@ from pat3d.assets.asset import Asset
 from pat3d.errors import LayoutError
 from pat3d.layout.bodies import Body
 from pat3d.layout.containers import pack
+from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.hanging import attachment, hang
 from pat3d.layout.proof import Proof, prove
-from pat3d.layout.surfaces import Lateral, Surface, arrange_flat, ring_angles
+from pat3d.layout.surfaces import arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread
 from pat3d.scene import GROUND, Attachment, Pose, Relation, check_tree, parent_of
 

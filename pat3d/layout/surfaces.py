@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
+from pat3d.layout.flat import Item, Lateral, Spot, Surface
 
 BRANCHES = 4
 """Places tried for each thing before backing up."""
@@ -22,82 +23,6 @@ CHECKED = 30
 """Cheapest places of each thing that are checked exactly against the edge of the surface."""
 BUDGET = 150
 """Places tried in all before a strategy is given up."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Item:
-    """What is placed: the outline of a group relative to its root's origin."""
-
-    name: str
-    low: Array
-    """Lower corner of the bounding rectangle [m], shape (2,)."""
-    high: Array
-    """Upper corner [m], shape (2,)."""
-    outline: Array
-    """Points whose hull is the footprint [m], shape (n, 2)."""
-    centre_of_mass: Array
-    """[m], shape (2,)."""
-    tall: float
-    """Height above the surface [m]."""
-    alike: str = ""
-    """What it is; things alike keep closer together."""
-    turnable: bool = True
-    """Whether it may be turned by a quarter to fit."""
-    walled: bool = False
-    """Whether it is furniture that stands with its back to a wall."""
-
-    @property
-    def size(self) -> Array:
-        """Extents [m], shape (2,)."""
-        return self.high - self.low
-
-    def quarter(self) -> Item:
-        """The item turned by 90 degrees about its origin."""
-        turn = np.array([[0.0, -1.0], [1.0, 0.0]])
-        corners = np.array([self.low, self.high]) @ turn.T
-        return Item(
-            name=self.name, low=corners.min(axis=0), high=corners.max(axis=0), outline=self.outline @ turn.T,
-            centre_of_mass=turn @ self.centre_of_mass, tall=self.tall, alike=self.alike, turnable=False,
-            walled=self.walled,
-        )  # fmt: skip
-
-
-@dataclass(frozen=True, kw_only=True)
-class Surface:
-    """A free rectangle or disc, or the unlimited ground."""
-
-    half_size: tuple[float, float] = (math.inf, math.inf)
-    """Half extents along x and y [m]."""
-    disc: bool = False
-
-    @property
-    def limited(self) -> bool:
-        """Whether it has an edge."""
-        return math.isfinite(self.half_size[0])
-
-    @property
-    def area(self) -> float:
-        """Area [m^2], infinite without an edge."""
-        return (math.pi if self.disc else 4.0) * self.half_size[0] * self.half_size[1]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Lateral:
-    """`child` stands `kind` of `parent`, both on this surface."""
-
-    child: str
-    kind: str
-    parent: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spot:
-    """Where an item's origin goes, relative to the centre of the surface."""
-
-    position: Array
-    """[m], shape (2,)."""
-    quarter: bool = False
-    """Whether it was turned by 90 degrees."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,7 +50,12 @@ _STRATEGIES = (
 
 
 def arrange_flat(
-    items: Sequence[Item], laterals: Sequence[Lateral], surface: Surface, *, pinned: Mapping[str, Array] | None = None
+    items: Sequence[Item],
+    laterals: Sequence[Lateral],
+    surface: Surface,
+    *,
+    pinned: Mapping[str, Array] | None = None,
+    overhang: bool = True,
 ) -> dict[str, Spot] | None:
     """Where every item goes, or None where they do not fit.
 
@@ -134,15 +64,30 @@ def arrange_flat(
         laterals: relations among them.
         surface: what they stand on; positions are relative to its centre.
         pinned: items already at a position [m], shape (2,).
+        overhang: whether things may stand over the edge a little where they do not fit otherwise.
     """
     fixed = dict(pinned or {})
-    if surface.limited and sum(float(np.prod(item.size)) for item in items) > 2.0 * surface.area:
-        return None
     for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
+        if (strategy.overhang and not overhang) or _too_many(items, surface, strategy):
+            continue
         found = _Search(items, laterals, surface, fixed, strategy).run()
         if found is not None:
             return found
     return None
+
+
+def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> bool:
+    """Whether the items cannot lie side by side, however they are arranged.
+
+    Grown by half a gap on every side they still do not overlap, and lie in the surface's rectangle grown likewise (and
+    by what may stand over the edge).
+    """
+    if not surface.limited:
+        return False
+    sizes = np.array([item.size for item in items])
+    widest = np.full(2, sizes.max()) if strategy.quarters else sizes.max(axis=0)
+    room = 2 * np.array(surface.half_size) + 2 * strategy.overhang * widest + strategy.least
+    return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(room))
 
 
 def natural_gap(first: Array, second: Array) -> float:
@@ -366,12 +311,14 @@ class _Search:
         for item, spot in pieces:
             if item.name in self.pinned:
                 continue
-            slack = half + self.strategy.overhang * item.size
-            points = item.outline + spot + shift
-            reach = np.linalg.norm(points / slack, axis=1) if self.surface.disc else np.abs(points / slack).max(axis=1)
-            if reach.max() > 1.0 + 1e-9:
+            slack, at = half + self.strategy.overhang * item.size, spot + shift
+            if self.surface.disc:
+                beyond = np.linalg.norm((item.outline + at) / slack, axis=1).max()
+            else:
+                beyond = max(np.max((item.high + at) / slack), np.max(-(item.low + at) / slack))
+            if beyond > 1.0 + 1e-9:
                 return None
-            weight = (item.centre_of_mass + spot + shift) / half
+            weight = (item.centre_of_mass + at) / half
             if (np.linalg.norm(weight) if self.surface.disc else np.abs(weight).max()) > 0.92:
                 return None
         return shift

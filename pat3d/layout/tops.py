@@ -13,9 +13,10 @@ from pat3d.errors import LayoutError
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, listed, lower, pack
+from pat3d.layout.flat import Item, Lateral
 from pat3d.layout.frames import FlatRegion, outline
 from pat3d.layout.group import Group, yaw_matrix
-from pat3d.layout.surfaces import Item, Lateral, arrange_flat
+from pat3d.layout.surfaces import arrange_flat
 
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
@@ -62,14 +63,8 @@ def spread(
     waiting = _shares(top, groups, laterals)
     overflow: list[Group] = []
     for region, share in zip(top.regions, waiting, strict=True):
-        share = [*overflow, *share]
-        overflow = []
-        while share:
-            found = _on_region(top, region, share, laterals, placed, rng, notes)
-            if found is not None:
-                placed.extend(found)
-                break
-            overflow.insert(0, share.pop())
+        found, overflow = _as_many(top, region, [*overflow, *share], laterals, placed, rng, notes)
+        placed.extend(found)
     held = {lat.child for lat in laterals} | {lat.parent for lat in laterals}
     if overflow or not all(_carried(top, group, placed) for group in placed):
         piled = None if any(group.name in held for group in groups) else _pile(top, groups, rng)
@@ -159,6 +154,33 @@ def _pile(top: Top, groups: Sequence[Group], rng: np.random.Generator) -> list[G
 def _low_enough(top: Top, region: int, group: Group) -> bool:
     found = top.regions[region]
     return not found.enclosed or float(group.size[2]) + 3 * top.gap < found.height
+
+
+def _as_many(
+    top: Top,
+    region: FlatRegion,
+    share: Sequence[Group],
+    laterals: Sequence[Lateral],
+    before: Sequence[Group],
+    rng: np.random.Generator,
+    notes: list[str],
+) -> tuple[list[Group], list[Group]]:
+    """As many of `share`, from its beginning, as fit on one region, placed; and the rest."""
+    best: list[Group] = []
+    said: list[str] = []
+    fit, beyond = 0, len(share) + 1
+    tried = len(share)
+    while fit < tried:
+        remarks: list[str] = []
+        found = _on_region(top, region, share[:tried], laterals, before, rng, remarks)
+        if found is None:
+            beyond = tried
+        else:
+            best, said, fit = found, remarks, tried
+        # By halving: of twenty that do not fit together, five shares are tried, not twenty.
+        tried = (fit + beyond) // 2
+    notes.extend(said)
+    return best, list(share[fit:])
 
 
 def _on_region(

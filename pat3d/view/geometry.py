@@ -160,6 +160,11 @@ class Geometry:
         found = self._scene.run(origins, directions, output=1)
         return found["primID"], found["tfar"]
 
+    def first_items(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int32]:
+        """Index of the item that each ray, shape (n, 3), hits first, -1 for none; shape (n,)."""
+        face, _ = self.first_faces(origins, directions)
+        return np.where(face >= 0, self._item[face], np.int32(-1))
+
     def trace(self, origin: NDArray[np.float32], directions: NDArray[np.float32], pixel: float) -> Hits:
         """First hits of rays from one point.
 

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from pat3d.assets.asset import VisualMesh
 from pat3d.errors import SpecError
 from pat3d.scene import Pose, Scene
-from pat3d.view.camera import AZIMUTH, ELEVATION, frame
-from pat3d.view.render import Item, frame_items, render
+from pat3d.view.camera import ELEVATION, frame
+from pat3d.view.render import Item, render
+from pat3d.view.viewpoint import overlooking
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -40,21 +41,17 @@ def save_preview(
     *,
     width: int = 800,
     height: int = 600,
-    azimuth: float = AZIMUTH,
-    elevation: float = ELEVATION,
 ) -> None:
-    """Write the initial layout beside the settled scene, seen by one camera that fits both.
+    """Write the initial layout beside the settled scene, seen by one camera that shows all of both.
 
     Args:
         scene: what to draw.
         path: of the PNG file.
         width: of each of the two pictures [pixel].
         height: of each of the two pictures [pixel].
-        azimuth: of the camera [deg], from -y towards +x.
-        elevation: of the camera above the horizon [deg].
     """
     panels = [("initial layout", scene_items(scene, initial=True)), ("settled", scene_items(scene))]
-    save_png(side_by_side(panels, width=width, height=height, azimuth=azimuth, elevation=elevation), path)
+    save_png(side_by_side(panels, width=width, height=height), path)
 
 
 def side_by_side(
@@ -62,12 +59,9 @@ def side_by_side(
     *,
     width: int = 800,
     height: int = 600,
-    azimuth: float = AZIMUTH,
-    elevation: float = ELEVATION,
 ) -> Image.Image:
-    """Captioned pictures in a row, seen by one camera that fits all; arguments as for `save_preview`."""
-    together = [item for _, items in panels for item in items]
-    camera = frame_items(together, aspect=width / height, azimuth=azimuth, elevation=elevation)
+    """Captioned pictures in a row, seen by one camera that shows all; arguments as for `save_preview`."""
+    camera = overlooking([items for _, items in panels], aspect=width / height)
     sheet = _Sheet(
         columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11)
     )  # fmt: skip
@@ -82,12 +76,10 @@ def save_picture(
     *,
     width: int = 960,
     height: int = 720,
-    azimuth: float = AZIMUTH,
-    elevation: float = ELEVATION,
 ) -> None:
     """Write the settled scene alone, without a caption; arguments as for `save_preview`."""
     items = scene_items(scene)
-    camera = frame_items(items, aspect=width / height, azimuth=azimuth, elevation=elevation)
+    camera = overlooking([items], aspect=width / height)
     save_png(render(items, camera=camera, width=width, height=height), path)
 
 

@@ -1,0 +1,86 @@
+"""What is arranged on a surface, seen from above."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.layout.bodies import Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Item:
+    """What is placed: the outline of a group relative to its root's origin."""
+
+    name: str
+    low: Array
+    """Lower corner of the bounding rectangle [m], shape (2,)."""
+    high: Array
+    """Upper corner [m], shape (2,)."""
+    outline: Array
+    """Points whose hull is the footprint [m], shape (n, 2)."""
+    centre_of_mass: Array
+    """[m], shape (2,)."""
+    tall: float
+    """Height above the surface [m]."""
+    alike: str = ""
+    """What it is; things alike keep closer together."""
+    turnable: bool = True
+    """Whether it may be turned by a quarter to fit."""
+    walled: bool = False
+    """Whether it is furniture that stands with its back to a wall."""
+
+    @property
+    def size(self) -> Array:
+        """Extents [m], shape (2,)."""
+        return self.high - self.low
+
+    def quarter(self) -> Item:
+        """The item turned by 90 degrees about its origin."""
+        turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+        corners = np.array([self.low, self.high]) @ turn.T
+        return Item(
+            name=self.name, low=corners.min(axis=0), high=corners.max(axis=0), outline=self.outline @ turn.T,
+            centre_of_mass=turn @ self.centre_of_mass, tall=self.tall, alike=self.alike, turnable=False,
+            walled=self.walled,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Surface:
+    """A free rectangle or disc, or the unlimited ground."""
+
+    half_size: tuple[float, float] = (math.inf, math.inf)
+    """Half extents along x and y [m]."""
+    disc: bool = False
+
+    @property
+    def limited(self) -> bool:
+        """Whether it has an edge."""
+        return math.isfinite(self.half_size[0])
+
+    @property
+    def area(self) -> float:
+        """Area [m^2], infinite without an edge."""
+        return (math.pi if self.disc else 4.0) * self.half_size[0] * self.half_size[1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lateral:
+    """`child` stands `kind` of `parent`, both on this surface."""
+
+    child: str
+    kind: str
+    parent: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spot:
+    """Where an item's origin goes, relative to the centre of the surface."""
+
+    position: Array
+    """[m], shape (2,)."""
+    quarter: bool = False
+    """Whether it was turned by 90 degrees."""

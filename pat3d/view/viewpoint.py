@@ -1,0 +1,54 @@
+"""From how high to look, so that what lies in a container or behind something is in the picture too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.view.camera import ELEVATION, Camera
+from pat3d.view.geometry import Geometry
+from pat3d.view.render import Item, frame_items
+
+ELEVATIONS = (ELEVATION, 40.0, 55.0, 70.0)
+"""That are tried in this order [deg]: low views show best what things are, high ones what they hold."""
+
+ENOUGH = 0.1
+"""Share of an item that has to be seen; of the lowest book of a stack, one hardly sees more from anywhere."""
+
+_SAMPLES = 256
+"""Faces of an item that are looked towards, at most."""
+
+
+def overlooking(panels: Sequence[Sequence[Item]], *, aspect: float) -> Camera:
+    """The lowest of the automatic cameras that shows every item of every panel, or else the most items."""
+    together = [item for items in panels for item in items]
+    best, most = frame_items(together, aspect=aspect), -1
+    for elevation in ELEVATIONS:
+        camera = frame_items(together, aspect=aspect, elevation=elevation)
+        shown = sum(int(np.count_nonzero(share_seen(items, camera) >= ENOUGH)) for items in panels)
+        if shown > most:
+            best, most = camera, shown
+        if shown == len(together):
+            break
+    return best
+
+
+def share_seen(items: Sequence[Item], camera: Camera) -> NDArray[np.float64]:
+    """How much of every item other items do not hide from the camera; shape (len(items),).
+
+    Of the directions to the middles of an item's faces, front and back, the share in which the item is what one sees,
+    by the area of the faces.
+    """
+    geometry = Geometry(items)
+    eye = np.array(camera.position) - geometry.origin
+    seen = np.empty(len(items))
+    for index, (mesh, pose) in enumerate(items):
+        corners = mesh.vertices[mesh.faces[:: -(-len(mesh.faces) // _SAMPLES)]]
+        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        rays = pose.apply(corners.mean(axis=1)) - geometry.origin - eye
+        rays /= np.linalg.norm(rays, axis=1)[:, None]
+        first = geometry.first_items(np.tile(eye, (len(rays), 1)).astype(np.float32), rays.astype(np.float32))
+        seen[index] = np.average(first == index, weights=area)
+    return seen
