@@ -146,7 +146,7 @@ def _extent(draft: Draft, group: Group) -> Extent | None:
             raise PromptError(f'"{measure.said}": an object may measure {SMALLEST * 1000:g} mm to {LARGEST:g} m.')
         else:
             extent = Extent(metres=max(measure.metres), axis=measure.axis)
-            if len(measure.metres) > 1:
+            if len(set(measure.metres)) > 1:
                 notes.append(f'"{measure.said}": the longest side is {extent.metres:g} m, the others follow.')
     return extent
 

@@ -32,6 +32,8 @@ class Context(Relations):
     """Whether the clause goes on to list after the phrase being read."""
     holder: dict[int, Frame] = field(default_factory=dict)
     """The list that a group is a member of, by id of the group."""
+    shared_out: set[int] = field(default_factory=set)
+    """Groups of which there is one for each of another, by id: the forks of "a fork beside each plate"."""
     carried: dict[int, list[Group]] = field(default_factory=dict)
     """What was last put on a group, by id of the group."""
     related: list[Group] = field(default_factory=list)
@@ -161,13 +163,22 @@ class Context(Relations):
         frame = self.holder.get(id(child)) if child is not None else None
         if child is not None and phrase.head in lexicon.DEMONSTRATIVES:
             return self.draft.groups[: self.draft.groups.index(child)][-1:]
+        if frame is not None and frame.parents and frame.parents[0].count == 1 and phrase.head in ("them", "they"):
+            # "A desk with two monitors and a keyboard in front of them".
+            plural = [group for group in frame.members if group.count > 1 and group is not child]
+            if plural:
+                return plural[-1:]
         if frame is not None and frame.parents and frame.flank is None:
             central = [each.group for each in self.draft.sided if each.side == "centre" and each.group in frame.members]
             if central and child not in central:
                 return central[-1:]
             return frame.parents[:1]
         if phrase.each or phrase.head in ("them", "they", "each"):
-            plural = [group for group in self.draft.groups if group.count > 1 and group is not child]
+            plural = [
+                group
+                for group in self.draft.groups
+                if group.count > 1 and group is not child and id(group) not in self.shared_out
+            ]
             if plural:
                 return plural[-1:]
         for options in (self.subject, self.before, self.draft.groups[::-1]):

@@ -96,7 +96,7 @@ def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
 
 def _headless(phrase: Phrase) -> bool:
     words = phrase.modifiers
-    described = words.colours or words.size_word or words.material or words.adjectives
+    described = words.colours or words.size_word or words.material
     return phrase.kind == "pieces" and phrase.said == "" and phrase.determined and bool(described)
 
 

@@ -15,6 +15,8 @@ from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modi
 from pat3d.plan.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
+_ORDINALS = frozenset({"first", "second", "third", "last"})
+"""Members of a group named by their place alone: "a ball in the first"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,6 +100,10 @@ class PhraseReader:
         else:
             if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
+            if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
+                told = Modifiers(adjectives=(run[0].text,))
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
+                              determined=True, definite=True, modifiers=told), after  # fmt: skip
             if run[-1].text == "one" and flags.get("determined"):
                 count = count or 1
             phrase = self._simple(run, count)

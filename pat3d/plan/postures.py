@@ -9,8 +9,9 @@ POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
     r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
-    r"|overturned|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?|tilted|slanted|sideways|diagonally"
-    r"|crosswise|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
+    r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
+    r"|tilted|slanted|sideways|diagonally|crosswise"
+    r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
     r"|leaning to (?:one|the|its) (?:side|left|right)|facing the (?:viewer|camera|front|left|right|wall)"
 )
 """Pattern of a posture."""

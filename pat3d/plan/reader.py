@@ -359,6 +359,7 @@ class Reader:
         for child, parent in zip(children, carriers, strict=True):
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
+                self._now.shared_out.add(id(child))
             if child is not parent or phrase.kind == "object":
                 self._now.relate(child, self._sides.claimed(child, link), parent)
                 self._now.carried[id(parent)] = [child]

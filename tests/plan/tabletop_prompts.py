@@ -309,6 +309,21 @@ TABLETOP_PROMPTS = (
         {**coloured("mug", "red", "blue", "green"), **same("plate 1", "plate 2", "plate 3")},
         "red mug on plate 1", "blue mug on plate 2", "green mug on plate 3",
     ),
+    expect(
+        "Three plates, a fork to the left of each and a knife to the right of each.",
+        same(*(f"{noun} {i}" for noun in ("plate", "fork", "knife") for i in (1, 2, 3))),
+        *(f"fork {i} left_of plate {i}" for i in (1, 2, 3)), *(f"knife {i} right_of plate {i}" for i in (1, 2, 3)),
+    ),
+    expect(
+        "A desk with two lamps side by side and a mug in front of them.",
+        same("desk", "lamp 1", "lamp 2", "mug"),
+        "lamp 1 on desk", "lamp 2 on desk", "mug on desk", "lamp 1 left_of lamp 2", "mug in_front_of lamp 1",
+    ),
+    expect(
+        "Two boxes in a row with a ball in the first and a block in the last.",
+        same("box 1", "box 2", "ball", "block"),
+        "ball in box 1", "block in box 2", "box 1 left_of box 2",
+    ),
     # Telling by placing, passive voice, fragments
     expect(
         "First put a plate on the table, then put a bowl on the plate, and finally place an egg inside the bowl.",

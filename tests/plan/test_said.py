@@ -45,6 +45,10 @@ def test_lengths_count_nothing_and_numbers_beside_them_do(planner: GrammarPlanne
     assert plan.notes == ()
 
 
+def test_a_cube_of_three_equal_lengths_needs_no_note(planner: GrammarPlanner):
+    assert planner.plan("A 6x6x6 cm block").notes == ()
+
+
 def test_a_box_of_three_lengths_has_the_longest_and_says_so(planner: GrammarPlanner):
     plan = planner.plan("A 10x10x5 cm box")
     assert plan.objects[0].extent == Extent(metres=0.1)
