@@ -256,13 +256,19 @@ class _Chunker:
             if key in EACH_OTHER:
                 last = self._chunks[-1] if self._chunks else None
                 fronted = EACH_OTHER[key] in ("order", "reverse")
-                after = last is not None and last.kind in ("phrase", "comma", "link", "verb")
+                after = last is not None and last.kind in ("phrase", "comma", "link", "verb", "arrange")
                 if fronted or (after and not self._stacked_noun(size)):
                     self._add("arrange", size)
                     self._chunks[-1] = Chunk(kind="arrange", text=EACH_OTHER[key])
                     return True
             if key in LINKS:
                 link = LINKS[key]
+                if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
+                    # No plan relates the members of a group in another way than by what EACH_OTHER lists.
+                    self._unread.append(" ".join(self._words(size + 2)))
+                    self._add("arrange", size + 2)
+                    self._chunks[-1] = Chunk(kind="arrange", text="beside")
+                    return True
                 if key == ("on",) and self._words(2) == ("on", "each") and self._tokens[self._at + 2].text == "other":
                     continue
                 # Verbs that are also nouns ("bears", "houses") open no clause.

@@ -177,7 +177,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
         ),
         "beside": (
             "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
-            "next to one another", "close together", "facing each other", "opposite each other", "face to face",
+            "next to one another", "close together", "face to face",
         ),
         "order": ("from left to right", "left to right", "ordered from left to right"),
         "reverse": ("from right to left", "right to left"),

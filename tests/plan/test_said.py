@@ -45,6 +45,11 @@ def test_lengths_count_nothing_and_numbers_beside_them_do(planner: GrammarPlanne
     assert plan.notes == ()
 
 
+def test_what_stands_to_each_other_is_of_one_group(planner: GrammarPlanner):
+    for words in ("leaning against", "in front of", "facing", "inside"):
+        assert len(planner.plan(f"Two books {words} each other").objects) == 2
+
+
 def test_a_cube_of_three_equal_lengths_needs_no_note(planner: GrammarPlanner):
     assert planner.plan("A 6x6x6 cm block").notes == ()
 
@@ -111,6 +116,7 @@ def test_a_size_that_nothing_has_is_refused(planner: GrammarPlanner, prompt: str
         ("A bottle leaning against a box", '"A bottle" leaning against "a box" is placed next to it.'),
         ("A book leans on a stack of two books",
          '"A book" leaning against "a stack of two books" is placed next to it.'),
+        ("Two books leaning against each other", '"leaning against each other" is left out.'),
         ("A lamp above a table", '"A lamp" above "a table" is placed on it.'),
         ("A mug at the edge of a table", '"A mug" at the edge of "a table" is placed on it.'),
         ("A lamp on two books", '"A lamp" on "two books" is placed on "book 1".'),
