@@ -197,7 +197,7 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     show_proof(target, delivery.checked.scene, delivery.checked.proof)
     show_optimisation(target, delivery.checked.rest.optimisation)
     show_parity(target, report.exports)
-    for note in (*report.order.get("notes", ()), *best.notes):
+    for note in (*_said_back(report.order), *best.notes):
         target.print(f"note  {note}", markup=False)
     if report.failures and delivery.checked.rest.optimisation is None and not available():
         target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
@@ -208,6 +208,12 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
     mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
     show_files(target, folder, mains)
+
+
+def _said_back(order: Mapping[str, Any]) -> tuple[str, ...]:
+    """What the planner assumed or left out, and what it took for scenery."""
+    aside = "; ".join(order.get("set_aside", ()))
+    return (*order.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
 
 
 def show_mended(target: Console, outcome: Outcome) -> None:

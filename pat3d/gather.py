@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -85,20 +86,24 @@ def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredi
 
     def make(name: str, factor: float = 1.0) -> Asset:
         obj = planned[name]
-        return catalogue.make(
+        shape = partial(
+            catalogue.make,
             obj.noun,
             colours=obj.colours,
             material=obj.material,
-            scale=obj.scale * factor,
             adjectives=obj.adjectives,
             seed=derived_seed(seed, name),
         )
+        asked = obj.scale
+        if obj.extent is not None:
+            asked *= obj.extent.factor(shape(scale=asked).size.tolist())
+        return shape(scale=asked * factor)
 
     made: dict[tuple, Asset] = {}
     assets: dict[str, Asset] = {}
     for number, obj in enumerate(plan.objects):
         progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
-        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.adjectives)
+        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
         entry = catalogue.find(obj.noun)
         shared = entry is not None and entry.family in MATCHING
         key = (look, obj.phrase if shared else obj.name)
@@ -120,4 +125,5 @@ def _plain(obj: PlannedObject) -> dict[str, Any]:
     return {
         "name": obj.name, "noun": obj.noun, "phrase": obj.phrase, "colours": list(obj.colours),
         "material": obj.material, "scale": obj.scale, "adjectives": list(obj.adjectives), "proxy": obj.proxy,
+        "extent": asdict(obj.extent) if obj.extent else None,
     }  # fmt: skip

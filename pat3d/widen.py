@@ -36,7 +36,8 @@ def widened(
     found: dict[str, tuple[Asset, float]] = {}
     for obj in plan.objects:
         carried = [rel.child for rel in plan.relations if rel.kind == "on" and rel.parent == obj.name]
-        if obj.noun not in WIDENED or obj.scale != 1.0 or len(carried) < 2:
+        sized = obj.scale != 1.0 or obj.extent is not None
+        if obj.noun not in WIDENED or sized or len(carried) < 2:
             continue
         loads = [assets[name] for name in carried]
         if _side_by_side(assets[obj.name], loads):

@@ -2,7 +2,9 @@ import io
 
 from rich.console import Console
 
-from pat3d.console import _length, _words, watch
+from pat3d.console import _length, _said_back, _words, watch
+from pat3d.gather import order_of
+from pat3d.plan.grammar import GrammarPlanner
 from pat3d.progress import Event
 
 
@@ -31,3 +33,12 @@ def test_events_read_as_sentences():
     assert _words(Event(stage="planning")) == "planning"
     assert _words(Event(stage="settling", step=3, motion=0.0123)) == "settling, step 3, moving 12.3 mm"
     assert [_length(value) for value in (2e-9, 3.2e-5, 0.5, 2.0)] == ["2 nm", "32 um", "500 mm", "2 m"]
+
+
+def test_what_the_planner_left_out_is_printed():
+    plan = GrammarPlanner().plan("An upside-down mug on the floor")
+    assert _said_back(order_of(plan, False).record) == (
+        '"upside-down" is left out: "An upside-down mug" is placed the way the catalogue makes it.',
+        "set aside: the floor",
+    )
+    assert _said_back({}) == ()

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan import lexicon
-from pat3d.plan.draft import Draft, Group
-from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.plan.draft import Draft, Group, Sided, carried_by_two
+from pat3d.plan.measures import LARGEST, SMALLEST
+from pat3d.plan.postures import is_natural
+from pat3d.plan.scene_plan import Extent, PlannedObject, ScenePlan
 from pat3d.scene import GROUND, LateralKind, Relation
 
 
@@ -22,7 +25,11 @@ def build(prompt: str, draft: Draft) -> ScenePlan:
     for edge in gone:
         del draft.supports[id(edge.child)]
     draft.laterals = [edge for edge in draft.laterals if not (edge.parent.replaced or edge.child.replaced)]
-    draft.sided = [(one, side, of) for one, side, of in draft.sided if not (one.replaced or (of and of.replaced))]
+    draft.sided = [
+        each
+        for each in draft.sided
+        if not any(group is not None and group.replaced for group in (each.group, each.owner, each.implied))
+    ]
     draft.flanks = [flank for flank in draft.flanks if not flank.parent.replaced]
     for flank in draft.flanks:
         flank.members = [group for group in flank.members if not group.replaced and group is not flank.parent]
@@ -71,6 +78,7 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
     bare: list[tuple[Group, list[PlannedObject]]] = []
     for group in draft.groups:
         words, objects = group.modifiers, []
+        extent = _extent(draft, group)
         for index in range(group.count):
             colours = words.colours
             if index < len(group.member_colours):
@@ -92,6 +100,7 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
                     colours=colours,
                     material=words.material or plush,
                     scale=words.scale,
+                    extent=extent,
                     adjectives=words.adjectives,
                     proxy=group.proxy,
                 )
@@ -110,20 +119,41 @@ def _members(draft: Draft) -> dict[int, list[PlannedObject]]:
                 while f"{name} {seen[name]}" in taken:
                     seen[name] += 1
                 name = f"{name} {seen[name]}"
-            kept.append(_renamed(obj, name))
+            kept.append(replace(obj, name=name))
     return named
+
+
+def _extent(draft: Draft, group: Group) -> Extent | None:
+    """The size that the prompt gives the objects of `group`; notes on what it gives and the scene does not have.
+
+    Raises:
+        PromptError: no object has that size.
+    """
+    said, notes = group.phrase, draft.notes
+    lies = draft.is_a(group, lexicon.LYING)
+    for posture in group.modifiers.postures:
+        if not is_natural(posture, lies=lies):
+            notes.append(f'"{posture}" is left out: "{said}" is placed the way the catalogue makes it.')
+    extent = None
+    for measure in group.modifiers.measures:
+        if measure.distance:
+            notes.append(f'"{measure.said}" is left out: distances between objects are not planned.')
+        elif not measure.metres:
+            notes.append(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
+        elif extent is not None:
+            notes.append(f'"{measure.said}" is left out: "{said}" has a size already and keeps its proportions.')
+        elif not all(SMALLEST <= metres <= LARGEST for metres in measure.metres):
+            raise PromptError(f'"{measure.said}": an object may measure {SMALLEST * 1000:g} mm to {LARGEST:g} m.')
+        else:
+            extent = Extent(metres=max(measure.metres), axis=measure.axis)
+            if len(set(measure.metres)) > 1:
+                notes.append(f'"{measure.said}": the longest side is {extent.metres:g} m, the others follow.')
+    return extent
 
 
 def _material_word(group: Group, said: str) -> str:
     word = group.modifiers.material_word
     return "" if word in said.split() or word == group.modifiers.size_word else word
-
-
-def _renamed(obj: PlannedObject, name: str) -> PlannedObject:
-    return PlannedObject(
-        name=name, noun=obj.noun, phrase=obj.phrase, colours=obj.colours, material=obj.material, scale=obj.scale,
-        adjectives=obj.adjectives, proxy=obj.proxy,
-    )  # fmt: skip
 
 
 def _bases(group: Group, members: list[PlannedObject]) -> list[str]:
@@ -143,12 +173,27 @@ def _supports(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
         edge = draft.supports.get(id(group))
         if edge is not None:
             places = _tops(edge.parent, members[id(edge.parent)])
+            if len(places) > len(_bases(group, own)) == 1:
+                _check_one_carrier(draft, group, edge.parent, places[0])
             for index, name in enumerate(_bases(group, own)):
                 relations.append(Relation(child=name, kind=edge.kind, parent=places[index % len(places)]))
         for index, obj in enumerate(own):
             if index % max(group.height, 1):
                 relations.append(Relation(child=obj.name, kind="on", parent=own[index - 1].name))
     return relations
+
+
+def _check_one_carrier(draft: Draft, group: Group, parents: Group, chosen: str) -> None:
+    """Say that one thing "on two books" is on one of them.
+
+    Raises:
+        PromptError: the two are no flat things, of which people mean one stack or one of many.
+    """
+    if not parents.exact or parents.one_of:
+        return
+    if not draft.is_a(parents, lexicon.THIN):
+        raise carried_by_two(group, parents)
+    draft.notes.append(f'"{group.phrase}" on "{parents.phrase}" is placed on "{chosen}".')
 
 
 def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Relation]:
@@ -166,10 +211,23 @@ def _laterals(draft: Draft, members: dict[int, list[PlannedObject]]) -> list[Rel
         for index, name in enumerate(_bases(child, members[id(child)])):
             relations.append(Relation(child=name, kind=edge.kind, parent=places[index % len(places)]))
     for group in draft.groups:
-        if group.row:
+        edge = draft.supports.get(id(group))
+        if group.heap and (edge is None or edge.kind != "in"):
             names = [obj.name for obj in members[id(group)]]
-            pairs = zip(names, names[1:], strict=False)
+            relations += [Relation(child=b, kind="next_to", parent=a) for a, b in zip(names, names[1:], strict=False)]
+            draft.notes.append(f'"{group.phrase}": its objects lie side by side, since as a stack they would not stay.')
+        if group.rows:
+            names = _bases(group, members[id(group)])
+            length = -(-len(names) // group.rows)
+            lines = [names[at : at + length] for at in range(0, len(names), length)]
+            pairs = [pair for line in lines for pair in zip(line, line[1:], strict=False)]
             relations += [Relation(child=left, kind="left_of", parent=right) for left, right in pairs]
+            pairs = [
+                pair
+                for line, next_line in zip(lines, lines[1:], strict=False)
+                for pair in zip(next_line, line, strict=False)
+            ]
+            relations += [Relation(child=back, kind="behind", parent=front) for back, front in pairs]
     return relations
 
 
@@ -208,25 +266,53 @@ def _siblings(draft: Draft, child: Group, parent: Group) -> tuple[Group | None, 
     return None, None
 
 
+_ORDER = {
+    "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
+}  # fmt: skip
+_KINDS: dict[tuple[int, int], LateralKind] = {
+    (0, 0): "left_of", (0, 2): "right_of", (1, 0): "in_front_of", (1, 2): "behind",
+}  # fmt: skip
+
+
 def _pair_sides(draft: Draft) -> None:
     """Objects on the left are left of what is on the right or in the middle, on the same support."""
-    for group, side, owner in draft.sided:
+    told: set[int] = set()
+    for each in draft.sided:
+        group, owner = each.group, each.owner
         if owner is not None and owner is not group:
             level = draft.is_a(owner, lexicon.LEVEL + lexicon.SEATS) and draft.support(group) is owner
-            if not level and side != "centre":
-                draft.beside(group, "left_of" if side in ("left", "one") else "right_of", owner)
-    order = {"left": 0, "one": 0, "centre": 1, "right": 2, "other": 2}
-    for index, (group, side, _) in enumerate(draft.sided):
-        for other, where, _ in draft.sided[index + 1 :]:
-            if group is other or draft.support(group) is not draft.support(other) or order[side] == order[where]:
+            if not level and each.side != "centre":
+                told.add(id(group))
+                draft.beside(group, _KINDS[_ORDER[each.side]], owner)
+    for index, each in enumerate(draft.sided):
+        for other in draft.sided[index + 1 :]:
+            (axis, place), (other_axis, other_place) = _ORDER[each.side], _ORDER[other.side]
+            apart = draft.support(each.group) is not draft.support(other.group)
+            if each.group is other.group or apart or axis != other_axis or place == other_place:
                 continue
             if any(
-                owner is not None and draft.support(each) is None
-                for each, _, owner in draft.sided
-                if each in (group, other)
+                one.owner is not None and draft.support(one.group) is None
+                for one in draft.sided
+                if one.group in (each.group, other.group)
             ):
                 continue
-            draft.beside(group, "left_of" if order[side] < order[where] else "right_of", other)
+            told |= {id(each.group), id(other.group)}
+            draft.beside(each.group, _KINDS[axis, 0 if place < other_place else 2], other.group)
+    for each in draft.sided:
+        inside = any(one.group in draft.ancestors(each.group) for one in draft.sided)
+        beside = each.begun and all(other.group is not each.implied for other in draft.sided)
+        if each.side != "centre" and not inside and (beside or id(each.group) not in told):
+            _side_alone(draft, each)
+
+
+def _side_alone(draft: Draft, told: Sided) -> None:
+    """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
+    kind = _KINDS[_ORDER[told.side]]
+    if told.implied is not None and told.implied is not told.group:
+        draft.beside(told.group, kind, told.implied)
+    elif all(edge.parent is not told.group and edge.child is not told.group for edge in draft.laterals):
+        where = kind.removesuffix("_of").replace("_", " ")
+        draft.notes.append(f'"{told.group.phrase}" ({where}): there is nothing beside it that it could be {where} of.')
 
 
 def _share_supports(draft: Draft) -> None:

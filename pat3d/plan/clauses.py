@@ -28,5 +28,27 @@ def lists_on(chunks: Sequence[Chunk], at: int) -> bool:
     return False
 
 
+def names_second(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether chunks `at` to `at` + 2 end the relation before them with a second phrase: "and a chair."."""
+    kinds = [piece.kind for piece in chunks[at : at + 3]]
+    return kinds[:2] == ["and", "phrase"] and kinds[2:] not in (["link"], ["side"], ["verb"], ["there"])
+
+
+def only_describes(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether the headless phrase at chunk `at` ends a list that tells members apart: "one white and one beige"."""
+    listed = chunks[max(at - 3, 0) : at]
+    if len(listed) < 2 or listed[-1].kind not in ("and", "comma"):
+        return False
+    before = listed[-2].phrase
+    target = len(listed) == 3 and listed[0].kind == "link"
+    return before is not None and before.kind == "pieces" and not target
+
+
+def precedes_phrase(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether what the relation at chunk `at` is said of comes next: "behind, a ball", "in front there is a ball"."""
+    kinds = [piece.kind for piece in chunks[at + 1 : at + 3]]
+    return kinds[:1] == ["there"] or kinds in (["comma", "there"], ["comma", "phrase"])
+
+
 def _finite(piece: Chunk) -> bool:
     return piece.link is not None and piece.link.finite

@@ -5,42 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from pat3d.plan import lexicon
-from pat3d.plan.draft import Draft, Flank, Group
-from pat3d.plan.groups import GroupMaker
+from pat3d.plan.draft import Group
 from pat3d.plan.links import Link
 from pat3d.plan.phrases import Phrase
-from pat3d.scene import SUPPORT_KINDS
-
-_BETWEEN = Link(manner="flank")
-
-
-@dataclass(kw_only=True, eq=False)
-class Frame:
-    """An open list: "a table with A, B and C", "On a table there are A, B and C"."""
-
-    link: Link
-    parents: list[Group]
-    members: list[Group] = field(default_factory=list)
-    flank: Flank | None = None
-    each: bool = False
-    fresh: bool = True
-    """The next phrase belongs to the list without a comma or "and"."""
-    commas: bool = False
-    """Whether a comma has joined two members."""
-    closed: bool = False
-    """Whether "and" has joined the last member: what follows belongs to a wider list."""
-    lacks_partner: bool = False
-    """Opened by "between", whose second neighbour is still to come."""
+from pat3d.plan.relations import Frame, Relations
+from pat3d.scene import LATERAL_KINDS, SUPPORT_KINDS
 
 
 @dataclass(kw_only=True, eq=False)
-class Context:
+class Context(Relations):
     """The open lists, the subject, and what pronouns may mean."""
 
-    draft: Draft
-    maker: GroupMaker
-    frames: list[Frame] = field(default_factory=list)
-    """Open lists, innermost last."""
     subject: list[Group] = field(default_factory=list)
     """Subject of the clause."""
     before: list[Group] = field(default_factory=list)
@@ -57,14 +32,12 @@ class Context:
     """Whether the clause goes on to list after the phrase being read."""
     holder: dict[int, Frame] = field(default_factory=dict)
     """The list that a group is a member of, by id of the group."""
+    shared_out: set[int] = field(default_factory=set)
+    """Groups of which there is one for each of another, by id: the forks of "a fork beside each plate"."""
     carried: dict[int, list[Group]] = field(default_factory=dict)
     """What was last put on a group, by id of the group."""
     related: list[Group] = field(default_factory=list)
     """What the last relation was said of."""
-    landmark: Group | None = None
-    """What "the left side of" or "to the left of" was last said of."""
-    landmark_is_surface: bool = True
-    """Whether it was "the left side of": on it rather than beside it."""
     mark: str = "start"
     """What stands before the chunk being read: "start", "comma", "and", "comma and", "dash" or nothing."""
 
@@ -73,6 +46,14 @@ class Context:
         self.before = self.subject or self.before
         self.subject, self.last, self.top, self.frames, self.related = [], [], [], [], []
         self.listed = []
+
+    def begun(self) -> list[Group]:
+        """What the clause before is about: in "a bottle, behind it a can", the bottle."""
+        for group in self.before[-1:]:
+            frame = self.holder.get(id(group))
+            if frame is not None and frame.link.kind in LATERAL_KINDS and not frame.link.inverse:
+                return frame.parents
+        return self.before
 
     def wait_for_child(self) -> None:
         """Keep only the list opened by a relation in front ("On a table, there is ...")."""
@@ -180,13 +161,24 @@ class Context:
             stacks = [group for group in self.draft.groups if group.height != 1 and group is not child]
             return stacks[-1:]
         frame = self.holder.get(id(child)) if child is not None else None
+        if child is not None and phrase.head in lexicon.DEMONSTRATIVES:
+            return self.draft.groups[: self.draft.groups.index(child)][-1:]
+        if frame is not None and frame.parents and frame.parents[0].count == 1 and phrase.head in ("them", "they"):
+            # "A desk with two monitors and a keyboard in front of them".
+            plural = [group for group in frame.members if group.count > 1 and group is not child]
+            if plural:
+                return plural[-1:]
         if frame is not None and frame.parents and frame.flank is None:
-            central = [group for group, side, _ in self.draft.sided if side == "centre" and group in frame.members]
+            central = [each.group for each in self.draft.sided if each.side == "centre" and each.group in frame.members]
             if central and child not in central:
                 return central[-1:]
             return frame.parents[:1]
         if phrase.each or phrase.head in ("them", "they", "each"):
-            plural = [group for group in self.draft.groups if group.count > 1 and group is not child]
+            plural = [
+                group
+                for group in self.draft.groups
+                if group.count > 1 and group is not child and id(group) not in self.shared_out
+            ]
             if plural:
                 return plural[-1:]
         for options in (self.subject, self.before, self.draft.groups[::-1]):
@@ -209,9 +201,17 @@ class Context:
         supports = link.kind in SUPPORT_KINDS
         floor = draft.on_floor(parent)
         # "a mug, a pear on a plate and a lamp": the list goes on, so only the pear is on the plate.
+        held = self.holder.get(id(children[-1])) if children else None
+        if not supports and held is not None and held is self.holder.get(id(parent)):
+            # "with a keyboard in front of it and a mouse beside the keyboard": the mouse is.
+            for carrier in held.parents if draft.support(parent) is None else ():
+                draft.forget_guess(children[-1], carrier)
+            return children[-1:]
         ends = not self.more or self.top_joined
         if ends and len(self.top) > 1 and children[-1:] == self.top[-1:] and parent not in self.top:
-            return [group for group in self.top if not (supports and draft.on_floor(group) and floor)] or children
+            told = [edge.child for edge in draft.laterals]
+            free = [group for group in self.top if group not in told or group in children]
+            return [group for group in free if not (supports and draft.on_floor(group) and floor)] or children
         child = self._carrier(children[-1], link, parent)
         if child is not children[-1] and len(self.top) > 1 and child is self.top[-1]:
             return self.climb([child], link, parent)
@@ -265,7 +265,7 @@ class Context:
                 break
             above = frame.parents[0]
             # A prompt may list two groups in each other.
-            if above is parent or above in seen:
+            if above is parent or above is parent.whole or above in seen:
                 break
             if draft.on_floor(above) and (supports or not floor):
                 break
@@ -278,51 +278,17 @@ class Context:
             seen.append(child)
         return child
 
-    def relate(self, child: Group, link: Link, parent: Group) -> None:
-        """Record that `child` stands in relation `link` to `parent`."""
-        draft = self.draft
-        if link.manner == "gaze" or (link.kind is None and link.manner != "under"):
-            return
-        if link.manner == "under":
-            if draft.is_a(child, lexicon.THIN) and not (draft.is_a(child, ("table",)) and not draft.on_floor(parent)):
-                draft.place(parent, "on", child)
-            else:
-                draft.beside(child, "next_to", parent)
-                draft.notes.append(f'"{child.phrase}" under "{parent.phrase}" is placed next to it.')
-        elif link.manner == "sides":
-            self.maker.multiply(child, 2 if child.count == 1 else 1)
-            draft.flanks.append(Flank(parent=parent, members=[child]))
-        elif link.manner == "between":
-            # Both neighbours are said of the one between them: "A left_of child", "B right_of child".
-            flank = Flank(parent=child, members=[parent])
-            draft.flanks.append(flank)
-            if parent.count == 1:
-                self.frames.append(Frame(link=_BETWEEN, parents=[child], flank=flank, fresh=False, lacks_partner=True))
-        elif link.manner == "half":
-            self.on_half([child], link.side or "centre", parent)
-        elif link.kind in SUPPORT_KINDS:
-            kind = link.kind
-            if kind == "in" and not draft.is_a(parent, lexicon.HOLLOW) and draft.on_floor(parent):
-                kind = "on"
-            self.maker.settle_generic(child, parent)
-            draft.place(child, kind, parent)
-        else:
-            if link.kind in ("left_of", "right_of"):
-                self.landmark, self.landmark_is_surface = parent, False
-            draft.beside(child, link.kind or "next_to", parent)
+    def carry_all(self, link: Link, parent: Group) -> None:
+        """Put everything that has no support yet on `parent`."""
+        for group in self.draft.groups:
+            loose = self.draft.support(group) is None and group not in self.draft.ancestors(parent)
+            if loose and group is not parent:
+                self.relate(group, link, parent)
+        self.subject, self.last = [parent], [parent]
 
-    def on_half(self, children: list[Group], side: str, parent: Group | None) -> None:
-        """Read "on the left side of the table": on it when it is a surface, else beside it."""
-        for child in children:
-            level = parent is not None and self.draft.is_a(parent, lexicon.LEVEL + lexicon.SEATS)
-            self.landmark, self.landmark_is_surface = parent or self.landmark, True
-            if parent is not None and (side == "centre" or (level and not self.draft.on_floor(child))):
-                self.draft.place(child, self.draft.containment(parent), parent)
-                self.draft.sided.append((child, side, None))
-            elif parent is not None:
-                self.draft.beside(child, "left_of" if side == "left" else "right_of", parent)
-            else:
-                self.draft.sided.append((child, side, None))
+    def open_beside(self, link: Link, landmark: Group) -> None:
+        """What is named next stands in relation `link` to `landmark`."""
+        self.frames = [Frame(link=link, parents=[landmark])]
 
     def side_owner(self, group: Group, side: str) -> tuple[Group, Frame] | None:
         """The listed group that "on the other side" speaks of, from the innermost list outwards."""
@@ -336,6 +302,6 @@ class Context:
             return flanked[0]
         if side in ("other", "right"):
             for each, frame in found:
-                if any(group in frame.members and group is not each for group, _, _ in self.draft.sided):
+                if any(told.group in frame.members and told.group is not each for told in self.draft.sided):
                     return each, frame
         return found[0] if found else None

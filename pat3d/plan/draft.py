@@ -21,6 +21,8 @@ class Group:
     count: int
     counted: bool
     """Whether the prompt gives the number."""
+    exact: bool
+    """Whether it is a number of objects and not "some"."""
     plural: bool
     modifiers: Modifiers
     member_colours: list[tuple[str, ...]] = field(default_factory=list)
@@ -28,8 +30,16 @@ class Group:
     cycle: tuple[str, ...] = ()
     height: int = 1
     """Objects in each stack; 1 where they are not stacked."""
-    row: bool = False
+    heap: bool = False
+    rows: int = 0
+    """Rows that the objects stand in, one behind the other; 0 where nothing is said."""
     proxy: bool = False
+    one_of: bool = False
+    """The prompt speaks of one of them: "on one of two boxes"."""
+    whole: Group | None = None
+    """The group that these are members of."""
+    place: str = ""
+    """By which it is told from others of its kind: "left" for "the left box"."""
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""
 
@@ -54,6 +64,30 @@ class Flank:
     sides: dict[int, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sided:
+    """A group said to be on the left, in the middle, behind, ... of something that is not said with it."""
+
+    group: Group
+    side: str
+    """left, right, one, other, centre, front or back."""
+    owner: Group | None = None
+    """What has the side, where the prompt lets know."""
+    implied: Group | None = None
+    """What the group stands beside where nothing else is on a side."""
+    begun: bool = False
+    """Whether the clause begins with `implied`, so that the side is its side: "a mug, a spoon on the left"."""
+
+
+def carried_by_two(child: Group, parents: Group) -> PromptError:
+    """The error for one thing that would rest on several."""
+    what = f'"{parents.phrase}" together' if parents.count > 1 else f'"{parents.phrase}" and something else'
+    hint = f'Say "on one of ..." or "on a stack of {parents.count} ...".' if parents.count > 1 else "Say which one."
+    return PromptError(
+        f'"{child.phrase}" cannot be carried by {what}: every object of a scene is carried by one other. {hint}'
+    )
+
+
 class Draft:
     """Groups, supports and lateral relations, kept a tree while they are collected."""
 
@@ -64,8 +98,7 @@ class Draft:
         """The support edge of each group that has one, by id of the group."""
         self.laterals: list[Edge] = []
         self.flanks: list[Flank] = []
-        self.sided: list[tuple[Group, str, Group | None]] = []
-        """Groups said to be on the left, right, ...; and of what, where known."""
+        self.sided: list[Sided] = []
         self.set_aside: list[str] = []
         self.notes: list[str] = []
 
@@ -114,6 +147,10 @@ class Draft:
                 f'"{child.phrase}" would rest on itself: it already carries "{parent.phrase}". Say which one is below.'
             )
         if old is not None and not old.weak:
+            below = old.parent
+            if not weak and self.is_table(parent) and self.support(below) is None and not self.on_floor(below):
+                # "A lamp on a book" that is "on a table": the book is.
+                self.place(below, kind, parent)
             if weak or parent is old.parent or parent in self.ancestors(child):
                 return
             if old.parent not in self.ancestors(parent):
@@ -143,13 +180,17 @@ class Draft:
         """Record a lateral relation."""
         if child is parent:
             return
+        self.forget_guess(child, parent)
+        self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
+
+    def forget_guess(self, child: Group, parent: Group) -> None:
+        """`child` does not stand on or beside `parent` after all, unless the prompt says so outright."""
         old = self.supports.get(id(child))
         if old is not None and old.weak and old.parent is parent:
             del self.supports[id(child)]
         self.laterals = [
             edge for edge in self.laterals if not (edge.weak and edge.child is child and edge.parent is parent)
         ]
-        self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
 
     def fits(self, child: Group, parent: Group) -> bool:
         """Whether one would list `child` among what `parent` carries."""

@@ -6,6 +6,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.build import build
 from pat3d.plan.chunks import chunk
 from pat3d.plan.draft import Draft
+from pat3d.plan.ellipsis import completed
 from pat3d.plan.groups import GroupMaker
 from pat3d.plan.reader import Reader
 from pat3d.plan.scene_plan import ScenePlan
@@ -13,6 +14,7 @@ from pat3d.plan.vocabulary import Nouns, Vocabulary
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
+_CHOICE = '"or" is read as "and": everything named is placed.'
 
 
 class GrammarPlanner:
@@ -43,5 +45,7 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         draft = Draft(self._nouns)
         maker = GroupMaker(draft, allow_proxies=self._allow_proxies)
-        Reader(draft, maker).read(chunk(prompt, self._nouns))
+        unread: list[str] = []
+        Reader(draft, maker).read(completed(chunk(prompt, self._nouns, unread), self._nouns))
+        draft.notes += [_CHOICE if word == "or" else f'"{word}" is left out.' for word in unread]
         return build(prompt, draft)

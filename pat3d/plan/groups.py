@@ -9,7 +9,8 @@ from pat3d.errors import PromptError
 from pat3d.plan import lexicon
 from pat3d.plan.draft import Draft, Group
 from pat3d.plan.lexing import singulars
-from pat3d.plan.modifiers import Modifiers
+from pat3d.plan.members import POSITIONS, Members, position
+from pat3d.plan.modifiers import Modifiers, is_modifier, looks_like_adjective
 from pat3d.plan.phrases import Phrase
 
 MAX_OBJECTS = 60
@@ -24,15 +25,28 @@ class GroupMaker:
         self._draft = draft
         self._allow_proxies = allow_proxies
         self._inherited: Group | None = None
+        self.members = Members(draft)
+        self._stated = 0
+        """Groups of the statements before this one."""
 
     def refer(self, phrase: Phrase, *, besides: Sequence[Group] = ()) -> Group | None:
         """The group already read that `phrase` speaks of, or None.
 
         "the bowl" is a bowl, or else what was last called some kind of bowl and is not one of `besides`.
         """
-        if not phrase.definite or phrase.kind not in ("object", "unknown") or phrase.head == "another":
+        if (
+            not (phrase.definite or self._bare(phrase))
+            or phrase.kind not in ("object", "unknown")
+            or phrase.head == "another"
+        ):
             return None
-        return self._same_noun(phrase) or self._same_head(phrase, besides) or self._storage(phrase)
+        known = self._same_noun(phrase) or self._same_head(phrase, besides)
+        return self.members.chosen(known, phrase) if known else self._storage(phrase)
+
+    def _bare(self, phrase: Phrase) -> bool:
+        """Whether a noun without an article repeats one of an earlier statement: "mug on tray; spoon in mug"."""
+        bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
+        return bare and any(group.noun == phrase.noun for group in self._draft.groups[: self._stated])
 
     def _same_noun(self, phrase: Phrase) -> Group | None:
         if phrase.kind == "unknown":
@@ -68,15 +82,27 @@ class GroupMaker:
         count, height = self._count(phrase, filling)
         group = Group(
             noun=noun, said=said, phrase=phrase.words, count=count, counted=phrase.count is not None,
-            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height, row=phrase.row,
-            proxy=proxy,
+            exact=phrase.count is not None and not phrase.vague, one_of=phrase.one_of,
+            plural=phrase.plural, modifiers=phrase.modifiers, cycle=phrase.cycle, height=height,
+            rows=phrase.rows, heap=phrase.heap, proxy=proxy, place=position(phrase),
         )  # fmt: skip
+        self._note_kind(phrase)
         self._share_colours(group)
         if self._inherited is not None:
             self._take_after(group, self._inherited)
         self._draft.groups.append(group)
+        self.members.line_up(group)
         self._check_total()
         return group
+
+    def _note_kind(self, phrase: Phrase) -> None:
+        """Say what a kind of object is made as where only its head is known: "knife block"."""
+        if phrase.left_out:
+            self._draft.notes.append(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
+        for word in phrase.modifiers.adjectives:
+            kind = self._draft.nouns.match([word]) is not None or word in lexicon.SUBSTANCES
+            if kind and word not in POSITIONS and not is_modifier(word) and not looks_like_adjective(word):
+                self._draft.notes.append(f'"{word}" of "{phrase.words}" is left out: it is made as a "{phrase.said}".')
 
     def _proxy(self, phrase: Phrase) -> tuple[str, str, bool]:
         if self._allow_proxies:
@@ -136,8 +162,15 @@ class GroupMaker:
             group.modifiers = replace(group.modifiers, colours=palette)
         elif palette:
             group.member_colours = [(palette[index % len(palette)],) for index in range(group.count)]
-        elif group.count > 1 and (len(named) == group.count or len(named) >= 3):
+        elif group.count > 1 and (
+            len(named) == group.count or len(named) >= 3 or (len(named) == 2 and self._in_turn(group))
+        ):
             group.member_colours = [(named[index % len(named)],) for index in range(group.count)]
+
+    @staticmethod
+    def _in_turn(group: Group) -> bool:
+        """Whether two colours are those of different objects: "red and blue blocks"."""
+        return not group.counted or "alternating" in group.modifiers.adjectives
 
     def _check_total(self) -> None:
         total = sum(group.count for group in self._draft.groups if not group.replaced)
@@ -146,6 +179,20 @@ class GroupMaker:
                 f'the prompt asks for {total} objects by "{self._draft.groups[-1].phrase[:60]}"; a scene holds at most '
                 f"{MAX_OBJECTS}. Ask for fewer."
             )
+
+    def recount(self, group: Group, count: int) -> None:
+        """`group` has `count` objects (0: nothing new is said): "in three rows of four".
+
+        Raises:
+            PromptError: the prompt has given another number, or there would be too many.
+        """
+        if group.exact and count not in (0, group.count):
+            raise PromptError(f'"{group.phrase}" are {group.count} objects and cannot stand as {count}.')
+        if count:
+            group.count = count
+            self._forget_note(group)
+            self._share_colours(group)
+            self._check_total()
 
     def multiply(self, group: Group, factor: int) -> None:
         """One `group` for each of `factor` objects."""
@@ -162,6 +209,15 @@ class GroupMaker:
 
     def _forget_note(self, group: Group) -> None:
         self._draft.notes = [note for note in self._draft.notes if not note.startswith(f'"{group.phrase}": ')]
+
+    def end_statement(self) -> None:
+        """The sentence is over, or what stands before a semicolon."""
+        self._stated = len(self._draft.groups)
+        self.members.end_sentence()
+
+    def end_relation(self) -> None:
+        """A relation of a list of relations is over: "bowl on plate, spoon in bowl"."""
+        self._stated = len(self._draft.groups)
 
     def end_sentence(self) -> None:
         """Nothing is inherited past the end of a list."""
@@ -186,6 +242,7 @@ class GroupMaker:
     def tell_apart(self, group: Group, phrase: Phrase) -> None:
         """Read "two bars - one white and one beige", "blocks, featuring red, blue and green pieces"."""
         colours, palette = phrase.modifiers.colours, phrase.modifiers.palette
+        group.modifiers = group.modifiers.marked_as(phrase.modifiers)
         if phrase.determined and not phrase.plural and phrase.count is not None and group.count > 1:
             told = len(group.member_colours) % group.count
             listed = [*group.member_colours[:told], *[colours] * phrase.count]
@@ -220,7 +277,7 @@ def recolour(group: Group, modifiers: Modifiers, part: str = "") -> None:
     if part and not own.colours and part not in lexicon.MAIN_PARTS:
         adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()
     group.modifiers = replace(
-        own,
+        own.marked_as(modifiers),
         colours=tuple(dict.fromkeys((*own.colours, *colours))),
         material=own.material or (modifiers.material if not part else None),
         adjectives=(*own.adjectives, *adjectives),
@@ -231,6 +288,8 @@ def _agrees(group: Group, phrase: Phrase) -> bool:
     """Whether colours and number of `phrase` allow it to speak of `group`."""
     wanted = phrase.modifiers.colours
     if group.member_colours and wanted and (wanted[0],) not in group.member_colours:
+        return False
+    if position(phrase) and group.place and position(phrase) != group.place:
         return False
     clash = wanted and group.modifiers.colours and not set(wanted) & set(group.modifiers.colours)
     return not clash and (phrase.count is None or phrase.count <= group.count)

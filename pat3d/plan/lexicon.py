@@ -27,7 +27,7 @@ COMES_IN_TWOS = frozenset({"bedside table", "nightstand", "shoe", "slipper", "bo
 SIZES: dict[str, float] = {
     "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75, "compact": 0.8,
     "medium": 1.0, "medium-sized": 1.0, "large": 1.3, "big": 1.3, "oversized": 1.5, "huge": 1.6, "giant": 1.8,
-    "enormous": 1.8, "massive": 1.8,
+    "enormous": 1.8, "massive": 1.8, "bigger": 1.3, "larger": 1.3, "smaller": 0.75,
 }  # fmt: skip
 
 SHADES: dict[tuple[str, str], str] = {
@@ -41,6 +41,8 @@ DETERMINERS = frozenset({
     "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "any", "all",
 })  # fmt: skip
 DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both"})
+DEMONSTRATIVES = frozenset({"that", "this"})
+"""Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
@@ -50,6 +52,8 @@ VERBS = frozenset({
     "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
+NOUNS_LIKE_VERBS = frozenset({"stand"})
+"""Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
     "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "propped", "laid",
@@ -80,7 +84,7 @@ ADVERBS = frozenset({
     "very", "neatly", "quite", "really", "slightly", "carefully", "directly", "right", "just", "vertically",
     "horizontally", "upright", "loosely", "closely", "together", "nicely", "partially", "too", "so", "still",
     "precariously", "gently", "randomly", "evenly", "happily", "also", "comfortably", "currently", "up", "down",
-    "neat", "nearby",
+    "neat",
 })  # fmt: skip
 
 BACKGROUND = frozenset({
@@ -102,6 +106,8 @@ BACKGROUND = frozenset({
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
 PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
+PLACES = frozenset({"left", "right", "leftmost", "rightmost", "middle", "first", "second", "third", "last"})
+"""Words that tell one of several by its place: "the left one"."""
 PARTS = frozenset({
     "head", "top", "back", "edge", "side", "middle", "center", "centre", "seat", "lap", "rim", "bottom", "inside",
     "handle", "cover", "page", "stripe", "leg", "spout", "dot", "pattern", "label", "petal", "leaf", "wheel", "button",
@@ -117,11 +123,15 @@ MAIN_PARTS = frozenset({
 })  # fmt: skip
 """Parts whose colour is the colour of the whole."""
 
-STACK_NOUNS = frozenset({"stack", "pile", "tower", "column"})
+STACK_NOUNS = frozenset({"stack", "pile", "tower", "column", "heap", "mound"})
+HEAPS = frozenset({"heap", "mound"})
+"""What is never a stack, whatever lies in it; a pile of what rolls is none either."""
+DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"})
+"""Parts that things are put into and no asset has."""
 COLLECTIVES = frozenset({
     "set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful", "lot", "lots",
     "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio", "dozen",
-    "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit", "heap", "heaps",
+    "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit",
 })  # fmt: skip
 ROWS = frozenset({"row", "line", "series"})
 PORTIONS = frozenset({
@@ -224,6 +234,12 @@ WIDER = {"bowl": "fruit bowl"}
 """What a vessel becomes when it holds fruit or more than two things."""
 OPENED = {"box": "storage box", "toolbox": "open toolbox"}
 """What a closed thing becomes when the prompt puts something in it."""
+ROUND = (
+    "ball", "apple", "orange", "lemon", "lime", "peach", "plum", "cherry", "egg", "tomato", "watermelon", "kiwi",
+    "crystal ball", "tennis ball", "basketball", "football", "soccer ball", "marble", "potato", "onion", "pear",
+    "avocado", "grapefruit", "melon", "coconut", "pumpkin", "baseball", "globe", "sphere",
+)  # fmt: skip
+"""What rolls: a pile of it is no stack."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder",
           "beaker", "flask", "graduated cylinder")  # fmt: skip
 SLENDER = (
@@ -234,6 +250,14 @@ SLENDER = (
     "peeler", "pipette", "test tube", "syringe", "chisel", "pizza cutter", "rod",
 )  # fmt: skip
 """What a narrow vessel holds; anything else in a list after it stands outside."""
+LYING = (
+    "book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphone", "plate", "saucer", "coaster", "tray",
+    "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
+    "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet",
+    "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
+    "envelope",
+)  # fmt: skip
+"""What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 NOT_ON_DISH = (
     "vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket", "radio",
     "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",
@@ -242,6 +266,8 @@ THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet"
         "cutting board", "table", "towel", "pillow", "cushion", "yoga mat", "mouse pad",
         "trivet", "chessboard")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
+STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
+"""What else is below rather than beside what it is "under", where that does not stand on the floor."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})

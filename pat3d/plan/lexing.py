@@ -6,9 +6,13 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from pat3d.plan import measures, postures
+
 _TOKEN = re.compile(
-    r"(?P<number>\d+[.]\d+)|(?P<word>[^\W_]+(?:[-'][^\W_]+)*)|(?P<dash>\u2014|\u2013|--+|(?<=\s)-(?=\s))"
-    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]])|(?P<colon>:)"
+    rf"(?P<measure>\b(?:{measures.LENGTH}|{measures.AMOUNT}))|(?P<posture>\b(?:{postures.POSTURE})(?![\w-]))"
+    r"|(?P<number>\d+[.]\d+)|(?P<word>[^\W_]+(?:[-'][^\W_]+)*)|(?P<dash>\u2014|\u2013|--+|(?<=\s)-(?=\s))"
+    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]])|(?P<colon>:)",
+    re.IGNORECASE,
 )
 _IRREGULAR = {
     "mice": "mouse", "knives": "knife", "loaves": "loaf", "leaves": "leaf", "shelves": "shelf", "halves": "half",
@@ -23,7 +27,7 @@ class Token:
     """One word or mark."""
 
     text: str
-    """Lower case; ",", ".", ":", "-" (a dash) or "'s" for marks."""
+    """Lower case; ",", ".", ":", "-" (a dash) or "'s" for marks; a measure or a posture begins with "_"."""
     start: int
     end: int
     """Span in the normalised prompt [characters]."""
@@ -34,7 +38,7 @@ class Token:
 
 def normalise(prompt: str) -> str:
     """`prompt` with one kind of quote, one kind of blank and compatibility characters resolved."""
-    text = unicodedata.normalize("NFKC", prompt)
+    text = re.sub(r"(?<=\s)[&+](?=\s)", "and", unicodedata.normalize("NFKC", prompt))
     return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
 
 
@@ -52,6 +56,10 @@ def tokenise(text: str) -> list[Token]:
                 tokens.append(Token(text="'s", start=end - 2, end=end, number=words))
             else:
                 tokens.append(Token(text=word, start=start, end=end, number=words))
+        elif found.lastgroup in ("measure", "posture"):
+            words += len(found.group().split())
+            name = (measures if found.lastgroup == "measure" else postures).token_text(found.group())
+            tokens.append(Token(text=name, start=start, end=end, number=words))
         else:
             mark = {"dash": "-", "stop": ".", "comma": ",", "colon": ":"}[str(found.lastgroup)]
             tokens.append(Token(text=mark, start=start, end=end, number=words, mark=True))

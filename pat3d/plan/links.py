@@ -8,7 +8,19 @@ from typing import Literal
 from pat3d.scene import RelationKind
 
 Manner = Literal[
-    "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half"
+    "place",
+    "with",
+    "hold",
+    "flank",
+    "surround",
+    "between",
+    "sides",
+    "gaze",
+    "include",
+    "under",
+    "of",
+    "half",
+    "edge",
 ]
 
 Side = Literal["left", "right", "centre"]
@@ -28,6 +40,8 @@ class Link:
     """"filled with": a bare plural means many."""
     side: Side | None = None
     """For manner "half": which part of the parent."""
+    instead: str = ""
+    """What the words say and no relation does ("leaning against"): `kind` stands in, and a note says so."""
 
     @property
     def inverse(self) -> bool:
@@ -45,16 +59,25 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(
         Link(kind="on"),
         "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "up on",
-        "above",
     )  # fmt: skip
+    add(Link(kind="on", instead="above"), "above")
     add(Link(kind="in"), "in", "inside", "inside of", "into", "within", "amid")
     add(
         Link(kind="next_to"),
-        "beside", "besides", "next to", "near", "near to", "nearby to", "by", "close to", "alongside", "adjacent to",
-        "at", "against", "right next to", "to the side of", "on the side of", "at the side of", "off to the side of",
-        "close by", "with its side to", "across from", "along", "leaning against", "leaning on",
+        "beside", "besides", "next to", "near", "near to", "nearby", "nearby to", "by", "close to", "alongside",
+        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
+        "off to the side of", "close by", "with its side to", "across from", "along",
         "opposite", "opposite to", "among", "amongst",
     )  # fmt: skip
+    leaning = ("leaning", "leaned", "leant", "propped", "propped up", "resting", "standing")
+    add(Link(kind="next_to", instead="leaning against"), *(f"{word} against" for word in leaning), "leaning on",
+        "leaning up against")  # fmt: skip
+    add(Link(kind="next_to", instead="leaning against", finite=True), "leans against", "lean against", "leans on",
+        "lean on", "rests against", "rest against")  # fmt: skip
+    add(Link(kind="on", instead="bridging"), "across", "bridging", "spanning", "straddling", "laid across",
+        "lying across", "placed across", "resting across")  # fmt: skip
+    add(Link(kind="on", instead="bridging", finite=True), "bridges", "spans", "straddles", "lies across",
+        "rests across")  # fmt: skip
     sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
     for side, kind in sides:
         add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",
@@ -65,7 +88,7 @@ def _table() -> dict[tuple[str, ...], Link]:
             *(
                 f"{word} the {where} of"
                 for word in ("on", "at")
-                for where in (side, f"{side} side", f"{side}-hand side")
+                for where in (side, f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
             ),
         )
         add(half, f"to the {side} side of", f"on {side} of")
@@ -75,12 +98,17 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
+    for near in ("at", "on", "near", "in", "by"):
+        for part in ("edge", "corner", "end"):
+            place = f"{near} the {part} of"
+            add(Link(manner="edge", kind="on", instead=place), place)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
     add(Link(manner="between", kind="right_of"), "between", "in between")
     add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
-        "at either side of", "at both sides of", "to either side of")  # fmt: skip
+        "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
+        "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
     add(Link(manner="under"), "under", "beneath", "below", "underneath")
     add(
         Link(manner="gaze"),
@@ -101,7 +129,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
         "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
-        "stuffed with", "overflowing with")  # fmt: skip
+        "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",
+        "overflowing with")  # fmt: skip
     add(Link(manner="include"), "including", "such as", "namely", "for example", "e.g", "consisting of", "composed of",
         "comprising", "like")  # fmt: skip
     add(Link(manner="flank"), "flanked by", "flanked with", "bordered by", "framed by", "sandwiched between",
@@ -119,7 +148,11 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
     for _side in ("left", "right"):
         for _tail in ("", " side", " hand side"):
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
+            SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+for _word in ("on", "at", "to"):
+    for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
+        SIDES[tuple(f"{_word} {_both}".split())] = "both"
 for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
     SIDES[tuple(_phrase.split())] = "centre"
 for _phrase in ("on one side", "to one side", "at one side", "on one"):
@@ -129,12 +162,26 @@ for _phrase in ("on the other side", "to the other side", "at the other side", "
 """Places without a landmark ("on the left side"), which only relate objects to each other."""
 
 EACH_OTHER: dict[tuple[str, ...], str] = {
-    ("on", "top", "of", "each", "other"): "stack", ("on", "each", "other"): "stack", ("atop", "each", "other"): "stack",
-    ("one", "on", "top", "of", "the", "other"): "stack", ("one", "on", "top", "of", "another"): "stack",
-    ("on", "top", "of", "one", "another"): "stack", ("one", "atop", "the", "other"): "stack",
-    ("one", "atop", "another"): "stack", ("stacked", "up"): "stack", ("stacked",): "stack", ("piled",): "stack",
-    ("piled", "up"): "stack", ("next", "to", "each", "other"): "row", ("beside", "each", "other"): "row",
-    ("side", "by", "side"): "row", ("in", "a", "row"): "row", ("in", "a", "line"): "row", ("lined", "up"): "row",
-    ("near", "each", "other"): "row", ("next", "to", "one", "another"): "row", ("close", "together"): "row",
+    tuple(words.split()): how
+    for how, phrases in {
+        "stack": (
+            "on top of each other", "on each other", "atop each other", "one on top of the other", "one on another",
+            "one on top of another", "on top of one another", "one atop the other", "one atop another", "stacked up",
+            "stacked", "piled", "piled up", "in a stack", "in a pile", "in a tower", "in a column", "into a stack",
+            "into a tower", "into a pile", "in one stack", "on top of one other", "one above the other",
+            "on one another",
+        ),
+        "row": (
+            "in a row", "in a line", "lined up", "in one row", "in a single row", "in a straight line", "into a row",
+            "in a single line", "in a horizontal line", "in line", "in one line",
+        ),
+        "beside": (
+            "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
+            "next to one another", "close together", "face to face",
+        ),
+        "order": ("from left to right", "left to right", "ordered from left to right"),
+        "reverse": ("from right to left", "right to left"),
+    }.items()
+    for words in phrases
 }  # fmt: skip
-"""Words that arrange the members of one group."""
+"""Words that arrange the members of one group, or of one list."""

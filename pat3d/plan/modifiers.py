@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from pat3d.assets.colours import MIXED, find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan import lexicon
+from pat3d.plan.measures import Measure, is_measure, read_measure
+from pat3d.plan.postures import is_posture, read_posture
 
 _COLOURED = frozenset({"colored", "coloured", "color", "colour", "hued"})
 _MANY = frozenset(
@@ -41,6 +43,8 @@ class Modifiers:
     size_word: str = ""
     adjectives: tuple[str, ...] = ()
     stacked: bool = False
+    measures: tuple[Measure, ...] = ()
+    postures: tuple[str, ...] = ()
 
     def under(self, outer: Modifiers) -> Modifiers:
         """These, with what `outer` adds ("a colourful stack of books")."""
@@ -51,7 +55,13 @@ class Modifiers:
             palette_word=self.palette_word or outer.palette_word,
             material=self.material or outer.material,
             material_word=self.material_word or outer.material_word,
+            measures=(*self.measures, *outer.measures),
+            postures=(*self.postures, *outer.postures),
         )
+
+    def marked_as(self, other: Modifiers) -> Modifiers:
+        """These, with the measures and postures of `other`."""
+        return replace(self, measures=(*self.measures, *other.measures), postures=(*self.postures, *other.postures))
 
 
 NO_MODIFIERS = Modifiers()
@@ -64,7 +74,9 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifier
     palette_word = material_word = size_word = ""
     material: str | None = None
     scale, stacked = 1.0, False
-    spread = _spread(words)
+    measures = tuple(read_measure(word) for word in words if is_measure(word))
+    postures = tuple(read_posture(word) for word in words if is_posture(word))
+    spread = _spread([word for word in words if not is_marked(word)])
     for index, word in enumerate(spread):
         follower = spread[index + 1] if index + 1 < len(spread) else ""
         before = spread[index - 1] if index else ""
@@ -94,7 +106,7 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifier
     return Modifiers(
         colours=tuple(dict.fromkeys(colours)), palette=_MIXED.get(palette_word, ()), palette_word=palette_word,
         material=material, material_word=material_word, scale=min(max(scale, 0.1), 10.0), size_word=size_word,
-        adjectives=tuple(adjectives), stacked=stacked,
+        adjectives=tuple(adjectives), stacked=stacked, measures=measures, postures=postures,
     )  # fmt: skip
 
 
@@ -125,11 +137,16 @@ def is_colour_word(word: str) -> bool:
     return bool(find_colour(word)) or ("-" in word and any(find_colour(part) for part in word.split("-")))
 
 
+def is_marked(word: str) -> bool:
+    """Whether `word` is the text of a token that measures or turns an object."""
+    return is_measure(word) or is_posture(word)
+
+
 def is_modifier(word: str) -> bool:
     """Whether `word` is known to describe rather than name."""
     return (
         is_colour_word(word) or word in _MIXED or word in _COLOURED or word in lexicon.SIZES or word in _ADJECTIVES
-        or _material(word) is not None or word in lexicon.SHADE_WORDS
+        or _material(word) is not None or word in lexicon.SHADE_WORDS or is_marked(word)
     )  # fmt: skip
 
 

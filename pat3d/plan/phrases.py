@@ -6,28 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from pat3d.assets.materials import find_material
 from pat3d.plan import lexicon
+from pat3d.plan.arrangements import RINGS, grid_size, refuse, shape_said
+from pat3d.plan.boundaries import Boundaries
 from pat3d.plan.lexing import Token, singulars
-from pat3d.plan.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
-from pat3d.plan.modifiers import (
-    NO_MODIFIERS,
-    Modifiers,
-    is_colour_word,
-    is_modifier,
-    looks_like_adjective,
-    read_modifiers,
-)
+from pat3d.plan.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
 from pat3d.plan.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
-JOINERS = frozenset({
-    "and", "or", "plus", "while", "whereas", "but", "there", "there's", "without", "no", "not", "than", "as", "which",
-    "meanwhile", "where", "who", "for", "from", "through", "via", "per", "if", "because", "so", "that", "'s", "against",
-})  # fmt: skip
-_ALWAYS_BREAK = (
-    frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
-    - {"hold", "contain", "feature", "carry", "support", "show", "have", "display"}
-) | frozenset({"besides", "across", "has", "is", "are", "was", "were"})  # fmt: skip
+_ORDINALS = frozenset({"first", "second", "third", "last"})
+"""Members of a group named by their place alone: "a ball in the first"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +39,8 @@ class Phrase:
     """Opens with a determiner or a number."""
     definite: bool = False
     each: bool = False
+    one_of: bool = False
+    """"one of two boxes"."""
     possessive: bool = False
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
@@ -58,7 +49,14 @@ class Phrase:
     """Objects in one stack; 0 for a stack of unstated height."""
     chains: int = 1
     """Number of stacks."""
-    row: bool = False
+    heap: bool = False
+    """Lies in a heap that is no stack: "a pile of toys"."""
+    rows: int = 0
+    """Rows that they stand in; 0 where nothing is said."""
+    part: str = ""
+    """The part of it that is spoken of: "drawer" for "the top drawer of a desk"."""
+    left_out: str = ""
+    """What stands after "of" and means nothing here."""
     substance: str = ""
     """Content that is no rigid body ("tea")."""
 
@@ -70,16 +68,20 @@ class PhraseReader:
         self._text = text
         self._tokens = tokens
         self._nouns = nouns
+        self._bounds = Boundaries(tokens, nouns)
 
     def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
         at, count, flags = self._opening(start)
-        run, after = self._run(at)
+        run, after = self._bounds.run(at)
         tokens = self._tokens
         if not run:
             if after == start:
                 return None
-            phrase = Phrase(kind="pieces" if count is not None else "pronoun", head=tokens[after - 1].text)
+            rest = tokens[after - 1].text == "other"
+            phrase = Phrase(kind="pieces" if count is not None or rest else "pronoun", head=tokens[after - 1].text)
+            if tokens[after].text == "of" and tokens[after + 1].text in (*lexicon.PRONOUNS, "these", "those"):
+                after += 2
             if (
                 count is not None
                 and tokens[after].text == "of"
@@ -87,13 +89,23 @@ class PhraseReader:
                 and (inner := self.read(after + 1, depth + 1))
             ):
                 single = flags.get("one", False)
-                phrase, after = replace(inner[0], count=count, definite=inner[0].definite or single), inner[1]
+                phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
+                if single and (phrase.count or 1) > 1:
+                    phrase, count = replace(phrase, one_of=True), phrase.count
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined
             count = phrase.count
         elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
             phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
         else:
+            if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
+            if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
+                told = Modifiers(adjectives=(run[0].text,))
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
+                              determined=True, definite=True, modifiers=told), after  # fmt: skip
+            if run[-1].text == "one" and flags.get("determined"):
+                count = count or 1
             phrase = self._simple(run, count)
         flags.pop("one", None)
         words = self._text[tokens[start].start : tokens[after - 1].end]
@@ -110,7 +122,10 @@ class PhraseReader:
         while not (token := self._tokens[at]).mark:
             word = token.text
             follower = self._tokens[at + 1].text
-            if word in lexicon.POSSESSIVES:
+            if word == "each" and follower == "of":
+                flags["each"] = flags["determined"] = True
+                at += 1
+            elif word in lexicon.POSSESSIVES:
                 flags["possessive"] = flags["definite"] = True
             elif word == "half" and follower in ("a", "dozen"):
                 count, at = 6, at + (2 if follower == "a" else 1)
@@ -145,130 +160,6 @@ class PhraseReader:
                 break
             at += 1
         return at, count, flags
-
-    def _run(self, at: int) -> tuple[list[Token], int]:
-        """Modifiers and head from token `at`, and the token after them."""
-        run: list[Token] = []
-        start = at
-        while True:
-            token = self._tokens[at]
-            if token.mark or token.text in ("and", "or"):
-                if self._opens_joined_name(run, at):
-                    run.append(token)
-                    at += 1
-                    continue
-                onward = self._coordination(run, at)
-                if onward is None:
-                    break
-                at = onward
-                continue
-            if self._breaks(run, at):
-                break
-            run.append(token)
-            at += 1
-        # Words between the last noun and the break belong to no phrase ("mug gently" on ...).
-        return run, at if run else start
-
-    def _breaks(self, run: list[Token], at: int) -> bool:
-        word = self._tokens[at].text
-        if self._opens_joined_name(run, at):
-            return False
-        words = [token.text for token in run]
-        if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
-            return True
-        if word in lexicon.DETERMINERS or (
-            (word in lexicon.NUMBERS or word.isdigit()) and word not in ("set", "single")
-        ):
-            return not (word in ("couple", "dozen", "trio") and self._tokens[at + 1].text == "of" and not run)
-        if word == "of":
-            return True
-        multi = link_at(self._tokens, at)
-        if multi > 1 and not self._extends(words, word):
-            return True
-        if not words:
-            return False
-        if not self._ends_in_noun(words):
-            return self._breaks_unknown(words, at)
-        verb = multi or word in lexicon.VERBS or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
-        verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
-        if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
-            follower = self._tokens[at + 1]
-            runs_on = not follower.mark and follower.text not in ("and", "or", "of")
-            verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
-        return bool(verb) and not self._extends(words, word)
-
-    def _breaks_unknown(self, words: list[str], at: int) -> bool:
-        """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
-        word = self._tokens[at].text
-        verb = word in lexicon.PARTICIPLES or (word,) in LINKS
-        if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
-            return False
-        # "a free standing lamp": the participle belongs to the noun after it.
-        return not self._extends(words, word) and self._nouns.match([word, self._tokens[at + 1].text]) is None
-
-    def goes_on(self, at: int) -> bool:
-        """Whether token `at` may be the noun that a participle before it describes."""
-        word = self._tokens[at].text
-        function = word in JOINERS or word in lexicon.DETERMINERS or word in lexicon.NUMBERS or word in _ALWAYS_BREAK
-        return not (function or link_at(self._tokens, at) or word in lexicon.ADVERBS or word.endswith("ly")
-                    or word in lexicon.POSSESSIVES or word in lexicon.PRONOUNS)  # fmt: skip
-
-    def _extends(self, words: list[str], word: str) -> bool:
-        """Whether `word` makes a longer known noun of the run ("teddy" + "bears")."""
-        return any(self._nouns.match([*words[-size:], word]) for size in (1, 2, 3) if size <= len(words))
-
-    def _opens_joined_name(self, run: list[Token], at: int) -> bool:
-        if self._tokens[at].text not in ("of", "and", "in", "on", "with") or not run or not self._nouns.joined:
-            return False
-        tokens = self._tokens
-        for back in (1, 2):
-            for ahead in (1, 2):
-                if back <= len(run) and at + ahead < len(tokens):
-                    words = [token.text for token in (*run[-back:], *tokens[at : at + ahead + 1])]
-                    if self._nouns.match(words):
-                        return True
-        return False
-
-    def _ends_in_noun(self, words: list[str]) -> bool:
-        head = words[-1]
-        singular = (head, *singulars(head))
-        general = lexicon.BACKGROUND | lexicon.ITEMS | lexicon.PIECES | lexicon.STACK_NOUNS | lexicon.GENERICS.keys()
-        return bool(self._nouns.match(words[-1:]) or self._nouns.longest(words)) or any(
-            word in general or word in lexicon.PARTS for word in singular
-        )
-
-    def _coordination(self, run: list[Token], at: int) -> int | None:
-        """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
-            return None
-        colours = is_colour_word(run[-1].text)
-        if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
-            return None
-        first = self._skip_joint(at)
-        look = first
-        if colours:
-            # Every member of the list is a colour, and the last stands directly before more of the phrase.
-            while is_colour_word(self._tokens[look].text):
-                look += 1
-                if (onward := self._skip_joint(look)) > look:
-                    if not is_colour_word(self._tokens[onward].text):
-                        return None
-                    look = onward
-                elif self.goes_on(look):
-                    return first
-            return None
-        words: list[str] = []
-        while not self._tokens[look].mark and self.goes_on(look) and len(words) < 5:
-            words.append(self._tokens[look].text)
-            look += 1
-        return first if words and self._ends_in_noun(words) else None
-
-    def _skip_joint(self, at: int) -> int:
-        if self._tokens[at].text == ",":
-            at += 1
-        if self._tokens[at].text in ("and", "or"):
-            at += 1
-        return at
 
     def _simple(self, run: list[Token], count: int | None) -> Phrase:
         """The phrase of a run without "of"."""
@@ -329,16 +220,33 @@ class PhraseReader:
         if inner.head in lexicon.SUBSTANCES and not inner.determined:
             inner = replace(inner, kind="background", substance=inner.head)
         if any(word in lexicon.STACK_NOUNS for word in singular):
-            if inner.kind not in ("object", "unknown"):
+            single = inner.determined and not inner.plural and inner.count in (None, 1) and not inner.cycle
+            if inner.kind not in ("object", "unknown") or single:
                 return None
             chains = count if count is not None else (2 if plural else 1)
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
+            rolls = inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)
+            if lexicon.HEAPS & set(singular) or ("pile" in singular and rolls):
+                amount = inner.count or lexicon.STACK_HEIGHT
+                return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
+                               modifiers=inner.modifiers.under(own)), after  # fmt: skip
             return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
                            modifiers=inner.modifiers.under(own)), after  # fmt: skip
+        if (sides := grid_size(words)) and inner.kind in ("object", "unknown"):
+            return replace(inner, count=sides[0] * sides[1], rows=sides[0], vague=False), after
+        if RINGS & set(singular) and self._tokens[after].text in ("around", "surrounding") and inner.kind == "object":
+            return inner, after
+        if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
+            raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:
             return None
-        if head in lexicon.ROWS or head in lexicon.COLLECTIVES:
+        rows = any(word in lexicon.ROWS for word in singular)
+        if rows and plural and head != "series":
+            number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
+            return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
+                           modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
+        if rows or head in lexicon.COLLECTIVES:
             taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
             taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
             taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
@@ -347,7 +255,7 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
-            return replace(inner, count=amount, row=head in lexicon.ROWS or inner.row, vague=inner.vague,
+            return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
         part = any(word in lexicon.PARTS for word in singular)
@@ -357,7 +265,7 @@ class PhraseReader:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
         if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
-            return replace(inner, count=inner.count if inner.kind == "object" else None), after
+            return replace(inner, count=inner.count if inner.kind == "object" else None, part=head), after
         if inner.kind == "background" and inner.substance:
             whole = self._simple(run, count)
             compound = self._nouns.match([inner.head, singular[-1]])
@@ -381,19 +289,12 @@ class PhraseReader:
             if portion and not holds and inner.kind == "pieces":
                 return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
-                return replace(inner, plural=plural, count=count, modifiers=inner.modifiers.under(rest)), after
+                amount = inner.count if count is None and plural else count
+                return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
-            return self._simple(run, count), after
+            left_out = inner.words if inner.kind in ("unknown", "object") and not find_material(inner.head) else ""
+            return replace(self._simple(run, count), left_out=left_out), after
         return None
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in names if self._nouns.resolve(name))
-
-
-def link_at(tokens: Sequence[Token], at: int) -> int:
-    """Number of tokens of the longest relation phrase that begins at token `at`; 0 where none does."""
-    for size in range(LONGEST_LINK, 0, -1):
-        key = tuple(token.text for token in tokens[at : at + size])
-        if key in LINKS or key in SIDES or key in EACH_OTHER:
-            return size
-    return 0

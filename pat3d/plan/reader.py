@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.plan import lexicon
 from pat3d.plan.chunks import Chunk
-from pat3d.plan.clauses import lists_on, starts_clause
-from pat3d.plan.context import Context, Frame
+from pat3d.plan.clauses import lists_on, names_second, precedes_phrase, starts_clause
+from pat3d.plan.context import Context
 from pat3d.plan.draft import Draft, Flank, Group
+from pat3d.plan.formations import Formations
 from pat3d.plan.groups import GroupMaker, recolour
+from pat3d.plan.headless import describe_owner, members_told
 from pat3d.plan.links import Link
+from pat3d.plan.members import REST, position
+from pat3d.plan.modifiers import NO_MODIFIERS
 from pat3d.plan.phrases import Phrase
+from pat3d.plan.relations import Frame
+from pat3d.plan.sides import Sides
 from pat3d.scene import SUPPORT_KINDS
 
 
@@ -30,6 +37,10 @@ class Reader:
         self._relative = False
         """A relative pronoun stands before the verb: what was read last is its subject."""
         self._side = ""
+        self._which: Group | None = None
+        """What "to the left of which" was last said of."""
+        self._formations = Formations(self._now)
+        self._sides = Sides(self._now)
 
     def read(self, chunks: Sequence[Chunk]) -> None:
         """Read all chunks."""
@@ -42,8 +53,13 @@ class Reader:
         piece = self._chunks[at]
         if piece.kind in ("stop", "clause"):
             self._end_clause()
+            if piece.kind == "stop":
+                self._now.sentence += 1
+                self._now.maker.end_statement()
         elif piece.kind in ("comma", "and", "dash"):
-            joined = piece.kind == "and" and self._now.mark == "comma"
+            if self._now.related and not self._now.top:
+                self._now.maker.end_relation()
+            joined = {piece.kind, self._now.mark} == {"and", "comma"}
             self._now.mark = self._now.mark if self._now.mark == "start" else "comma and" if joined else piece.kind
             return at + 1
         elif piece.kind == "aside":
@@ -55,11 +71,11 @@ class Reader:
         elif piece.kind == "quality":
             self._qualify(piece)
         elif piece.kind == "arrange":
-            self._arrange(piece.text)
+            self._formations.arrange(piece, self._chunks[at + 1], verb=self._verb)
         elif piece.kind == "each":
             self._on_each(at)
         elif piece.kind == "side":
-            self._on_side(piece.text, at)
+            self._on_side(piece, at)
         elif piece.kind == "link" and piece.link is not None:
             return self._on_link(piece.link, at)
         elif piece.phrase is not None:
@@ -69,10 +85,12 @@ class Reader:
         return at + 1
 
     def _end_clause(self) -> None:
+        self._formations.end_clause()
         self._now.close()
         self._now.maker.end_sentence()
         self._verb = self._had_verb = self._all = self._each = False
-        self._side, self._now.mark = "", "start"
+        self._sides.end_clause()
+        self._now.mark = "start"
 
     def _there(self) -> None:
         waiting = any(not frame.link.inverse for frame in self._now.frames)
@@ -93,21 +111,6 @@ class Reader:
                 recolour(group, piece.modifiers)
         else:
             self._now.draft.set_aside.append(piece.text)
-
-    def _arrange(self, how: str) -> None:
-        groups = self._now.last or self._now.subject
-        if how == "stack":
-            if len(groups) == 1 and groups[0].count > 1:
-                groups[0].height = groups[0].count if groups[0].height == 1 else groups[0].height
-            elif len(self._now.top) > 1:
-                for lower, upper in zip(self._now.top, self._now.top[1:], strict=False):
-                    self._now.draft.place(upper, "on", lower)
-        else:
-            for group in groups[-1:]:
-                group.row = True
-            if len(groups) == 1 and groups[0].count == 1:
-                for left, right in zip(self._now.top, self._now.top[1:], strict=False):
-                    self._now.draft.beside(right, "next_to", left)
 
     def _on_each(self, at: int) -> None:
         follower = self._chunks[at + 1] if at + 1 < len(self._chunks) else None
@@ -136,8 +139,11 @@ class Reader:
                 self._now.subject, self._now.last, self._all = [], [], True
             self._now.draft.set_aside.append(phrase.words)
             return
+        if phrase.kind == "pieces" and not phrase.said and (told := members_told(self._now, self._chunks, at)):
+            self._begin_list(told)
+            return
         if phrase.kind in ("part", "pieces"):
-            self._detail(phrase)
+            describe_owner(self._now, phrase)
             return
         if phrase.kind == "background":
             self._background(phrase, at)
@@ -146,6 +152,7 @@ class Reader:
         if group is None:
             return
         self._all = False
+        self._formations.read.append(group)
         self._now.more = lists_on(self._chunks, at + 1)
         if (
             self._had_verb
@@ -170,16 +177,36 @@ class Reader:
             self._now.subject = [*self._now.subject, group]
         self._verb = False
         self._now.last = [group]
-        if self._side:
-            self._now.draft.sided.append((group, self._side, None))
+        self._sides.follow(group)
+
+    def _begin_list(self, group: Group) -> None:
+        """What follows is said of `group`."""
+        self._now.frames = []
+        self._now.subject, self._now.top, self._now.listed, self._now.last = [group], [group], [group], [group]
+        self._formations.read.append(group)
 
     def _group(self, phrase: Phrase, besides: Sequence[Group] = ()) -> tuple[Group | None, bool]:
         """The group that `phrase`, said of `besides`, means, and whether it was known before."""
         known = self._now.maker.refer(phrase, besides=besides)
         if known is not None:
+            known.modifiers = known.modifiers.marked_as(phrase.modifiers)
             return known, True
         frame = self._now.frames[-1] if self._now.frames else None
         return self._now.maker.make(phrase, filling=bool(frame and frame.fresh and frame.link.filling)), False
+
+    def _on_side(self, piece: Chunk, at: int) -> None:
+        """Read "on the left": of the clause's next phrase when it comes first, else of what was read last."""
+        kinds = [each.kind for each in self._chunks[at + 1 : at + 3]]
+        coming = kinds[:1] in (["there"], ["verb"]) or (
+            kinds in (["comma", "there"], ["comma", "phrase"]) and self._now.mark == "start"
+        )
+        if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
+            if self._now.mark != "start":
+                self._end_clause()
+            self._sides.lead(piece.text)
+        else:
+            self._sides.trail(piece.text, self._now.subject if self._verb else self._now.last)
+            self._verb = False
 
     def _background(self, phrase: Phrase, at: int) -> None:
         self._now.draft.set_aside.append(phrase.words)
@@ -190,25 +217,6 @@ class Reader:
             return
         if self._now.mark == "start" or starts_clause(self._chunks, at):
             self._now.close()
-
-    def _detail(self, phrase: Phrase) -> None:
-        """A part ("with red covers") or bare colours ("one white and one beige") describe what was read before."""
-        frame = self._now.frames[-1] if self._now.frames and self._now.frames[-1].fresh else None
-        owners = frame.parents if frame else self._now.last or self._now.subject
-        if not owners:
-            self._now.draft.set_aside.append(phrase.words)
-            return
-        owner = owners[-1]
-        if phrase.kind == "pieces" and phrase.count is not None and owner.count == 1:
-            plural = [*self._now.carried.get(id(owner), ()), *self._now.subject]
-            owner = next((group for group in plural if group.count > 1), owner)
-        if phrase.kind == "pieces" and not phrase.said:
-            self._now.maker.tell_apart(owner, phrase)
-        elif phrase.modifiers.colours or phrase.modifiers.palette:
-            recolour(owner, phrase.modifiers, part=phrase.said)
-        if frame:
-            frame.fresh = bool(frame.link.manner == "hold")
-            self._now.last = [owner]
 
     def _on_link(self, link: Link, at: int) -> int:
         if link.finite:
@@ -234,17 +242,29 @@ class Reader:
         target = follower.phrase if follower is not None and follower.kind == "phrase" else None
         if follower is not None and follower.kind == "each":
             target = Phrase(kind="pronoun", head="each", each=True)
+        if target is None and self._now.mark and precedes_phrase(self._chunks, at):
+            self._end_clause()
+            self._sides.lead_with(link)
+            self._now.mark = ""
+            return at + 1
         if target is None:
-            self._without_target(link)
+            self._sides.without_landmark(link)
             self._verb, self._now.mark = False, ""
             return at + 1
+        if target.head == "which" and near:
+            # "A mug behind which is a bottle".
+            self._which = self._which if self._which and "and" in self._now.mark else near[-1]
+            self._now.open_beside(link, self._which)
+            self._verb, self._now.mark = False, ""
+            return at + 2
         fronted = self._fronted(at, near)
+        self._now.second = names_second(self._chunks, at + 2)
         self._now.more = lists_on(self._chunks, at + 2)
         if fronted and self._now.subject:
             inside = self._now.mark != "start" and target.head in ("it", "its", "itself")
             self._now.close()
             # "a bowl, a book, and next to it a pen": the pen is next to the book.
-            self._now.before = self._now.before[-1:] if inside else self._now.before
+            self._now.before = self._now.begun()[-1:] if inside else self._now.before
         self._forward(link, target, [] if fronted else near, apart=apart)
         self._verb, self._now.mark = False, ""
         return at + 2
@@ -258,9 +278,8 @@ class Reader:
             return True
         if not self._now.mark:
             return False
-        return (
-            kinds[:1] == ["there"] or kinds[:2] in (["comma", "there"], ["verb", "phrase"]) or kinds[:1] == ["phrase"]
-        )
+        inserted = "and" in self._now.mark and kinds[:2] == ["comma", "phrase"]
+        return inserted or kinds[:1] in (["there"], ["phrase"]) or kinds[:2] in (["comma", "there"], ["verb", "phrase"])
 
     def _open(self, link: Link, parents: list[Group]) -> None:
         if link.manner == "include" and parents and parents[-1].cycle and not parents[-1].replaced:
@@ -286,22 +305,14 @@ class Reader:
         self._now.frames.append(Frame(link=link, parents=parents, flank=flank, each=self._each))
         self._each = False
 
-    def _without_target(self, link: Link) -> None:
-        """Read "with a cat on top", "with two cushions in front": of what the list speaks of."""
-        for group in self._now.last[-1:]:
-            frame = self._now.holder.get(id(group))
-            parents = (
-                frame.parents
-                if frame
-                else [other for other in self._now.subject if other is not group] or self._now.before
-            )
-            for parent in parents[:1]:
-                if parent is not group:
-                    self._now.relate(group, link, parent)
-
     def _forward(self, link: Link, phrase: Phrase, children: list[Group], *, apart: bool) -> None:
         if link.manner == "half" and phrase.kind == "background":
             self._now.on_half(children, link.side or "centre", None)
+        told_apart = phrase.modifiers.colours or phrase.modifiers.size_word or position(phrase)
+        one = phrase.kind == "pieces" and not phrase.said and (told_apart or phrase.head in REST)
+        if one and (told := self._now.maker.members.told(phrase, self._now.draft.groups[::-1])):
+            self._join(link, [told], phrase, children, known=True, apart=apart)
+            return
         if phrase.kind in ("background", "part", "pieces", "items"):
             self._to_place(phrase, children, link)
             return
@@ -310,42 +321,52 @@ class Reader:
         else:
             group, known = self._group(phrase, children)
             parents = [group] if group is not None else []
-        if not parents:
-            return
+        if parents:
+            self._join(link, parents, phrase, children, known=known, apart=apart)
+
+    def _join(
+        self, link: Link, parents: list[Group], phrase: Phrase, children: list[Group], *, known: bool, apart: bool
+    ) -> None:
+        """Relate `children` to the first of `parents`, which `phrase` speaks of."""
         parent = parents[0]
+        if phrase.part in lexicon.DRAWERS:
+            self._now.draft.notes.append(f'"{phrase.words}": "{parent.said}" has no parts of its own and is meant.')
         if self._all:
             if link.kind in SUPPORT_KINDS:
-                self._carry_all(link, parent)
+                self._now.carry_all(link, parent)
+                self._all = False
             return
         if not children:
             frame = Frame(link=link, parents=parents, each=phrase.each)
             self._now.frames = [frame]
             self._now.last = [] if known and phrase.kind == "pronoun" else parents
             return
-        if not apart:
+        if not apart and phrase.head not in lexicon.DEMONSTRATIVES:
             children = self._now.climb(children, link, parent)
         if link.kind in ("on", "in") and link.manner == "place" and phrase.kind == "object":
             children = self._now.list_on(children, parent)
         if link.kind in SUPPORT_KINDS and phrase.kind == "pronoun":
             children = self._now.list_of(children, parent)
         self._now.related = children
-        for child in children:
+        if link.manner == "sides" and len(children) > 1:
+            self._now.draft.flanks.append(Flank(parent=parent, members=children))
+            children = []
+        if self._each and not known and parent.count == 1 and len(children) > 0:
+            self._now.maker.multiply(parent, sum(child.count for child in children))
+            parents = [self._now.maker.members.pick(parent, child.count, NO_MODIFIERS) for child in children]
+        self._each = False
+        carriers = parents if len(parents) == len(children) else [parent] * len(children)
+        for child, parent in zip(children, carriers, strict=True):
             if phrase.each and parent.count > 1:
                 self._now.maker.multiply(child, parent.count)
+                self._now.shared_out.add(id(child))
             if child is not parent or phrase.kind == "object":
-                self._now.relate(child, link, parent)
+                self._now.relate(child, self._sides.claimed(child, link), parent)
                 self._now.carried[id(parent)] = [child]
         self._now.top = []
         self._now.last = parents
         if phrase.kind == "pronoun":
             self._now.last = children
-
-    def _carry_all(self, link: Link, parent: Group) -> None:
-        for group in self._now.draft.groups:
-            loose = self._now.draft.support(group) is None and group not in self._now.draft.ancestors(parent)
-            if loose and group is not parent:
-                self._now.relate(group, link, parent)
-        self._now.subject, self._now.last, self._all = [parent], [parent], False
 
     def _to_place(self, phrase: Phrase, children: list[Group], link: Link) -> None:
         """A relation to the floor, a part or the items in general."""
@@ -366,34 +387,3 @@ class Reader:
                 self._now.frames = [Frame(link=link, parents=owners)]
             return
         self._now.draft.set_aside.append(phrase.words)
-
-    def _on_side(self, side: str, at: int) -> None:
-        """Read "on the left": of the clause's next phrase when it comes first, else of what was read last."""
-        kinds = [piece.kind for piece in self._chunks[at + 1 : at + 3]]
-        coming = kinds[:1] in (["there"], ["verb"]) or (
-            kinds in (["comma", "there"], ["comma", "phrase"]) and self._now.mark == "start"
-        )
-        if self._now.mark == "start" or (self._now.mark and (coming or kinds[:1] == ["phrase"])):
-            if self._now.mark != "start":
-                self._end_clause()
-            landmark = self._now.landmark
-            if landmark is not None and side in ("left", "right", "centre"):
-                link = Link(manner="half", kind="on", side=side)
-                if not self._now.landmark_is_surface and side != "centre":
-                    link = Link(kind="left_of" if side == "left" else "right_of")
-                self._now.frames = [Frame(link=link, parents=[landmark])]
-            else:
-                self._side = side
-            return
-        groups = self._now.subject if self._verb else self._now.last
-        for group in groups[-1:]:
-            owner = self._now.side_owner(group, side)
-            if owner is None:
-                self._now.draft.sided.append((group, side, None))
-            else:
-                member, frame = owner
-                if frame.flank is not None:
-                    frame.flank.sides[id(member)] = side
-                else:
-                    self._now.draft.sided.append((member, side, frame.parents[0]))
-        self._verb = False

@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
 from pat3d.errors import PromptError
+from pat3d.plan.measures import Axis
 from pat3d.scene import Relation, check_tree, parent_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class Extent:
+    """A length that an object is to have, its proportions kept."""
+
+    metres: float
+    axis: Axis | None = None
+    """None for the longest side."""
+
+    def factor(self, size: Sequence[float]) -> float:
+        """By what to scale an object that measures `size` [m], shape (3,): x, y, z."""
+        x, y, z = map(float, size)
+        measured = {"height": z, "width": x, "depth": y, "length": max(x, y), "thickness": min(x, y, z)}
+        return self.metres / (max(x, y, z) if self.axis is None else measured[self.axis])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +42,8 @@ class PlannedObject:
     """Material name, see pat3d.assets.materials; None for the catalogue's default."""
     scale: float = 1.0
     """Factor on the catalogue's dimensions, from "small", "large", ..."""
+    extent: Extent | None = None
+    """What the prompt measures; the object is scaled to it, whatever `scale` is."""
     adjectives: tuple[str, ...] = ()
     """Words that describe the object and are neither colour, material nor size."""
     proxy: bool = False

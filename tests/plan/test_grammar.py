@@ -8,6 +8,7 @@ from pat3d.plan.describe import describe
 from pat3d.plan.grammar import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
 from tests.plan.prompts import PROMPTS, Expected
+from tests.plan.tabletop_prompts import TABLETOP_PROMPTS
 from tests.plan.vocabulary import Table
 
 
@@ -20,7 +21,9 @@ def relations(plan: ScenePlan) -> set[str]:
     return {str(relation) for relation in plan.relations}
 
 
-@pytest.mark.parametrize("expected", PROMPTS, ids=lambda expected: re.sub(r"\W+", "-", expected.prompt[:50]))
+@pytest.mark.parametrize(
+    "expected", [*PROMPTS, *TABLETOP_PROMPTS], ids=lambda expected: re.sub(r"\W+", "-", expected.prompt[:50])
+)
 def test_prompt_is_planned_as_a_person_reads_it(planner: GrammarPlanner, expected: Expected):
     plan = planner.plan(expected.prompt)
     assert {obj.name: obj.noun for obj in plan.objects} == expected.objects
@@ -187,7 +190,7 @@ def test_an_unknown_noun_is_referred_to_like_any_other():
 
 
 def test_every_noun_of_the_expected_plans_is_in_the_catalogue():
-    nouns = {noun for expected in PROMPTS for noun in expected.objects.values()}
+    nouns = {noun for expected in (*PROMPTS, *TABLETOP_PROMPTS) for noun in expected.objects.values()}
     assert {noun for noun in nouns if catalogue.find(noun) is None} == set()
 
 

@@ -1,0 +1,38 @@
+"""Words for how an object is turned ("upside down", "on its side"), none of which the layout can do.
+
+A posture becomes one token whose text begins with "_", which no word of a prompt can.
+"""
+
+from __future__ import annotations
+
+POSTURE = (
+    r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
+    r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
+    r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
+    r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
+    r"|tilted|slanted|sideways|diagonally|crosswise"
+    r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
+    r"|leaning to (?:one|the|its) (?:side|left|right)|facing the (?:viewer|camera|front|left|right|wall)"
+)
+"""Pattern of a posture."""
+_UPRIGHT = "upright"
+
+
+def token_text(said: str) -> str:
+    """The text of the token for `said`."""
+    return f"_posture:{said.lower()}"
+
+
+def is_posture(word: str) -> bool:
+    """Whether `word` is the text of a posture token."""
+    return word.startswith("_posture:")
+
+
+def read_posture(word: str) -> str:
+    """What the posture token with text `word` says."""
+    return word.removeprefix("_posture:")
+
+
+def is_natural(posture: str, *, lies: bool) -> bool:
+    """Whether an object that by nature lies, or else stands, has `posture` anyway."""
+    return posture == _UPRIGHT and not lies
