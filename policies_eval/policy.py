@@ -10,6 +10,7 @@ return numpy.zeros(self.size)
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
@@ -92,13 +93,13 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
         values = values[None]
     if values.ndim != 2 or values.shape[1] != size or not 1 <= len(values) <= MAX_CHUNK:
         raise PolicyError("wrong shape", f"got shape {np.shape(answer)}, valid are ({size},) and (n, {size})")
-    if not np.isfinite(values).all():
-        what = "NaN" if np.isnan(values).any() else "infinite values"
-        raise PolicyError("not finite", f"an action holds {what}")
     largest = float(np.abs(values).max())
+    if not math.isfinite(largest):
+        what = "NaN" if math.isnan(largest) else "infinite values"
+        raise PolicyError("not finite", f"an action holds {what}")
     if largest > 1.0 + OUT_OF_RANGE and not clip:
         raise PolicyError("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
-    return np.clip(values, -1.0, 1.0).astype(np.float32)
+    return (values if largest <= 1.0 else np.clip(values, -1.0, 1.0)).astype(np.float32)
 
 
 def _short(error: object, limit: int = 200) -> str:

@@ -21,6 +21,7 @@ from pat3d.envs.batch import physics as batch_physics  # noqa: E402
 from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
 from pat3d.envs.batch.physics import Room, in_single_precision, require_still  # noqa: E402
 from pat3d.envs.env import TabletopEnv  # noqa: E402
+from pat3d.envs.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError  # noqa: E402
 from pat3d.pipeline import generate  # noqa: E402
@@ -173,7 +174,7 @@ def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(bl
     many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
     env.reset(seed=0)
     many.reset(seed=0)
-    one, other = env.simulation.state, many.state.worlds[1]
+    one, other = env.simulation.state, SimState(many.state, 1)
     for name in env.objects:
         np.testing.assert_allclose(other.position(name), one.position(name), atol=1e-5)
         np.testing.assert_allclose(other.rotation(name), one.rotation(name), atol=1e-5)
