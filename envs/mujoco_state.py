@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.predicates import OWNERS, ROBOT_ROW
+from pat3d.envs.compiled import compiled
+from pat3d.envs.predicates import OWNERS
 from pat3d.envs.snapshot import Mask, Snapshot
 from pat3d.envs.state import TOUCH, States
 from pat3d.envs.world import FLOOR, SUPPORT, World
@@ -56,19 +57,15 @@ class MujocoState(States):
 
     def refresh(self) -> None:
         """Read the contacts of the present state."""
-        contact = self._data.contact
-        geoms = contact.geom[(contact.dist < TOUCH) & (contact.efc_address >= 0)]
-        rows = self._row[geoms]
-        first, second = rows.T
-        now, pinched = self.snapshot.touching[0], self.snapshot.pinched[0]
+        contact, now = self._data.contact, self.snapshot.touching[0]
         before = now.copy()
-        now[:], pinched[:] = False, False
-        now[first, second] = now[second, first] = True
-        now.reshape(-1)[:: len(now) + 1] = False
-        if now[ROBOT_ROW].any():
-            finger = self._finger[geoms]
-            contacts, ends = (finger >= 0).nonzero()
-            pinched[finger[contacts, ends], rows[contacts, 1 - ends]] = True
+        now[:], self.snapshot.pinched[:] = False, False
+        distances = contact.dist
+        if len(distances):
+            _list_contacts(
+                contact.geom, distances, contact.efc_address, TOUCH, self._row, self._finger, now,
+                self.snapshot.pinched[0],
+            )  # fmt: skip
         asleep = self._data.body_awake.take(self.bodies) == 0
         if (asleep != self._asleep).any():
             self._fall_asleep(asleep, before, now)
@@ -109,6 +106,21 @@ class MujocoState(States):
             if owner not in found and self._mujoco.mj_geomDistance(model, data, *pair, TOUCH, None) < TOUCH:
                 found.add(owner)
         return sorted(found)
+
+
+@compiled
+def _list_contacts(geoms, distances, addresses, nearest, row, finger, touching, pinched):
+    """Enter contacts nearer than `nearest` [m] that push into the tables of one world."""
+    for contact in range(len(distances)):
+        if distances[contact] < nearest and addresses[contact] >= 0:
+            first, second = geoms[contact]
+            a, b = row[first], row[second]
+            if a != b:
+                touching[a, b] = touching[b, a] = True
+            if finger[first] >= 0:
+                pinched[finger[first], b] = True
+            if finger[second] >= 0:
+                pinched[finger[second], a] = True
 
 
 def fingers(world: World) -> NDArray[np.int32]:
