@@ -204,7 +204,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         size = self.simulation.controller.size
         if values.shape != (size,) or not np.isfinite(values).all():
             raise EnvironmentSetupError(f"an action is {size} finite numbers, got {action}.")
-        self.simulation.step(np.clip(values, -1.0, 1.0))
+        self.simulation.step(np.minimum(np.maximum(values, -1.0), 1.0))
         self._verdicts = self._judge.update(self._period)
         broken = self.simulation.broken
         success = bool(self._verdicts.success[0]) and not broken
@@ -258,7 +258,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         observer = Observer(self._spec, simulation.world)
         self.task, self.simulation, self._observer = chosen, simulation, observer
         self._period = np.array([simulation.period])
-        self._instruction = chosen.instruction(loaded.scene)
+        self._about = {"task": chosen.spec, "instruction": chosen.instruction(loaded.scene)}
         self.close()
 
     def _observation(self) -> Observation:
@@ -276,8 +276,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             "toppled": state.named(toppled),
             "fell": state.named(fell),
             "touched": state.named(state.states.touched()),
-            "task": self.task.spec,
-            "instruction": self._instruction,
+            **self._about,
             **({} if self._chosen is None else {"index": self._chosen.current}),
         }
 

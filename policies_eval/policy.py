@@ -86,7 +86,7 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
         values = np.asarray(answer)
         if values.dtype.kind not in "fiub":
             raise TypeError(f"values of type {values.dtype}")
-        values = values.astype(np.float64)
+        values = values.astype(np.float64, copy=False)
     except (TypeError, ValueError) as error:
         raise PolicyError("no numbers", f"an action is {size} numbers, not {_short(error)}") from None
     if values.ndim == 1:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,8 +39,7 @@ class Verdict:
     """Where that object's centre should get to [m]."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Verdicts:
+class Verdicts(NamedTuple):
     """How far the episodes of several worlds are after one control step; the first axis is the world."""
 
     success: Mask

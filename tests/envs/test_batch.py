@@ -151,6 +151,26 @@ def test_an_ended_environment_is_reset_by_the_next_step(envs):
     assert np.abs(fresh["joint_vel"]).max() == 0
 
 
+def test_a_world_that_is_lost_is_truncated_and_the_others_go_on(envs):
+    """Not a number in one world: its observation is finite, its verdict the last one, and the next step resets it."""
+    envs.reset(seed=5)
+    still = np.zeros(envs.action_space.shape, dtype=np.float32)
+    before = envs.step(still)[4]["progress"]
+    position = envs.physics.data.qpos.numpy()
+    position[1, 0] = np.nan
+    envs.physics.data.qpos.assign(position)
+    observation, _, success, truncated, info = envs.step(still)
+    np.testing.assert_array_equal(info["lost"], [False, True, False])
+    np.testing.assert_array_equal(truncated, [False, True, False])
+    assert not success.any()
+    assert all(np.isfinite(values).all() for values in observation.values())
+    assert info["progress"][1] == before[1]
+    observation, _, _, truncated, info = envs.step(still)
+    assert not info["lost"].any()
+    assert truncated.tolist() == [True, False, True]
+    assert np.abs(observation["joint_vel"][1]).max() == 0
+
+
 @pytest.mark.parametrize("device", DEVICES)
 def test_a_world_moves_as_the_environment_of_one_does(block, device):
     """The hand goes the same way; contacts, which differ, play no part before anything is touched."""
