@@ -38,7 +38,8 @@ class Drawn(States):
         env.reset(seed=0)
         for _ in range(STEPS):
             kept.append(self._now())
-            env.step(random.uniform(-1.0, 1.0, env.simulation.controller.size))
+            action = random.uniform(-1.0, 1.0, env.simulation.controller.size)
+            env.step(action.astype(np.float32))
         first, drawn = np.zeros(worlds, dtype=np.int64), random.integers(0, STEPS, worlds)
         for chosen in (first, drawn):
             arrays = {name: np.stack([kept[number][name] for number in chosen]) for name in kept[0]}
@@ -50,9 +51,8 @@ class Drawn(States):
     def _now(self) -> dict[str, Any]:
         states = self._states
         arrays = {name: getattr(states.snapshot, name) for name in MOMENT}
-        return {
-            name: values[0].copy() for name, values in (arrays | {"qpos": states.qpos, "xquat": states.xquat}).items()
-        }
+        arrays |= {"qpos": states.qpos, "xquat": states.xquat}
+        return {name: values[0].copy() for name, values in arrays.items()}
 
     def refresh(self) -> None:
         """There is nothing to read."""
@@ -96,9 +96,8 @@ def main() -> None:
             verdicts = judge.update(seconds)
             judging = least(lambda judge=judge, seconds=seconds: judge.update(seconds)) + least(states.upsets)
             observing = least(lambda o=observer, s=states, v=verdicts: o.observe(s, v))
-            print(
-                f"{len(env.objects)} objects, {env.task.spec}: judging {judging:.1f} ms, observing {observing:.1f} ms"
-            )
+            what = f"{len(env.objects)} objects, {env.task.spec}"
+            print(f"{what}: judging {judging:.1f} ms, observing {observing:.1f} ms", flush=True)
 
 
 if __name__ == "__main__":
