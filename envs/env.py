@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.loading import DEFAULT_TASK, LoadedScene, load
-from pat3d.envs.observations import Observation, ObservationSpec, Observer
+from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.pictures import Pictures
 from pat3d.envs.placement import Placement, place
 from pat3d.envs.robots import make_robot
@@ -20,7 +20,7 @@ from pat3d.envs.simulation import Simulation
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
 from pat3d.envs.tasks.registry import parse_task
-from pat3d.envs.tasks.task import Judge, Task, Verdict
+from pat3d.envs.tasks.task import Judge, Task, Verdict, Verdicts
 from pat3d.envs.world import CAMERAS, compose
 from pat3d.errors import EnvironmentSetupError, TaskError
 from pat3d.scene import Scene
@@ -129,8 +129,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             max_objects=moving if max_objects is None else max_objects,
         )
         self._enter(self._loaded, self._task_given)
-        self._verdict = Verdict(success=False)
         self._judge: Judge | None = None
+        self._verdicts: Verdicts
         self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
         size = self.simulation.controller.size
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
@@ -189,11 +189,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     @property
     def verdict(self) -> Verdict:
         """How far the episode is, and what the next move is about."""
-        return self._verdict
+        return Verdict(success=False) if self._judge is None else self._verdicts.of(0, self.scene)
 
     def _begin(self) -> tuple[Observation, dict[str, Any]]:
-        self._judge = self.task.begin(self.simulation.state)
-        self._verdict = self._judge.update(self.simulation.state, 0.0)
+        self._judge = self.task.judge(self.simulation.states)
+        self._verdicts = self._judge.update(np.zeros(1))
         return self._observation(), self._info()
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -204,11 +204,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         size = self.simulation.controller.size
         if values.shape != (size,) or not np.isfinite(values).all():
             raise EnvironmentSetupError(f"an action is {size} finite numbers, got {action}.")
-        self.simulation.step(np.clip(values, -1.0, 1.0))
-        self._verdict = self._judge.update(self.simulation.state, self.simulation.period)
+        self.simulation.step(np.minimum(np.maximum(values, -1.0), 1.0))
+        self._verdicts = self._judge.update(self._period)
         broken = self.simulation.broken
-        success = self._verdict.success and not broken
-        reward = float(success) if self.reward == "sparse" else float(self._verdict.progress)
+        success = bool(self._verdicts.success[0]) and not broken
+        reward = float(success if self.reward == "sparse" else self._verdicts.progress[0])
         return self._observation(), reward, success, broken, self._info()
 
     def render(self) -> NDArray[Any] | None:  # type: ignore[override]
@@ -255,26 +255,28 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             if len(self._kept) > _KEPT_WORLDS:
                 del self._kept[next(iter(self._kept))]
         chosen, simulation = self._kept[key]
-        observer = Observer(self._spec, simulation)
+        observer = Observer(self._spec, simulation.world)
         self.task, self.simulation, self._observer = chosen, simulation, observer
-        self._instruction = chosen.instruction(loaded.scene)
+        self._period = np.array([simulation.period])
+        self._about = {"task": chosen.spec, "instruction": chosen.instruction(loaded.scene)}
         self.close()
 
     def _observation(self) -> Observation:
-        pictures = None if self._spec.kind == "state" else self.pictures
-        return self._observer.observe(self._verdict, pictures)
+        seen = self._observer.observe(self.simulation.states, self._verdicts)
+        observation = {name: values[0] for name, values in seen.items()}
+        return observation if self._spec.kind == "state" else observation | pictured(self._spec, self.pictures)
 
     def _info(self) -> dict[str, Any]:
-        state = self.simulation.state
+        state, verdicts = self.simulation.state, self._verdicts
+        toppled, fell = state.states.upsets()
         return {
-            "success": self._verdict.success,
-            "predicates": dict(self._verdict.predicates),
-            "progress": self._verdict.progress,
-            "toppled": state.toppled(),
-            "fell": state.fell(),
-            "touched": state.all_touched(),
-            "task": self.task.spec,
-            "instruction": self._instruction,
+            "success": bool(verdicts.success[0]),
+            "predicates": {name: bool(holds[0]) for name, holds in verdicts.predicates.items()},
+            "progress": float(verdicts.progress[0]),
+            "toppled": state.named(toppled),
+            "fell": state.named(fell),
+            "touched": state.named(state.states.touched()),
+            **self._about,
             **({} if self._chosen is None else {"index": self._chosen.current}),
         }
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any, Literal, get_args
 
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from pat3d.envs.simulation import Simulation
-from pat3d.envs.tasks.task import Verdict
+from pat3d.envs.compiled import compiled
+from pat3d.envs.state import States
+from pat3d.envs.tasks.task import Verdicts
 from pat3d.envs.world import PREFIX, World
 from pat3d.errors import EnvironmentSetupError
 
@@ -82,71 +82,124 @@ class ObservationSpec:
 
 
 class Observer:
-    """Reads observations from one simulation."""
+    """Reads observations of a world, or of many that are its copies."""
 
-    def __init__(self, spec: ObservationSpec, simulation: Simulation) -> None:
-        self._spec, self._simulation = spec, simulation
-        world, model = simulation.world, simulation.model
+    def __init__(self, spec: ObservationSpec, world: World) -> None:
+        self._spec, model = spec, world.model
         if len(world.objects) > spec.max_objects:
             raise EnvironmentSetupError(
                 f"the scene has {len(world.objects)} moving objects, the observation space {spec.max_objects}; "
                 f"make the environment with max_objects={len(world.objects)} or more."
             )
-        self._mujoco: Any = import_module("mujoco")
         joints = [model.joint(PREFIX + name) for name in world.robot.arm_joints]
         self._positions = np.array([int(joint.qposadr[0]) for joint in joints])
         self._velocities = np.array([int(joint.dofadr[0]) for joint in joints])
         fingers = [model.joint(PREFIX + name) for name in world.robot.gripper_joints]
         self._fingers = np.array([int(joint.qposadr[0]) for joint in fingers])
+        site = model.site(PREFIX + world.robot.grip_site)
+        self._site, self._hand, self._turn = int(site.id), int(site.bodyid[0]), _turned_by(*site.quat)
         self._bodies = np.array([world.bodies[name] for name in world.objects], dtype=np.int64)
+        self._row = np.full(len(world.scene.objects), -1, dtype=np.int64)
+        self._row[[not obj.fixed for obj in world.scene.objects]] = np.arange(len(world.objects))
 
-    def observe(self, verdict: Verdict, pictures: Any) -> Observation:
-        """The observation of the present state.
+    def observe(self, states: States, verdicts: Verdicts) -> Observation:
+        """All but the pictures of the present states; the first axis of every array is the world.
 
         Args:
-            verdict: names the target and its goal.
-            pictures: a `pat3d.envs.pictures.Pictures`; not used for state observations.
+            states: of the worlds.
+            verdicts: name the targets and their goals.
         """
-        data, state, spec = self._simulation.data, self._simulation.state, self._spec
-        found: dict[str, Any] = {
-            "joint_pos": data.qpos[self._positions],
-            "joint_vel": data.qvel[self._velocities],
-            "gripper_pos": data.qpos[self._fingers],
-            "eef_pos": state.hand,
-            "eef_quat": self._quat_of(state.hand_rotation),
-        }
-        observation: Observation = {name: np.asarray(value, dtype=np.float32) for name, value in found.items()}
-        np.clip(observation["joint_vel"], -FASTEST, FASTEST, out=observation["joint_vel"])
-        if spec.kind == "state":
-            objects = np.zeros((spec.max_objects, 7), dtype=np.float32)
-            count = len(self._bodies)
-            objects[:count, :3], objects[:count, 3:] = data.xpos[self._bodies], data.xquat[self._bodies]
-            pose = (state.position(verdict.target), state.quat_wxyz(verdict.target), verdict.goal)
-            target = np.concatenate(pose).astype(np.float32)
-            observation["objects"] = objects.clip(-FARTHEST, FARTHEST, out=objects)
-            observation["target"] = target.clip(-FARTHEST, FARTHEST, out=target)
-            return observation
-        for camera in spec.cameras:
-            picture = pictures.take(
-                camera, spec.height, spec.width, depth=spec.kind == "rgbd", segmentation=spec.segmentation
+        now = states.snapshot
+        joints, speeds, fingers, place, quat = _robot(
+            states.qpos, now.qvel, now.sites, states.xquat, self._positions, self._velocities, self._fingers,
+            self._site, self._hand, self._turn,
+        )  # fmt: skip
+        seen = {"joint_pos": joints, "joint_vel": speeds, "gripper_pos": fingers, "eef_pos": place, "eef_quat": quat}
+        if self._spec.kind == "state":
+            seen["objects"], seen["target"] = _objects(
+                now.xpos, states.xquat, self._bodies, self._spec.max_objects, self._row, verdicts.target, verdicts.goal
             )
-            observation[f"{camera}_image"] = picture.image
-            if spec.kind == "rgbd":
-                observation[f"{camera}_depth"] = np.clip(picture.depth, 0.0, LARGEST_DEPTH)[..., None]
-            if spec.segmentation:
-                observation[f"{camera}_segmentation"] = picture.segmentation[..., None]
-        return observation
+        return seen
 
-    def _quat_of(self, rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Quaternion (wxyz) of a rotation matrix, its largest value positive: it never jumps by a sign alone."""
-        quat = np.zeros(4)
-        self._mujoco.mju_mat2Quat(quat, rotation.reshape(-1))
-        return quat if quat[np.argmax(np.abs(quat))] > 0 else -quat
+
+@compiled
+def _within(most, value):
+    return min(max(value, -most), most)
+
+
+@compiled
+def _robot(qpos, qvel, sites, xquat, positions, velocities, fingers, site, hand, turn):
+    """Positions and velocities of the arm's joints, the fingers', and the hand's pose, of every world."""
+    worlds = len(qpos)
+    joints, speeds = np.empty((worlds, len(positions)), np.float32), np.empty((worlds, len(velocities)), np.float32)
+    opening, place = np.empty((worlds, len(fingers)), np.float32), np.empty((worlds, 3), np.float32)
+    quats, quat = np.empty((worlds, 4), np.float32), np.empty(4)
+    for w in range(worlds):
+        for k in range(len(positions)):
+            joints[w, k], speeds[w, k] = qpos[w, positions[k]], _within(FASTEST, qvel[w, velocities[k]])
+        for k in range(len(fingers)):
+            opening[w, k] = qpos[w, fingers[k]]
+        for k in range(3):
+            place[w, k] = sites[w, site, k]
+        largest = 0.0
+        for k in range(4):
+            quat[k] = 0.0
+            for c in range(4):
+                quat[k] += xquat[w, hand, c] * turn[c, k]
+            if abs(quat[k]) > abs(largest):
+                largest = quat[k]
+        for k in range(4):
+            # The largest value is positive: the orientation never jumps by a sign alone.
+            quats[w, k] = quat[k] if largest > 0 else -quat[k]
+    return joints, speeds, opening, place, quats
+
+
+@compiled
+def _objects(xpos, xquat, bodies, most, row, target, goal):
+    """Poses of the objects, shape (worlds, most, 7), and of the target with its goal, shape (worlds, 10)."""
+    worlds = len(xpos)
+    poses, about = np.zeros((worlds, most, 7), np.float32), np.empty((worlds, 10), np.float32)
+    for w in range(worlds):
+        for number in range(len(bodies)):
+            for k in range(3):
+                poses[w, number, k] = _within(FARTHEST, xpos[w, bodies[number], k])
+            for k in range(4):
+                poses[w, number, 3 + k] = xquat[w, bodies[number], k]
+        for k in range(7):
+            about[w, k] = poses[w, row[target[w]], k]
+        for k in range(3):
+            about[w, 7 + k] = _within(FARTHEST, goal[w, k])
+    return poses, about
+
+
+def pictured(spec: ObservationSpec, pictures: Any) -> Observation:
+    """The pictures of an observation.
+
+    Args:
+        spec: which.
+        pictures: a `pat3d.envs.pictures.Pictures`.
+    """
+    seen: Observation = {}
+    for camera in spec.cameras:
+        picture = pictures.take(
+            camera, spec.height, spec.width, depth=spec.kind == "rgbd", segmentation=spec.segmentation
+        )
+        seen[f"{camera}_image"] = picture.image
+        if spec.kind == "rgbd":
+            seen[f"{camera}_depth"] = np.clip(picture.depth, 0.0, LARGEST_DEPTH)[..., None]
+        if spec.segmentation:
+            seen[f"{camera}_segmentation"] = picture.segmentation[..., None]
+    return seen
 
 
 def object_row(observation: Observation, objects: Sequence[str], name: str) -> NDArray[np.float32]:
     """Position [m] and orientation (wxyz) of object `name` in a state observation, shape (7,)."""
     return observation["objects"][list(objects).index(name)]
+
+
+def _turned_by(w: float, x: float, y: float, z: float) -> NDArray[np.float64]:
+    """The matrix M for which q @ M is the quaternion q turned by (w, x, y, z) in its own frame, shape (4, 4)."""
+    return np.array([[w, x, y, z], [-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]])
 
 
 def _box(low: Any, high: Any) -> spaces.Box:

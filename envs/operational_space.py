@@ -12,14 +12,12 @@ own code, which takes a pseudo-inverse, is asked instead.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-numba: Any = import_module("numba")
+from pat3d.envs.compiled import compiled
 
 Array = NDArray[np.float64]
 
@@ -74,15 +72,7 @@ class OperationalSpace:
         return _apply(position, rotation, kp, kd, posture, *self._fixed)
 
 
-def _compiled(function: Callable[..., Any]) -> Any:
-    """Compile when it is first called; kept for later processes where there is a folder for that."""
-    try:
-        return numba.njit(cache=True)(function)
-    except RuntimeError:
-        return numba.njit(function)
-
-
-@_compiled
+@compiled
 def _cholesky(a: Array) -> bool:
     """The lower triangle of `a`, shape (n, n), becomes its factor; False where it has none."""
     n = a.shape[0]
@@ -102,7 +92,7 @@ def _cholesky(a: Array) -> bool:
     return True
 
 
-@_compiled
+@compiled
 def _solve(factor: Array, b: Array) -> None:
     """`b`, shape (n,), becomes the solution of factor factor^T x = b."""
     n = b.shape[0]
@@ -116,7 +106,7 @@ def _solve(factor: Array, b: Array) -> None:
         b[i] /= factor[i, i]
 
 
-@_compiled
+@compiled
 def _apply(
     # Goal
     position, rotation, kp, kd, posture,

@@ -17,6 +17,7 @@ import numpy as np
 
 from pat3d.envs.env import Source, choose
 from pat3d.envs.loading import DEFAULT_TASK, load
+from pat3d.envs.mujoco_state import MujocoState
 from pat3d.envs.robots import make_robot, robosuite_module
 from pat3d.envs.state import SimState
 from pat3d.envs.tasks.task import Judge, Task, Verdict
@@ -95,20 +96,21 @@ class PAT3DScene(_Base):
     def _setup_references(self) -> None:
         super()._setup_references()
         world = index(self.sim.model._model, self._loaded.scene, self._robot, self.placement, prefix="")
-        self.state = SimState(world, self.sim.data._data)
+        self.states = MujocoState(world, self.sim.data._data)
+        self.state = SimState(self.states)
 
     def _reset_internal(self) -> None:
         super()._reset_internal()
         self.sim.forward()
-        self.state.begin()
-        self._judge = self.task.begin(self.state)
-        self._verdict = self._judge.update(self.state, 0.0)
+        self.states.begin()
+        self._judge = self.task.judge(self.states)
+        self._verdict = self._follow(0.0)
 
     def _follow(self, seconds: float) -> Verdict:
         if self._judge is None:
             return self._verdict
-        self.state.refresh()
-        return self._judge.update(self.state, seconds)
+        self.states.refresh()
+        return self._judge.update(np.array([seconds])).of(0, self._loaded.scene)
 
     def _check_success(self) -> bool:
         return self._verdict.success

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.controllers import RobotController
+from pat3d.envs.mujoco_state import MujocoState
 from pat3d.envs.state import SimState
 from pat3d.envs.world import PREFIX, ROBOT, World
 from pat3d.errors import EnvironmentSetupError
@@ -50,7 +51,10 @@ class Simulation:
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
         self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
-        self.state = SimState(world, self.data)
+        self.states = MujocoState(world, self.data)
+        """As tasks judge them: one world."""
+        self.state = SimState(self.states)
+        """The same by name."""
 
     def _rest(self) -> Array:
         """The state at the start: objects where they were proven to rest, the robot in its start posture."""
@@ -86,7 +90,7 @@ class Simulation:
         """Take the present state, which somebody changed, as the start of the episode."""
         self.controller.reset()
         self._mujoco.mj_forward(self.model, self.data)
-        self.state.begin()
+        self.states.begin()
 
     def step(self, action: Array) -> None:
         """One control step with `action`, shape (controller.size,)."""
@@ -96,7 +100,7 @@ class Simulation:
             self.controller.control()
             self._mujoco.mj_step2(model, data)
             self._mujoco.mj_step1(model, data)
-        self.state.refresh()
+        self.states.refresh()
 
     @property
     def arm(self) -> Array:

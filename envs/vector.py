@@ -14,12 +14,12 @@ from pat3d.envs.arguments import number, one_of, whole
 from pat3d.envs.controllers import CONTROLS
 from pat3d.envs.env import REWARDS, Source, choose
 from pat3d.envs.loading import DEFAULT_TASK, load
-from pat3d.envs.observations import FARTHEST, FASTEST, ObservationSpec
+from pat3d.envs.observations import ObservationSpec, Observer
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
 from pat3d.envs.robots import make_robot
 from pat3d.envs.suites.selection import Selection
-from pat3d.envs.tasks.task import Judge, Task, Verdict
-from pat3d.envs.world import PREFIX, compose
+from pat3d.envs.tasks.task import Judge, Task, Verdicts
+from pat3d.envs.world import compose
 from pat3d.errors import EnvironmentSetupError
 
 Observations = dict[str, NDArray[np.float32]]
@@ -78,8 +78,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
     """Copies of one scene with one task on MuJoCo Warp; observations are the states of `TabletopEnv`, stacked.
 
     An environment that ends is reset by the next step, whose action it ignores. `info` holds, an entry for each
-    environment: success, progress, lost (the simulation failed), predicates (a dict), and toppled and touched (a column
-    for each of `objects`).
+    environment: success, progress, lost (the simulation failed), predicates (a dict), and toppled, fell and touched (a
+    column for each of `objects`).
 
     Args:
         num_envs: number of copies.
@@ -165,14 +165,10 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self.single_action_space = gymnasium.spaces.Box(-1.0, 1.0, (self.physics.controller.size,), np.float32)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        model, named = world.model, world.robot
-        self._joints = np.array([int(model.joint(PREFIX + name).qposadr[0]) for name in named.arm_joints])
-        self._speeds = np.array([int(model.joint(PREFIX + name).dofadr[0]) for name in named.arm_joints])
-        self._fingers = np.array([int(model.joint(PREFIX + name).qposadr[0]) for name in named.gripper_joints])
-        self._site = int(model.site(PREFIX + named.grip_site).id)
-        self._bodies = np.array([world.bodies[name] for name in world.objects], dtype=np.int64)
-        self._judges: dict[int, Judge] = {}
-        self._verdicts: dict[int, Verdict] = {}
+        self._observer = Observer(spec, world)
+        self._moving = np.array([self.state.numbers[name] for name in world.objects], dtype=np.int64)
+        self._judge: Judge | None = None
+        self._verdicts: Verdicts
         self._generators: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, dtype=bool)
         self._steps = np.zeros(num_envs, dtype=np.int64)
@@ -200,98 +196,67 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
                 seed if isinstance(seed, list) else [None if seed is None else seed + k for k in range(self.num_envs)]
             )
             self._generators = [np.random.default_rng(one) for one in seeds]
-        self._judges, self._verdicts = {}, {}
         self._start(np.arange(self.num_envs))
-        return self._observations(), self._info()
+        self._judge = self.task.judge(self.state)
+        self._verdicts = self._judge.update(np.zeros(self.num_envs))
+        return self._observations(self.physics.lost), self._info()
 
     def step(
         self, actions: NDArray[np.float32]
     ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Do an action in every environment."""
-        if not self._judges:
+        if self._judge is None:
             raise gymnasium.error.ResetNeeded("reset the environments before their first step.")
         values = np.asarray(actions, dtype=np.float32)
         if values.shape != self.action_space.shape or not np.isfinite(values).all():
             raise EnvironmentSetupError(f"actions are finite numbers of shape {self.action_space.shape}.")
-        fresh = np.flatnonzero(self._ended)
+        going = ~self._ended
         self.physics.step(np.clip(values, -1.0, 1.0))
-        if len(fresh):
-            self._start(fresh)
-        else:
+        if going.all():
             self.state.refresh()
-        lost = self.physics.lost
-        going = np.ones(self.num_envs, dtype=bool)
-        going[fresh] = False
-        for env in np.flatnonzero(going & ~lost).tolist():
-            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], self.physics.period)
-        self._steps[going] += 1
-        success = np.array([verdict.success for verdict in self._all()]) & going & ~lost
-        truncated = going & ~success & (lost | (self._steps >= self._limit))
-        if self._reward == "sparse":
-            rewards = success.astype(np.float64)
         else:
-            rewards = np.where(going, [verdict.progress for verdict in self._all()], 0.0)
+            fresh = self._ended.nonzero()[0]
+            self._start(fresh)
+            self._judge.begin(fresh)
+        lost = self.physics.lost
+        verdicts = self._judge.update(np.where(going, self.physics.period, 0.0))
+        # Nothing can be said of a state that is not finite: what was said last stays.
+        self._verdicts = verdicts.unless(self._verdicts, lost) if lost.any() else verdicts
+        self._steps[going] += 1
+        success = verdicts.success & going & ~lost
+        truncated = going & ~success & (lost | (self._steps >= self._limit))
+        rewards = success.astype(np.float64) if self._reward == "sparse" else self._verdicts.progress * going
         self._ended = success | truncated
-        return self._observations(), rewards, success, truncated, {**self._info(), "lost": lost}
+        return self._observations(lost), rewards, success, truncated, {**self._info(), "lost": lost}
 
     def close_extras(self, **kwargs: Any) -> None:
         """Nothing is left open: the device's memory goes with this object."""
 
     def _start(self, worlds: NDArray[np.int64]) -> None:
         """Begin episodes in `worlds`."""
-        count = len(self._joints)
+        count = len(self.physics.world.robot.arm_joints)
         # Three standard deviations at most: a start posture that touches something is no start.
         draws = np.array([self._generators[k].standard_normal(count) for k in worlds.tolist()])
         self.physics.reset(worlds, np.clip(draws, -3.0, 3.0) * self._noise)
         self.physics.restart()
         self.state.refresh()
-        self.state.begin(worlds)
+        self.state.take_start(worlds)
         self._ended[worlds], self._steps[worlds] = False, 0
-        for env in worlds.tolist():
-            self._judges[env] = self.task.begin(self.state.worlds[env])
-            self._verdicts[env] = self._judges[env].update(self.state.worlds[env], 0.0)
 
-    def _all(self) -> list[Verdict]:
-        return [self._verdicts[env] for env in range(self.num_envs)]
-
-    def _observations(self) -> Observations:
-        state = self.state
-        names = list(self.objects)
-        target = np.array([names.index(verdict.target) for verdict in self._all()])
-        goals = np.array([verdict.goal for verdict in self._all()])
-        objects = np.concatenate([state.xpos[:, self._bodies], state.xquat[:, self._bodies]], axis=2)
-        found = {
-            "joint_pos": state.qpos[:, self._joints],
-            "joint_vel": np.clip(state.qvel[:, self._speeds], -FASTEST, FASTEST),
-            "gripper_pos": state.qpos[:, self._fingers],
-            "eef_pos": state.site_xpos[:, self._site],
-            "eef_quat": _quats_of(state.site_xmat[:, self._site].reshape(-1, 3, 3)),
-            "objects": np.clip(objects, -FARTHEST, FARTHEST),
-            "target": np.clip(
-                np.concatenate([objects[np.arange(self.num_envs), target], goals], axis=1), -FARTHEST, FARTHEST
-            ),
-        }
-        return {name: np.nan_to_num(np.asarray(value, dtype=np.float32)) for name, value in found.items()}
+    def _observations(self, lost: NDArray[np.bool_]) -> Observations:
+        seen = self._observer.observe(self.state, self._verdicts)
+        if lost.any():
+            for values in seen.values():
+                values[lost] = np.nan_to_num(values[lost])
+        return seen
 
     def _info(self) -> dict[str, Any]:
-        verdicts = self._all()
+        verdicts, (toppled, fell) = self._verdicts, self.state.upsets()
         return {
-            "success": np.array([verdict.success for verdict in verdicts]),
-            "progress": np.array([verdict.progress for verdict in verdicts]),
-            "predicates": {
-                name: np.array([verdict.predicates[name] for verdict in verdicts]) for name in verdicts[0].predicates
-            },
-            "toppled": self.state.toppled(),
-            "touched": self.state.touched(),
+            "success": verdicts.success,
+            "progress": verdicts.progress,
+            "predicates": dict(verdicts.predicates),
+            "toppled": toppled[:, self._moving],
+            "fell": fell[:, self._moving],
+            "touched": self.state.touched()[:, self._moving],
         }
-
-
-def _quats_of(rotations: NDArray[Any]) -> NDArray[Any]:
-    """Quaternions (wxyz) of rotation matrices, shape (n, 4), the largest value of each positive."""
-    from scipy.spatial.transform import Rotation
-
-    finite = np.asarray(np.isfinite(rotations).all(axis=(1, 2)))
-    quats = Rotation.from_matrix(np.where(finite[:, None, None], rotations, np.eye(3))).as_quat(scalar_first=True)
-    rows = np.arange(len(quats))
-    largest = quats[rows, np.argmax(np.abs(quats), axis=1)]
-    return quats * np.where(largest < 0, -1.0, 1.0)[:, None]

@@ -97,10 +97,14 @@ def evaluate(
         if report is not None:
             report(result, finished, len(episodes))
 
-    if todo and workers == 0:
-        _here(policy if not isinstance(policy, str) else make_policy(policy), todo, settings, keep)
-    elif todo:
-        _Pool(name, settings, min(workers, len(todo))).run(todo, keep)
+    try:
+        if todo and workers == 0:
+            _here(policy if not isinstance(policy, str) else make_policy(policy), todo, settings, keep)
+        elif todo:
+            _Pool(name, settings, min(workers, len(todo))).run(todo, keep)
+    except BaseException:
+        records.flush()
+        raise
     return Evaluation(
         folder=folder,
         manifest=read_manifest(folder),

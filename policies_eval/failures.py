@@ -81,11 +81,12 @@ class Watcher:
     def update(self, info: dict[str, Any]) -> None:
         """Look at the state after a control step, whose `info` the environment gave."""
         state = self._env.simulation.state
+        hand = state.hand.tolist()
         self._toppled.update(dict.fromkeys((*info["toppled"], *info["fell"])))
         for name in self._targets:
-            centre = state.centre(name)
-            rise = float(centre[2] - self._start[name][2])
-            self._closest = min(self._closest, math.dist(state.hand, centre))
+            centre = state.centre(name).tolist()
+            rise = centre[2] - float(self._start[name][2])
+            self._closest = min(self._closest, math.dist(hand, centre))
             if state.held(name):
                 self._holding.add(name)
                 self._lost[name], self._grasped = 0, True

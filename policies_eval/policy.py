@@ -10,6 +10,7 @@ return numpy.zeros(self.size)
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
@@ -85,20 +86,20 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
         values = np.asarray(answer)
         if values.dtype.kind not in "fiub":
             raise TypeError(f"values of type {values.dtype}")
-        values = values.astype(np.float64)
+        values = values.astype(np.float64, copy=False)
     except (TypeError, ValueError) as error:
         raise PolicyError("no numbers", f"an action is {size} numbers, not {_short(error)}") from None
     if values.ndim == 1:
         values = values[None]
     if values.ndim != 2 or values.shape[1] != size or not 1 <= len(values) <= MAX_CHUNK:
         raise PolicyError("wrong shape", f"got shape {np.shape(answer)}, valid are ({size},) and (n, {size})")
-    if not np.isfinite(values).all():
-        what = "NaN" if np.isnan(values).any() else "infinite values"
-        raise PolicyError("not finite", f"an action holds {what}")
     largest = float(np.abs(values).max())
+    if not math.isfinite(largest):
+        what = "NaN" if math.isnan(largest) else "infinite values"
+        raise PolicyError("not finite", f"an action holds {what}")
     if largest > 1.0 + OUT_OF_RANGE and not clip:
         raise PolicyError("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
-    return np.clip(values, -1.0, 1.0).astype(np.float32)
+    return (values if largest <= 1.0 else np.clip(values, -1.0, 1.0)).astype(np.float32)
 
 
 def _short(error: object, limit: int = 200) -> str:

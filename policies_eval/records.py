@@ -1,13 +1,14 @@
 """The records of an evaluation: one Parquet row an episode, with everything needed to do it again.
 
-A folder holds manifest.json, episodes.parquet, report.html and, while episodes are being done, parts/ with one file
-for each, so that a run that was killed goes on where it stopped.
+A folder holds manifest.json, episodes.parquet, report.html and, while episodes are being done, parts/ with those that
+are finished, so that a run that was killed goes on where it stopped.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -24,6 +25,9 @@ from pat3d.policies_eval.rollout import Result
 FORMAT = 1
 MAX_FILE = 4 * 2**30
 MAX_STEPS = 1_000_000
+
+EVERY = 1.0
+"""Seconds between two files of finished episodes: what a killed run may have to do again."""
 
 INSTALL_HINT = "records need pyarrow: pip install 'pat3d[eval]'."
 
@@ -146,6 +150,8 @@ class RecordFolder:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self._waiting: list[Result] = []
+        self._written = time.monotonic()
         arrow()
 
     @property
@@ -154,10 +160,20 @@ class RecordFolder:
         return self.folder / "episodes.parquet"
 
     def add(self, result: Result) -> None:
-        """Keep one episode."""
-        parts = self.folder / "parts"
-        parts.mkdir(parents=True, exist_ok=True)
-        _write_rows(parts / f"{result.episode.index:07d}.parquet", [row_of(result)], compression="none")
+        """Keep one episode; it is written at once, or with those of the next second where they take less than that."""
+        self._waiting.append(result)
+        if time.monotonic() - self._written >= EVERY:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write what waits."""
+        if self._waiting:
+            parts = self.folder / "parts"
+            parts.mkdir(parents=True, exist_ok=True)
+            file = parts / f"{self._waiting[0].episode.index:07d}.parquet"
+            _write_rows(file, [row_of(one) for one in self._waiting], compression="none")
+            self._waiting = []
+        self._written = time.monotonic()
 
     def read(self) -> tuple[Result, ...]:
         """Every episode that is kept, in order."""
@@ -171,6 +187,7 @@ class RecordFolder:
     def merge(self, results: tuple[Result, ...]) -> tuple[Result, ...]:
         """Write `results`, which are all episodes, into one file and drop the parts."""
         _write_rows(self.rows_file, [row_of(one) for one in results])
+        self._waiting = []
         for part in (self.folder / "parts").glob("*.parquet"):
             part.unlink()
         if (self.folder / "parts").is_dir():

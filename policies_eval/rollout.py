@@ -195,14 +195,18 @@ class Recorder:
 
     def state(self) -> bytes:
         """MuJoCo's full physics state."""
+        self._read()
+        return self._buffer.tobytes()
+
+    def _read(self) -> None:
         simulation = self._simulation
         self._mujoco.mj_getState(simulation.model, simulation.data, self._buffer, self._signature)
-        return self._buffer.tobytes()
 
     def add(self, action: NDArray[np.float32]) -> None:
         """Take in an action that was done, and the state it led to."""
         self.actions.append(action)
-        self._hash.update(self.state())
+        self._read()
+        self._hash.update(self._buffer.data)
 
     def array(self, size: int) -> NDArray[np.float32]:
         """The actions, shape (steps, size)."""

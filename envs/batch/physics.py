@@ -24,6 +24,8 @@ from pat3d.assets.cache import cache_root
 from pat3d.envs.batch.controllers import BatchedController
 from pat3d.envs.batch.kernels import note_peaks, note_touches
 from pat3d.envs.loading import store_record
+from pat3d.envs.mujoco_state import fingers
+from pat3d.envs.predicates import OWNERS
 from pat3d.envs.simulation import Simulation
 from pat3d.envs.world import World
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
@@ -52,9 +54,6 @@ ROWS_PER_CONTACT = 6
 CHECK_SECONDS = 5.0
 MAX_MM, MAX_DEGREES = 1.0, 1.0
 """What stands still moves less in that time."""
-
-OWNERS = 3
-"""Owners of geoms that are no objects come first: object k of the scene has row OWNERS + k of a contact table."""
 
 
 def in_single_precision(model: Any) -> Any:
@@ -144,7 +143,7 @@ class BatchedPhysics:
             self._home = home.qpos.astype(np.float32)
             count = OWNERS + len(world.scene.objects)
             self._owner = wp.array(world.owner + OWNERS, dtype=int)
-            self._finger = wp.array(_fingers(world), dtype=int)
+            self._finger = wp.array(fingers(world), dtype=int)
             self._touching = wp.zeros((worlds, count, count), dtype=wp.bool)
             self._pinched = wp.zeros((worlds, 2, count), dtype=wp.bool)
             self._peaks = wp.zeros(3, dtype=int)
@@ -243,14 +242,6 @@ class BatchedPhysics:
                 self._touching, self._pinched,
             ])  # fmt: skip
         return self._touching.numpy().astype(np.bool_), self._pinched.numpy().astype(np.bool_)
-
-
-def _fingers(world: World) -> NDArray[np.int32]:
-    """Which finger every geom belongs to, -1 for none."""
-    found = np.full(world.model.ngeom, -1, dtype=np.int32)
-    for side, names in enumerate(world.robot.fingers):
-        found[[world.model.geom(world.prefix + name).id for name in names]] = side
-    return found
 
 
 def mujoco_warp() -> Any:

@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from pat3d.assets.colours import COLOURS
 from pat3d.envs.placement import Needs
-from pat3d.envs.predicates import at_rest, inside, on_top
-from pat3d.envs.state import SimState
-from pat3d.envs.tasks.manipulate import REST_SECONDS, LiftJudge, above, check_move
-from pat3d.envs.tasks.task import (
-    Judge,
-    Task,
-    Timer,
-    Verdict,
-    children,
-    closeness,
-    movable,
-    origin,
-    point,
-    present,
-    standing_on,
-)
+from pat3d.envs.tasks.manipulate import above, check_move
+from pat3d.envs.tasks.task import Judge, Task, children, movable, origin, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene import Scene
+
+if TYPE_CHECKING:
+    from pat3d.envs.state import States
 
 BEHIND = 0.15
 """Something this much nearer to the viewer, and in line, is in front [m]."""
@@ -78,33 +67,10 @@ class Sort(Task):
         pairs = {name: home for name, home in self.pairs(scene).items() if scene.parent(name) != home}
         return Needs(grasp=tuple(pairs), visit=tuple(above(scene, home) for home in sorted(set(pairs.values()))))
 
-    def begin(self, state: SimState) -> Judge:
-        return _SortJudge(self.pairs(state.scene))
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import SortJudge
 
-
-class _SortJudge(Judge):
-    """Progress is the share of objects in place, and of the next one how near it is to its home."""
-
-    def __init__(self, pairs: dict[str, str]) -> None:
-        self._pairs, self._timer = pairs, Timer(REST_SECONDS)
-
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        sorted_ = {name: inside(state, name, home) for name, home in self._pairs.items()}
-        resting = all(at_rest(state, name) for name in self._pairs)
-        done = self._timer.update(all(sorted_.values()) and resting, seconds)
-        pending = [name for name, there in sorted_.items() if not there]
-        target = pending[0] if pending else next(iter(self._pairs))
-        goal = state.position(self._pairs[target])
-        progress = (len(sorted_) - len(pending)) / len(sorted_)
-        if pending:
-            progress += _approach(state, target, goal) / len(sorted_)
-        return Verdict(
-            success=done,
-            predicates={**{f'"{name}" sorted': there for name, there in sorted_.items()}, "released": resting},
-            progress=1.0 if done else min(progress, 1.0),
-            target=target,
-            goal=point(goal),
-        )
+        return SortJudge(states, self.pairs(states.world.scene))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,40 +97,10 @@ class Unload(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=children(scene, self.container), cleared=True)
 
-    def begin(self, state: SimState) -> Judge:
-        return _UnloadJudge(self.container, children(state.scene, self.container))
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import UnloadJudge
 
-
-class _UnloadJudge(Judge):
-    """Progress is the share of objects outside, and of the next one how high it is."""
-
-    def __init__(self, container: str, contents: tuple[str, ...]) -> None:
-        self._container, self._contents, self._timer = container, contents, Timer(REST_SECONDS)
-
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        within = [
-            name
-            for name in self._contents
-            if state.touch(name, self._container)
-            or inside(state, name, self._container)
-            or on_top(state, name, self._container)
-        ]
-        resting = all(at_rest(state, name) for name in self._contents)
-        fell = [name for name in state.fell() if name in self._contents]
-        done = self._timer.update(not within and not fell and resting, seconds)
-        target = max(within or self._contents, key=lambda name: float(state.centre(name)[2]))
-        start = state.start_centre(target)
-        goal = start + [0.0, 0.0, 0.15]
-        progress = (len(self._contents) - len(within) - len(fell)) / len(self._contents)
-        if within:
-            progress += _approach(state, target, goal) / len(self._contents)
-        return Verdict(
-            success=done,
-            predicates={"empty": not within, "released": resting, "nothing fell": not fell},
-            progress=1.0 if done else float(np.clip(progress, 0.0, 1.0)),
-            target=target,
-            goal=point(goal),
-        )
+        return UnloadJudge(states, self.container, children(states.world.scene, self.container))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,27 +125,10 @@ class Retrieve(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(*children(scene, self.target), self.target), cleared=True)
 
-    def begin(self, state: SimState) -> Judge:
-        return _RetrieveJudge(self.target, state)
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import RetrieveJudge
 
-
-class _RetrieveJudge(Judge):
-    """A lift during which nothing else topples or falls; progress is that of the lift until something does."""
-
-    def __init__(self, target: str, state: SimState) -> None:
-        self._target, self._lift, self._broken = target, LiftJudge(target, state), False
-
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        lift = self._lift.update(state, seconds)
-        upset = [name for name in (*state.toppled(), *state.fell()) if name != self._target]
-        self._broken = self._broken or bool(upset)
-        return Verdict(
-            success=lift.success and not self._broken,
-            predicates={**lift.predicates, "nothing toppled": not self._broken},
-            progress=0.0 if self._broken else lift.progress,
-            target=lift.target,
-            goal=lift.goal,
-        )
+        return RetrieveJudge(states, self.target)
 
 
 def colour_of(scene: Scene, name: str) -> str | None:
@@ -219,13 +138,6 @@ def colour_of(scene: Scene, name: str) -> str | None:
             return word
     colours = scene[name].asset.provenance.get("colours") or ()
     return colours[0] if colours and colours[0] in COLOURS else None
-
-
-def _approach(state: SimState, target: str, goal: np.ndarray) -> float:
-    """How far the move of one object is, in [0, 1)."""
-    centre = state.centre(target)
-    near = closeness(float(np.linalg.norm(state.hand - centre)), 0.2)
-    return 0.2 * near + 0.2 * float(state.held(target)) + 0.5 * closeness(float(np.linalg.norm(goal - centre)), 0.25)
 
 
 def _in_front(scene: Scene, name: str) -> list[str]:

@@ -2,39 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from pat3d.assets.asset import Region
 from pat3d.envs.grasp import narrowest
 from pat3d.envs.placement import Needs
-from pat3d.envs.predicates import at_rest, inside, on_top
-from pat3d.envs.state import SimState
 from pat3d.envs.tasks.room import has_room, overhang_room
-from pat3d.envs.tasks.task import (
-    Judge,
-    Task,
-    Timer,
-    Verdict,
-    centre_of_mass,
-    closeness,
-    movable,
-    origin,
-    point,
-    present,
-    standing_on,
-)
+from pat3d.envs.tasks.task import Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene import Scene
 
-LIFT = 0.10
-"""[m]"""
-
-HOLD_SECONDS = 1.0
-REST_SECONDS = 0.5
+if TYPE_CHECKING:
+    from pat3d.envs.state import States
 
 CARRY_HEIGHT = 0.12
 """Above a container or a base, where the hand has to get [m]."""
@@ -58,39 +39,10 @@ class Pick(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,))
 
-    def begin(self, state: SimState) -> Judge:
-        return LiftJudge(self.target, state)
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import LiftJudge
 
-
-class LiftJudge(Judge):
-    """Success when the object has been 10 cm up in the robot's hand for a second.
-
-    Progress, each a quarter: the hand's closeness, both fingers on the object, the height, the time held.
-    """
-
-    def __init__(self, target: str, state: SimState) -> None:
-        self._target, self._timer = target, Timer(HOLD_SECONDS)
-        start = state.start_centre(target)
-        self._goal = point(start + [0.0, 0.0, LIFT])
-
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        centre, touched = state.centre(self._target), state.touched(self._target)
-        rise = float(centre[2] - state.start_centre(self._target)[2])
-        lifted = rise >= LIFT and touched
-        held = self._timer.update(lifted, seconds)
-        near = closeness(math.dist(state.hand, centre), 0.2)
-        grasped = state.held(self._target)
-        progress = (
-            near + float(grasped) + min(max(rise, 0.0) / LIFT, 1.0) * float(touched)
-            + min(self._timer.held / HOLD_SECONDS, 1.0)
-        ) / 4.0  # fmt: skip
-        return Verdict(
-            success=held,
-            predicates={"grasped": grasped, "lifted": lifted, "held": held},
-            progress=1.0 if held else progress,
-            target=self._target,
-            goal=self._goal,
-        )
+        return LiftJudge(states, self.target)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,8 +66,10 @@ class Place(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.where),))
 
-    def begin(self, state: SimState) -> Judge:
-        return PutJudge(self.target, self.where, state)
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import PutJudge
+
+        return PutJudge(states, self.target, self.where)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,50 +95,10 @@ class Stack(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.base),))
 
-    def begin(self, state: SimState) -> Judge:
-        return PutJudge(self.target, self.base, state, stacked=True)
+    def judge(self, states: States) -> Judge:
+        from pat3d.envs.tasks.judges import PutJudge
 
-
-class PutJudge(Judge):
-    """Success when the object has rested in or on its place, untouched, for half a second.
-
-    Progress: a fifth each for the hand's closeness and the grasp (kept once the object rests in place), two fifths for
-    the object's closeness to its place, a fifth for resting there.
-    """
-
-    def __init__(self, target: str, where: str, state: SimState, *, stacked: bool = False) -> None:
-        self._target, self._where, self._stacked = target, where, stacked
-        self._timer = Timer(REST_SECONDS)
-
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        region = None if self._stacked else state.scene[self._where].asset.region("in")
-        if region is not None:
-            relation, there = "in", inside(state, self._target, self._where)
-        else:
-            relation, there = "on", on_top(state, self._target, self._where)
-            region = state.scene[self._where].asset.region("on")
-        released, upright = at_rest(state, self._target), self._where not in state.toppled()
-        done = self._timer.update(there and released and upright, seconds)
-        goal = _goal(state, self._target, self._where, region)
-        centre = state.centre(self._target)
-        held = state.held(self._target)
-        near = closeness(float(np.linalg.norm(state.hand - centre)), 0.2)
-        progress = 0.2 * (1.0 if there else near) + 0.2 * float(there or held) + 0.2 * float(there and released)
-        progress += 0.4 * (1.0 if there else closeness(float(np.linalg.norm(goal - centre)), 0.25))
-        return Verdict(
-            success=done,
-            predicates={relation: there, "released": released, "upright": upright},
-            progress=1.0 if done else min(progress, 1.0),
-            target=self._target,
-            goal=point(goal),
-        )
-
-
-def _goal(state: SimState, target: str, where: str, region: Region | None) -> np.ndarray:
-    """Where the centre of `target` would be in or on `where` [m]."""
-    floor = np.zeros(3) if region is None else np.array(region.floor)
-    half_height = float(state.scene[target].asset.size[2]) / 2
-    return state.position(where) + state.rotation(where) @ floor + [0.0, 0.0, half_height]
+        return PutJudge(states, self.target, self.base, stacked=True)
 
 
 def above(scene: Scene, where: str) -> tuple[float, float, float]:

@@ -1,26 +1,27 @@
 """What every task has in common.
 
 A task is plain data that fits any scene with the objects it names. `check` says whether a scene allows it, `needs` what
-the robot has to reach, `begin` starts judging an episode: success is decided on the state of the simulation alone.
+the robot has to reach, `judge` follows episodes: success is decided on the state of the simulation alone, in all
+worlds at once.
 """
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pat3d.envs.placement import Needs
-from pat3d.envs.state import SimState
+from pat3d.envs.snapshot import Array, Mask, Numbers
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from pat3d.envs.state import States
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,12 +39,55 @@ class Verdict:
     """Where that object's centre should get to [m]."""
 
 
+class Verdicts(NamedTuple):
+    """How far the episodes of several worlds are after one control step; the first axis is the world."""
+
+    success: Mask
+    predicates: Mapping[str, Mask]
+    progress: Array
+    target: Numbers
+    """Numbers of objects in the scene."""
+    goal: Array
+    """[m], shape (worlds, 3)."""
+
+    def of(self, world: int, scene: Scene) -> Verdict:
+        """That of one world of `scene`."""
+        x, y, z = self.goal[world].tolist()
+        return Verdict(
+            success=bool(self.success[world]),
+            predicates={name: bool(holds[world]) for name, holds in self.predicates.items()},
+            progress=float(self.progress[world]),
+            target=scene.objects[self.target[world]].name,
+            goal=(x, y, z),
+        )
+
+    def unless(self, other: Verdicts, replaced: Mask) -> Verdicts:
+        """These, but those of `other` where `replaced`, shape (worlds,)."""
+        return Verdicts(
+            success=np.where(replaced, other.success, self.success),
+            predicates={name: np.where(replaced, other.predicates[name], self.predicates[name])
+                        for name in self.predicates},
+            progress=np.where(replaced, other.progress, self.progress),
+            target=np.where(replaced, other.target, self.target),
+            goal=np.where(replaced[:, None], other.goal, self.goal),
+        )  # fmt: skip
+
+
 class Judge(ABC):
-    """Follows one episode."""
+    """Follows an episode in every world of `states`, which start now."""
+
+    def __init__(self, states: States) -> None:
+        self.states = states
+        self.timer = np.zeros(states.count)
+        """For how long what success needs has held in every world [s]."""
+
+    def begin(self, worlds: Numbers) -> None:
+        """Forget what was in `worlds`: episodes start there."""
+        self.timer[worlds] = 0.0
 
     @abstractmethod
-    def update(self, state: SimState, seconds: float) -> Verdict:
-        """Judge the present state, `seconds` after the last one (0 right after the reset)."""
+    def update(self, seconds: Array) -> Verdicts:
+        """Judge the present state, `seconds` after the last one (0 right after the reset), shape (worlds,)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,21 +117,8 @@ class Task(ABC):
         """What the robot has to reach."""
 
     @abstractmethod
-    def begin(self, state: SimState) -> Judge:
-        """A judge of an episode that starts in `state`."""
-
-
-class Timer:
-    """For how long a condition has held without a break."""
-
-    def __init__(self, needed: float) -> None:
-        self.needed, self.held = needed, 0.0
-
-    def update(self, holds: bool, seconds: float) -> bool:
-        """Whether it has held long enough by now."""
-        self.held = self.held + seconds if holds else 0.0
-        # A step of the control period is as fine as time is measured.
-        return self.held >= self.needed - 1e-9
+    def judge(self, states: States) -> Judge:
+        """A judge of worlds whose episodes start now."""
 
 
 def movable(scene: Scene, name: str) -> None:
@@ -133,11 +164,6 @@ def point(values: ArrayLike) -> tuple[float, float, float]:
     """Three numbers as plain data."""
     x, y, z = np.asarray(values, dtype=np.float64)
     return float(x), float(y), float(z)
-
-
-def closeness(distance: float, scale: float) -> float:
-    """1 at no distance, falling to nothing over a few `scale` [m]."""
-    return 1.0 - math.tanh(distance / scale)
 
 
 def split(spec: str) -> tuple[str, list[str]]:

@@ -21,6 +21,7 @@ from pat3d.envs.batch import physics as batch_physics  # noqa: E402
 from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
 from pat3d.envs.batch.physics import Room, in_single_precision, require_still  # noqa: E402
 from pat3d.envs.env import TabletopEnv  # noqa: E402
+from pat3d.envs.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError  # noqa: E402
 from pat3d.pipeline import generate  # noqa: E402
@@ -191,6 +192,26 @@ def test_an_ended_environment_is_reset_by_the_next_step(envs):
     assert np.abs(fresh["joint_vel"]).max() == 0
 
 
+def test_a_world_that_is_lost_is_truncated_and_the_others_go_on(envs):
+    """Not a number in one world: its observation is finite, its verdict the last one, and the next step resets it."""
+    envs.reset(seed=5)
+    still = np.zeros(envs.action_space.shape, dtype=np.float32)
+    before = envs.step(still)[4]["progress"]
+    position = envs.physics.data.qpos.numpy()
+    position[1, 0] = np.nan
+    envs.physics.data.qpos.assign(position)
+    observation, _, success, truncated, info = envs.step(still)
+    np.testing.assert_array_equal(info["lost"], [False, True, False])
+    np.testing.assert_array_equal(truncated, [False, True, False])
+    assert not success.any()
+    assert all(np.isfinite(values).all() for values in observation.values())
+    assert info["progress"][1] == before[1]
+    observation, _, _, truncated, info = envs.step(still)
+    assert not info["lost"].any()
+    assert truncated.tolist() == [True, False, True]
+    assert np.abs(observation["joint_vel"][1]).max() == 0
+
+
 @pytest.mark.parametrize("device", DEVICES)
 def test_a_world_moves_as_the_environment_of_one_does(block, device):
     """The hand goes the same way; contacts, which differ, play no part before anything is touched."""
@@ -214,7 +235,7 @@ def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(bl
     many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
     env.reset(seed=0)
     many.reset(seed=0)
-    one, other = env.simulation.state, many.state.worlds[1]
+    one, other = env.simulation.state, SimState(many.state, 1)
     for name in env.objects:
         np.testing.assert_allclose(other.position(name), one.position(name), atol=1e-5)
         np.testing.assert_allclose(other.rotation(name), one.rotation(name), atol=1e-5)

@@ -16,6 +16,7 @@ pytest.importorskip("robosuite")
 from pat3d.cli import main
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval import evaluate as module
+from pat3d.policies_eval import records as records_module
 from pat3d.policies_eval.compare import compare_evaluations, show_leaderboard, verdict
 from pat3d.policies_eval.episodes import Setting, episodes_of
 from pat3d.policies_eval.evaluate import evaluate, next_episode
@@ -60,6 +61,19 @@ def test_a_stopped_run_goes_on_where_it_stopped(done, tmp_path):
     found = evaluate("random", EPISODES, tmp_path, settings=SHORT, workers=0, report=lambda *a: seen.append(a))
     assert len(seen) == 2
     assert [one.state_hash for one in found.results] == [one.state_hash for one in done.results]
+
+
+def test_episodes_that_take_longer_than_a_second_are_kept_at_once_and_shorter_ones_every_second(
+    done, tmp_path, monkeypatch
+):
+    clock = [0.0]
+    monkeypatch.setattr(records_module.time, "monotonic", lambda: clock[0])
+    folder, kept = records_module.RecordFolder(tmp_path), []
+    for result, seconds in zip(done.results, (0.4, 0.4, 0.4, 2.0), strict=True):
+        clock[0] += seconds
+        folder.add(result)
+        kept.append([one.episode.index for one in records_module.RecordFolder(tmp_path).read()])
+    assert kept == [[], [], [0, 1, 2], [0, 1, 2, 3]]
 
 
 def test_another_evaluation_in_the_folder_is_not_mixed_with(done):

@@ -1,0 +1,31 @@
+"""Functions compiled by numba, which comes with robosuite; without it they run as they are written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+try:
+    numba: Any = import_module("numba")
+except ImportError:
+    numba = None
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """Compile when it is first called; kept for later processes where there is a folder for that.
+
+    numba keeps what it compiled until the function's own file changes: what calls another compiled function has to be
+    in the same file.
+    """
+    if numba is None:
+        return function
+    try:
+        return numba.njit(cache=True)(function)
+    except RuntimeError:
+        return numba.njit(function)
+
+
+def as_written(function: Any) -> Callable[..., Any]:
+    """What was compiled, in Python."""
+    return getattr(function, "py_func", function)

@@ -1,0 +1,144 @@
+"""Judges: what follows the episodes of all worlds and says how far each of them is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pat3d.envs import predicates
+from pat3d.envs.snapshot import Array, Numbers, floors
+from pat3d.envs.state import States
+from pat3d.envs.tasks.task import Judge, Verdicts
+
+LIFT = 0.10
+"""[m]"""
+
+HOLD_SECONDS = 1.0
+REST_SECONDS = 0.5
+
+OUT = 0.15
+"""How far up from its start what is to be unloaded has to get first [m]."""
+
+
+class LiftJudge(Judge):
+    """Success when the object has been 10 cm up in the robot's hand for a second.
+
+    Progress, each a quarter: the hand's closeness, both fingers on the object, the height, the time held.
+    """
+
+    def __init__(self, states: States, target: str) -> None:
+        super().__init__(states)
+        self._target = states.numbers[target]
+        self._targets = np.full(states.count, self._target)
+
+    def update(self, seconds: Array) -> Verdicts:
+        grasped, lifted, held, progress, goal = predicates.judge_lift(
+            self.states.snapshot, self._target, LIFT, HOLD_SECONDS, self.timer, seconds
+        )
+        return Verdicts(
+            success=held,
+            predicates={"grasped": grasped, "lifted": lifted, "held": held},
+            progress=progress,
+            target=self._targets,
+            goal=goal,
+        )
+
+
+class PutJudge(Judge):
+    """Success when the object has rested in or on its place, untouched, for half a second.
+
+    Progress: a fifth each for the hand's closeness and the grasp (kept once the object rests in place), two fifths for
+    the object's closeness to its place, a fifth for resting there.
+    """
+
+    def __init__(self, states: States, target: str, where: str, *, stacked: bool = False) -> None:
+        super().__init__(states)
+        scene = states.world.scene
+        self._within = not stacked and scene[where].asset.region("in") is not None
+        self._relation = "in" if self._within else "on"
+        self._floors = floors(states.world, [(target, where)], self._relation)
+        self._above = float(scene[target].asset.size[2]) / 2
+        self._targets = np.full(states.count, states.numbers[target])
+
+    def update(self, seconds: Array) -> Verdicts:
+        there, released, upright, done, progress, goal = predicates.judge_put(
+            self.states.snapshot, self._floors, self._within, self._above, REST_SECONDS, self.timer, seconds
+        )
+        return Verdicts(
+            success=done,
+            predicates={self._relation: there, "released": released, "upright": upright},
+            progress=progress,
+            target=self._targets,
+            goal=goal,
+        )
+
+
+class SortJudge(Judge):
+    """Success when everything has rested in its home, untouched, for half a second.
+
+    Progress is the share of objects in place, and of the next one how near it is to its home.
+    """
+
+    def __init__(self, states: States, pairs: dict[str, str]) -> None:
+        super().__init__(states)
+        self._titles = tuple(f'"{name}" sorted' for name in pairs)
+        self._floors = floors(states.world, list(pairs.items()), "in")
+
+    def update(self, seconds: Array) -> Verdicts:
+        there, resting, done, progress, target, goal = predicates.judge_sort(
+            self.states.snapshot, self._floors, REST_SECONDS, self.timer, seconds
+        )
+        return Verdicts(
+            success=done,
+            predicates={**dict(zip(self._titles, there.T, strict=True)), "released": resting},
+            progress=progress,
+            target=target,
+            goal=goal,
+        )
+
+
+class UnloadJudge(Judge):
+    """Success when everything has rested outside, untouched, for half a second, and nothing fell.
+
+    Progress is the share of objects outside, and of the next one how high it is.
+    """
+
+    def __init__(self, states: States, container: str, contents: tuple[str, ...]) -> None:
+        super().__init__(states)
+        self._floors = floors(states.world, [(name, container) for name in contents], "in")
+
+    def update(self, seconds: Array) -> Verdicts:
+        empty, resting, safe, done, progress, target, goal = predicates.judge_unload(
+            self.states.snapshot, self._floors, OUT, REST_SECONDS, self.timer, seconds
+        )
+        return Verdicts(
+            success=done,
+            predicates={"empty": empty, "released": resting, "nothing fell": safe},
+            progress=progress,
+            target=target,
+            goal=goal,
+        )
+
+
+class RetrieveJudge(Judge):
+    """A lift during which nothing else topples or falls; progress is that of the lift until something does."""
+
+    def __init__(self, states: States, target: str) -> None:
+        super().__init__(states)
+        self._lift, self._target = LiftJudge(states, target), states.numbers[target]
+        self._sound = np.ones(states.count, dtype=np.bool_)
+
+    def begin(self, worlds: Numbers) -> None:
+        self._lift.begin(worlds)
+        self._sound[worlds] = True
+
+    def update(self, seconds: Array) -> Verdicts:
+        lift = self._lift.update(seconds)
+        predicates.judge_others(self.states.snapshot, self._target, self._sound)
+        sound = self._sound.copy()
+        return Verdicts(
+            success=lift.success & sound,
+            predicates={**lift.predicates, "nothing toppled": sound},
+            progress=lift.progress * sound,
+            target=lift.target,
+            goal=lift.goal,
+        )
