@@ -51,6 +51,9 @@ ANGLES = 16
 DEPTHS = (0.35, 0.6, 0.95)
 """How deep to go between the fingers, as shares of the way to the palm."""
 
+ASKEW, HEAVY = 3.0, 10.0
+"""What a grasp beside the centre of mass loses of its score [1/m], and for every kilogram [1/(kg m)]: it turns."""
+
 FACING = math.cos(math.radians(31.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
 
@@ -73,6 +76,8 @@ class Grasp:
     """Extent of the object between the fingers, along the approach [m]."""
     score: float
     """Higher is better."""
+    width: float = 0.0
+    """Of what is between the fingers, along the closing direction [m]."""
     lean: float = 0.0
     """Angle of the approach from straight down [rad]."""
     heading: float = 0.0
@@ -141,10 +146,9 @@ def search(
     x, y = grid.world(0.0)
     ground = -(turn[2, 0] * x + turn[2, 1] * y) / turn[2, 2] if lean else np.zeros(x.shape)
     around = np.maximum(grid.heights([_turned(obj, turn) for obj in others] if lean else others), ground)
-    centre = target.pose.apply(np.array([target.asset.mass_properties.centre_of_mass]))[0]
     found: list[Grasp] = []
     for number in range(angles):
-        found += _along(math.pi * number / angles, grid, own, around, gripper, centre, wrist)
+        found += _along(math.pi * number / angles, grid, own, around, gripper, target, wrist)
     found = _held(found, target, gripper)
     if not lean:
         return found
@@ -169,7 +173,7 @@ def narrowest(obj: SceneObject) -> float:
 
 
 def _along(
-    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array,
+    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, target: SceneObject,
     wrist: tuple[float, float] | None,
 ) -> list[Grasp]:  # fmt: skip
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
@@ -177,7 +181,8 @@ def _along(
     turned_all = np.maximum(turned_own, turned_other)
     width = _odd(gripper.finger_width + 2 * CLEARANCE)
     thick = _odd(gripper.finger_thickness + 2 * CLEARANCE)
-    reach = round((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
+    # Rounded outwards: how much play the object itself leaves is measured exactly in `_held`.
+    reach = math.ceil((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
     # Axis 0 is the closing direction; a finger's highest obstacle, then shifted to either side.
     column = ndimage.maximum_filter(turned_all, size=(thick, width), mode="nearest")
     below = np.maximum(_shifted(column, reach), _shifted(column, -reach)) + TIP_CLEARANCE
@@ -191,7 +196,9 @@ def _along(
         across = 2 * (_odd(wrist[1]),)
         below = np.maximum(below, ndimage.maximum_filter(turned_all, size=across, mode="nearest") - wrist[0])
     x, y = grid.world(angle)
-    aside = np.hypot(x - centre[0], y - centre[1])
+    mass = target.asset.mass_properties
+    centre = target.pose.apply(np.array([mass.centre_of_mass]))[0]
+    askew = (ASKEW + HEAVY * mass.mass) * np.hypot(x - centre[0], y - centre[1])
     found = []
     for share in DEPTHS:
         tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.palm)
@@ -200,7 +207,7 @@ def _along(
         solid = np.where(turned_own > tip + SOLID, 1.0, 0.0)
         amount = ndimage.uniform_filter1d(solid, gap, axis=0, mode="constant") * gap
         off = np.where(amount > 0.5, np.abs(_first_moment(solid, gap)) / np.maximum(amount, 1e-9), np.inf) * CELL
-        score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - 3.0 * aside
+        score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - askew
         rows, columns = np.nonzero((bite >= MIN_BITE) & (off < 0.01))
         best = np.argsort(-score[rows, columns], kind="stable")
         # Well spread ones, so that a better direction further from the middle is not crowded out.
@@ -218,7 +225,7 @@ def _along(
 
 
 def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Grasp]:
-    """The grasps whose pads meet surfaces that face them, with the better facing ones ranked higher."""
+    """The grasps whose pads meet surfaces that face them, centred on those, the better facing ones ranked higher."""
     if not grasps:
         return []
     towards = np.array([[math.cos(one.closing), math.sin(one.closing), 0.0] for one in grasps])
@@ -242,12 +249,18 @@ def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Gr
     count = len(grasps)
     left, right = first.reshape(count, -1).argmin(axis=1), last.reshape(count, -1).argmax(axis=1)
     number = np.arange(count)
-    thick = last.reshape(count, -1)[number, right] - first.reshape(count, -1)[number, left]
-    met = thick > gripper.closed + SQUEEZE
+    low, high = first.reshape(count, -1)[number, left], last.reshape(count, -1)[number, right]
+    thick = high - low
+    met = (thick > gripper.closed + SQUEEZE) & (thick < gripper.opening - 2 * CLEARANCE)
+    # Both fingers have to come down beside it, and one that meets it first pushes it.
+    middles = tips + (np.where(met, low, 0.0) + np.where(met, high, 0.0))[:, None] / 2 * towards
     worse = np.minimum(facing[0].reshape(count, -1)[number, left], facing[1].reshape(count, -1)[number, right])
     touched = np.isfinite(first).mean(axis=(1, 2))
     return [
-        replace(one, score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]))
+        replace(
+            one, position=(float(middles[k, 0]), float(middles[k, 1]), float(middles[k, 2])), width=float(thick[k]),
+            score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]),
+        )  # fmt: skip
         for k, one in enumerate(grasps)
         if met[k] and worse[k] >= FACING
     ]

@@ -7,7 +7,7 @@ keeps its floor: the robot stands on a pedestal beside what carries the work.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -69,7 +69,7 @@ class Needs:
     visit: tuple[tuple[float, float, float], ...] = ()
     """Points [m] that the fingertips have to get to, pointing down."""
     cleared: bool = False
-    """Whether what is in the way of the objects may be moved first."""
+    """Whether the objects are taken one after the other, so that what was taken is no longer in the way."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +95,7 @@ class Placement:
     start: tuple[float, ...]
     """Joint positions of the arm at the start [rad]."""
     grasps: Mapping[str, tuple[Grasp, ...]] = field(default_factory=dict)
-    """Grasps of every object of the task that are within reach, best first."""
+    """Grasps of every object of the task that are within reach, best first; objects in the order of taking them."""
     reach: Mapping[str, float] = field(default_factory=dict)
     """Horizontal distance of every object of the task from the base [m]."""
     pedestal_radius: float = 0.1
@@ -121,7 +121,10 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     gripper = measure_gripper(robot)
     # What is put somewhere is held from above, so that the hand gets there; what is only picked up need not be.
     leans = not needs.visit and not needs.cleared
-    grasps = {name: _grasps(scene, name, robot, cleared=needs.cleared, leans=leans) for name in needs.grasp}
+    if needs.cleared:
+        grasps = _one_after_another(scene, needs.grasp, robot)
+    else:
+        grasps = {name: _grasps(scene, name, robot, leans=leans) for name in needs.grasp}
     site = _Site.of(scene, needs)
     arm = ArmKinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
@@ -152,20 +155,48 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     raise TaskError(f"{robot} cannot bring its hand to every point of the task near {site.describe()}.")
 
 
-def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool, leans: bool) -> list[Grasp]:
+def _grasps(scene: Scene, name: str, robot: str, *, leans: bool = False) -> list[Grasp]:
+    """Grasps of an object among everything in the scene, at least one."""
     gripper = measure_gripper(robot)
     mass = scene[name].asset.mass_properties.mass
     if mass > PAYLOADS[robot]:
         raise TaskError(
             f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
         )
-    # Once it is cleared, nothing is in the way but what carries it.
-    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)[:GRASPS_TRIED]
+    found = find_grasps(scene, name, gripper)[:GRASPS_TRIED]
     if not found and leans and mass <= LEANING_PAYLOAD:
         found = find_leaning_grasps(scene, name, gripper)
     if not found:
         raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
     return found
+
+
+def _one_after_another(scene: Scene, names: Sequence[str], robot: str) -> dict[str, list[Grasp]]:
+    """Grasps of objects in an order in which each can be taken, once those before it are gone."""
+    grasps: dict[str, list[Grasp]] = {}
+    while left := [name for name in names if name not in grasps]:
+        rest = _without(scene, grasps)
+        refused: TaskError | None = None
+        for name in left:
+            # What still carries one of the others has to wait for it.
+            if any(rest.parent(other) == name for other in left):
+                continue
+            try:
+                grasps[name] = _grasps(rest, name, robot)
+                break
+            except TaskError as error:
+                refused = refused or error
+        else:
+            raise refused or TaskError(f"{', '.join(left)} carry one another.")
+    return grasps
+
+
+def _without(scene: Scene, gone: Collection[str]) -> Scene:
+    """The scene when some objects are gone."""
+    objects = tuple(obj for obj in scene.objects if obj.name not in gone)
+    relations = tuple(one for one in scene.relations if not {one.child, one.parent} & set(gone))
+    attachments = tuple(one for one in scene.attachments if not {one.child, one.parent} & set(gone))
+    return replace(scene, objects=objects, relations=relations, attachments=attachments)
 
 
 @dataclass(frozen=True)

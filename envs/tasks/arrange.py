@@ -187,7 +187,7 @@ class Retrieve(Task):
             raise TaskError(f'nothing stands on or in front of "{self.target}"; use "pick:{self.target}".')
 
     def needs(self, scene: Scene) -> Needs:
-        return Needs(grasp=(*children(scene, self.target), self.target), cleared=True)
+        return Needs(grasp=(*_upon(scene, self.target), self.target), cleared=True)
 
     def begin(self, state: SimState) -> Judge:
         return _RetrieveJudge(self.target, state)
@@ -226,6 +226,12 @@ def _approach(state: SimState, target: str, goal: np.ndarray) -> float:
     centre = state.centre(target)
     near = closeness(float(np.linalg.norm(state.hand - centre)), 0.2)
     return 0.2 * near + 0.2 * float(state.held(target)) + 0.5 * closeness(float(np.linalg.norm(goal - centre)), 0.25)
+
+
+def _upon(scene: Scene, name: str) -> tuple[str, ...]:
+    """Everything that an object carries, what carries others after those."""
+    carried = children(scene, name)
+    return (*(other for one in carried for other in _upon(scene, one)), *carried)
 
 
 def _in_front(scene: Scene, name: str) -> list[str]:
