@@ -48,7 +48,7 @@ class Clearance:
             joints: of the arm [rad].
             fingers: joint positions of the gripper.
             carried: an object that the robot may be in; none by default.
-            shift: by which `carried` is moved from where it is [m], shape (3,); without one only the robot is looked at.
+            shift: by which `carried` is moved from where it is [m], shape (3,); without one, the robot alone counts.
         """
         number = self._numbers.get(carried, ROBOT)
         owners = self._overlaps(carried, shift, joints, fingers)

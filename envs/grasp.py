@@ -45,6 +45,12 @@ SOLID = 0.003
 SQUEEZE = 0.004
 """What is held must be thicker than the closed gripper by this [m]."""
 
+GRAVITY = 9.81
+"""[m/s^2]"""
+
+STEADY = 0.5
+"""What is put down somewhere may turn the fingers by this [N m]; beyond, it swings and slips in them."""
+
 ANGLES = 16
 """Directions of closing that are tried over half a turn."""
 
@@ -165,6 +171,11 @@ def _turned(obj: SceneObject, turn: Array) -> SceneObject:
     return replace(obj, pose=pose)
 
 
+def torque(grasp: Grasp, mass: float, centre: Sequence[float]) -> float:
+    """Of the weight of `mass` [kg] about a grasp from above [N m]; `centre` is where the centre of mass is [m]."""
+    return mass * GRAVITY * math.dist(centre[:2], grasp.position[:2])
+
+
 def narrowest(obj: SceneObject) -> float:
     """Least horizontal width of an object as it lies [m]."""
     points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])[:, :2]
@@ -258,9 +269,11 @@ def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Gr
     touched = np.isfinite(first).mean(axis=(1, 2))
     return [
         replace(
-            one, position=(float(middles[k, 0]), float(middles[k, 1]), float(middles[k, 2])), width=float(thick[k]),
+            one,
+            position=(float(middles[k, 0]), float(middles[k, 1]), float(middles[k, 2])),
+            width=float(thick[k]),
             score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]),
-        )  # fmt: skip
+        )
         for k, one in enumerate(grasps)
         if met[k] and worse[k] >= FACING
     ]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.clearance import Clearance
-from pat3d.envs.grasp import Grasp, find_grasps
+from pat3d.envs.grasp import STEADY, Grasp, find_grasps, torque
 from pat3d.envs.hand import hand_pose
 from pat3d.envs.kinematics import PlacedArm
 from pat3d.envs.leaning import LEANING_HOVER, LEANING_PAYLOAD, find_leaning_grasps
@@ -146,6 +146,9 @@ class Planner:
         for grasps in self._grasps(name):
             skipped = failures % max(1, len(grasps))
             ranked = grasps[skipped:] + grasps[:skipped]
+            if where is not None:
+                mass, centre = self._env.scene[name].asset.mass_properties.mass, self._env.simulation.state.centre(name)
+                ranked = [one for one in ranked if torque(one, mass, centre) <= STEADY]
             found = list(islice((one for grasp in ranked for one in self._taken(name, grasp)), GRASPS))
             found.sort(key=lambda one: -one.worth)
             if where is None and found:

@@ -7,18 +7,18 @@ keeps its floor: the robot stands on a pedestal beside what carries the work.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import Grasp, find_grasps
+from pat3d.envs.grasp import Grasp
 from pat3d.envs.hand import hand_pose, hand_rotation
 from pat3d.envs.kinematics import ArmKinematics
-from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN, LEANING_PAYLOAD, find_leaning_grasps
-from pat3d.envs.refusals import why_not
-from pat3d.envs.robots import PAYLOADS, measure_gripper
+from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN
+from pat3d.envs.robots import measure_gripper
+from pat3d.envs.taking import grasps_of
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
 
@@ -50,8 +50,6 @@ HOVER = 0.1
 
 LIFTED = 0.15
 """A leaning hand gets this far above its grasp [m]."""
-
-GRASPS_TRIED = 6
 
 DIRECTIONS = (90.0, 180.0, 0.0, 270.0, 135.0, 45.0, 225.0, 315.0)
 """Where to stand as seen from the work [degrees]: behind it, facing the viewer, first."""
@@ -119,12 +117,7 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         TaskError: an object is too wide for the gripper, is blocked, or nothing that is needed is in reach.
     """
     gripper = measure_gripper(robot)
-    # What is put somewhere is held from above, so that the hand gets there; what is only picked up need not be.
-    leans = not needs.visit and not needs.cleared
-    if needs.cleared:
-        grasps = _one_after_another(scene, needs.grasp, robot)
-    else:
-        grasps = {name: _grasps(scene, name, robot, leans=leans) for name in needs.grasp}
+    grasps = grasps_of(scene, needs.grasp, robot, put=bool(needs.visit), cleared=needs.cleared)
     site = _Site.of(scene, needs)
     arm = ArmKinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
@@ -153,50 +146,6 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     if not any(True for _ in site.candidates(comfortable)):
         raise TaskError(f"{robot} finds no free place to stand near {site.describe()}.")
     raise TaskError(f"{robot} cannot bring its hand to every point of the task near {site.describe()}.")
-
-
-def _grasps(scene: Scene, name: str, robot: str, *, leans: bool = False) -> list[Grasp]:
-    """Grasps of an object among everything in the scene, at least one."""
-    gripper = measure_gripper(robot)
-    mass = scene[name].asset.mass_properties.mass
-    if mass > PAYLOADS[robot]:
-        raise TaskError(
-            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
-        )
-    found = find_grasps(scene, name, gripper)[:GRASPS_TRIED]
-    if not found and leans and mass <= LEANING_PAYLOAD:
-        found = find_leaning_grasps(scene, name, gripper)
-    if not found:
-        raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
-    return found
-
-
-def _one_after_another(scene: Scene, names: Sequence[str], robot: str) -> dict[str, list[Grasp]]:
-    """Grasps of objects in an order in which each can be taken, once those before it are gone."""
-    grasps: dict[str, list[Grasp]] = {}
-    while left := [name for name in names if name not in grasps]:
-        rest = _without(scene, grasps)
-        refused: TaskError | None = None
-        for name in left:
-            # What still carries one of the others has to wait for it.
-            if any(rest.parent(other) == name for other in left):
-                continue
-            try:
-                grasps[name] = _grasps(rest, name, robot)
-                break
-            except TaskError as error:
-                refused = refused or error
-        else:
-            raise refused or TaskError(f"{', '.join(left)} carry one another.")
-    return grasps
-
-
-def _without(scene: Scene, gone: Collection[str]) -> Scene:
-    """The scene when some objects are gone."""
-    objects = tuple(obj for obj in scene.objects if obj.name not in gone)
-    relations = tuple(one for one in scene.relations if not {one.child, one.parent} & set(gone))
-    attachments = tuple(one for one in scene.attachments if not {one.child, one.parent} & set(gone))
-    return replace(scene, objects=objects, relations=relations, attachments=attachments)
 
 
 @dataclass(frozen=True)

@@ -6,25 +6,25 @@ go and withdraws. When it notices that the hand is empty or stuck it plans again
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.grasp import torque
 from pat3d.envs.hand_path import HandPath
+from pat3d.envs.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.envs.placement import HOVER
 from pat3d.envs.robots import measure_gripper
 from pat3d.envs.scripted import Servo
 from pat3d.errors import EnvironmentSetupError
-from pat3d.envs.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.policies_eval.policy import EpisodeStart
 
 Array = NDArray[np.float64]
 
-NEAR, EXACT = 0.02, 0.004
-"""Errors at which a move on the way, and one that matters, is done [m]."""
+NEAR, ALIGNED, EXACT = 0.02, 0.006, 0.004
+"""Errors at which a move on the way, one before the hand comes down, and one that matters is done [m]."""
 
 ON_THE_WAY = 0.04
 """The same, of a pose that is only passed [m]."""
@@ -47,8 +47,11 @@ OPEN_STEPS = 16
 STANDING = 2e-4
 """Fingers that move by less in a control step stand still [m or rad]."""
 
-LIFT_STEP = 0.015
-"""The hand is raised by so much in a control step [m]: what is jerked slips."""
+LIFT_STEP, GENTLE_STEP = 0.015, 0.005
+"""The hand is raised by so much in a control step [m]: what is jerked slips. The second is for what turns in it."""
+
+TURNING = 0.35
+"""What turns the fingers by more than this [N m] is lifted gently."""
 
 RISE = 0.13
 """What is picked up is lifted until its centre has risen by this [m], as what is held by its rim hangs askew."""
@@ -104,9 +107,12 @@ class ScriptedPolicy:
             return
         self._move: Move = move
         self._rotation, self._height = move.rotation, LIFT
-        hand = self._from = self._env.simulation.state.hand.copy()
+        mass, state = self._env.scene[move.name].asset.mass_properties.mass, self._env.simulation.state
+        turning = torque(move.grasp, mass, state.centre(move.name)) > TURNING
+        self._lift_step = GENTLE_STEP if turning and not move.grasp.lean else LIFT_STEP
+        hand = self._from = state.hand.copy()
         if move.grasp.lean:
-            top = float(self._env.simulation.state.points(move.name)[:, 2].max())
+            top = float(state.points(move.name)[:, 2].max())
             self._high = max(top + HOVER, move.before[2] + HOVER)
         else:
             passed = self._planner.passing(hand, move.before, HAND_RADIUS, "")
@@ -119,12 +125,16 @@ class ScriptedPolicy:
         self._phase, self._steps = phase, 0
         self._errors: deque[float] = deque(maxlen=STUCK_STEPS + 1)
 
-    def _go(self, position: Array, fingers: float, tolerance: float, then: str) -> NDArray[np.float32] | None:
+    def _go(
+        self, position: Array, fingers: float, tolerance: float, then: str, *, settled: bool = False
+    ) -> NDArray[np.float32] | None:  # fmt: skip
+        """Towards a position until it is reached, and where it is to be `settled`, not passed in flight."""
         action, self._error = self._servo.towards(position, self._rotation, fingers)
         self._steps += 1
         self._errors.append(self._error)
         stuck = len(self._errors) > STUCK_STEPS and self._errors[0] - min(self._errors) < STUCK
-        if self._error < tolerance or stuck or self._steps > PATIENCE:
+        there = max(list(self._errors)[-2:]) if settled else self._error
+        if there < tolerance or stuck or self._steps > PATIENCE:
             self._enter(then)
             return None
         return action
@@ -165,7 +175,7 @@ class ScriptedPolicy:
 
     def _hover(self) -> NDArray[np.float32] | None:
         # Fingers that come down beside their place push what they should take.
-        return self._go(self._move.before, -1.0, EXACT, "descend")
+        return self._go(self._move.before, -1.0, ALIGNED, "descend", settled=True)
 
     def _descend(self) -> NDArray[np.float32] | None:
         action = self._go(self._move.at, -1.0, EXACT, "close")
@@ -204,11 +214,11 @@ class ScriptedPolicy:
             short = RISE - float(state.centre(move.name)[2] - state.start_centre(move.name)[2])
             if float(state.hand[2] - move.at[2]) > self._height - NEAR and short > 0.0:
                 self._height = min(self._height + min(short, 0.02), HIGHEST_LIFT)
-        height = min(self._height, LIFT_STEP * (self._steps + 2))
+        height = min(self._height, self._lift_step * (self._steps + 2))
         action, error = self._servo.towards(move.at + [0.0, 0.0, height], self._rotation, 1.0)
         error += self._height - height
         self._steps += 1
-        if move.spot is not None and (error < NEAR or self._steps > PATIENCE):
+        if move.spot is not None and (error < ON_THE_WAY or self._steps > PATIENCE):
             self._aim()
             self._enter("carry")
             return None
@@ -235,7 +245,8 @@ class ScriptedPolicy:
             self._from, self._fingers = self._env.simulation.state.hand.copy(), fingers
         self._steps += 1
         apart = self._gripper.joints(self._gripper.closed + RELEASE) - self._gripper.joints(self._gripper.closed)
-        if float(np.abs(fingers - self._fingers).max()) > float(np.abs(apart).max()) or self._steps > OPEN_STEPS:
+        wide = float(np.abs(fingers - self._fingers).max()) > float(np.abs(apart).max())
+        if wide or self._steps > OPEN_STEPS:
             self._enter("withdraw")
             top = float(self._env.simulation.state.points(self._move.name)[:, 2].max())
             self._stay = self._from.copy()
