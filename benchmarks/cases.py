@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasp import find_grasps
+from pat3d.envs.moves import Move, Planner
 from pat3d.pipeline import generate
 from pat3d.policies_eval.episodes import Setting, episodes_of
 from pat3d.policies_eval.evaluate import evaluate
-from pat3d.policies_eval.policy import EpisodeStart
 from pat3d.policies_eval.replay import Replayer
 from pat3d.policies_eval.scripted import ScriptedPolicy
 from pat3d.policies_eval.settings import RolloutSettings
@@ -41,24 +42,26 @@ COLOURS = 160
 class Heedless(ScriptedPolicy):
     """The scripted policy without eyes for anything but its object."""
 
-    def reset(self, episode: EpisodeStart) -> None:
-        """Plan as if the object stood alone."""
-        super().reset(episode)
-        scene = episode.env.scene
-        self._grasps = {
-            name: tuple(find_grasps(scene, name, self._gripper, among=(scene.parent(name),))) for name in self._grasps
-        }
-        self._tried = dict.fromkeys(self._grasps, 0)
-        self._begin()
+    def _plan(self) -> Planner:
+        return Alone(self._env)
 
     def _rise(self) -> None:
         self._enter("descend")
 
-    def _retry(self) -> None:
+    def _failed(self) -> None:
         self._enter("give_up")
 
     def _give_up(self) -> Any:
-        return self._servo.towards(self._at + [0.0, 0.0, 0.15], self._rotation, 1.0)[0]
+        return self._servo.towards(self._move.at + [0.0, 0.0, 0.15], self._rotation, 1.0)[0]
+
+
+class Alone(Planner):
+    """Plans as if the object stood alone on what carries it."""
+
+    def next(self, failures: Mapping[str, int]) -> Move:
+        """The best grasp of the task's object."""
+        scene, name = self._env.scene, self._env.task.target
+        return self.as_move(name, find_grasps(scene, name, self._gripper, among=(scene.parent(name),))[0])
 
 
 def smaller(image: NDArray[np.uint8]) -> NDArray[np.uint8]:

@@ -57,9 +57,6 @@ ANGLES = 16
 DEPTHS = (0.35, 0.6, 0.95)
 """How deep to go between the fingers, as shares of the way to the palm."""
 
-ASKEW, HEAVY = 3.0, 10.0
-"""What a grasp beside the centre of mass loses of its score [1/m], and for every kilogram [1/(kg m)]: it turns."""
-
 FACING = math.cos(math.radians(31.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
 
@@ -152,9 +149,10 @@ def search(
     x, y = grid.world(0.0)
     ground = -(turn[2, 0] * x + turn[2, 1] * y) / turn[2, 2] if lean else np.zeros(x.shape)
     around = np.maximum(grid.heights([_turned(obj, turn) for obj in others] if lean else others), ground)
+    centre = target.pose.apply(np.array([target.asset.mass_properties.centre_of_mass]))[0]
     found: list[Grasp] = []
     for number in range(angles):
-        found += _along(math.pi * number / angles, grid, own, around, gripper, target, wrist)
+        found += _along(math.pi * number / angles, grid, own, around, gripper, centre, wrist)
     found = _held(found, target, gripper)
     if not lean:
         return found
@@ -184,7 +182,7 @@ def narrowest(obj: SceneObject) -> float:
 
 
 def _along(
-    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, target: SceneObject,
+    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array,
     wrist: tuple[float, float] | None,
 ) -> list[Grasp]:  # fmt: skip
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
@@ -207,9 +205,7 @@ def _along(
         across = 2 * (_odd(wrist[1]),)
         below = np.maximum(below, ndimage.maximum_filter(turned_all, size=across, mode="nearest") - wrist[0])
     x, y = grid.world(angle)
-    mass = target.asset.mass_properties
-    centre = target.pose.apply(np.array([mass.centre_of_mass]))[0]
-    askew = (ASKEW + HEAVY * mass.mass) * np.hypot(x - centre[0], y - centre[1])
+    aside = np.hypot(x - centre[0], y - centre[1])
     found = []
     for share in DEPTHS:
         tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.palm)
@@ -218,7 +214,7 @@ def _along(
         solid = np.where(turned_own > tip + SOLID, 1.0, 0.0)
         amount = ndimage.uniform_filter1d(solid, gap, axis=0, mode="constant") * gap
         off = np.where(amount > 0.5, np.abs(_first_moment(solid, gap)) / np.maximum(amount, 1e-9), np.inf) * CELL
-        score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - askew
+        score = np.minimum(bite, gripper.pad) / gripper.pad - 20.0 * off - 3.0 * aside
         rows, columns = np.nonzero((bite >= MIN_BITE) & (off < 0.01))
         best = np.argsort(-score[rows, columns], kind="stable")
         # Well spread ones, so that a better direction further from the middle is not crowded out.

@@ -144,13 +144,13 @@ class Planner:
             failures: see `next`.
         """
         for grasps in self._grasps(name):
-            skipped = failures % max(1, len(grasps))
-            ranked = grasps[skipped:] + grasps[:skipped]
             if where is not None:
                 mass, centre = self._env.scene[name].asset.mass_properties.mass, self._env.simulation.state.centre(name)
-                ranked = [one for one in ranked if torque(one, mass, centre) <= STEADY]
-            found = list(islice((one for grasp in ranked for one in self._taken(name, grasp)), GRASPS))
+                grasps = [one for one in grasps if torque(one, mass, centre) <= STEADY]
+            found = list(islice((one for grasp in grasps for one in self._taken(name, grasp)), GRASPS + failures))
             found.sort(key=lambda one: -one.worth)
+            skipped = failures % max(1, len(found))
+            found = found[skipped:] + found[:skipped]
             if where is None and found:
                 return found[0]
             spots = self._spots(name, where) if where is not None and found else []
@@ -165,7 +165,7 @@ class Planner:
     def _anyhow(self, name: str, where: str | None, failures: int) -> Move:
         """A move of an object for which there is none without a fault."""
         grasps = next(found for found in (*self._grasps(name), self._moved(name)) if found)
-        move = self._as_move(name, grasps[failures % len(grasps)], 0.0)
+        move = self.as_move(name, grasps[failures % len(grasps)])
         spots = [] if where is None else self._spots(name, where)
         return replace(move, spot=spots[0] + [0.0, 0.0, HIGHER[-1] if where else 0.0]) if spots else move
 
@@ -186,9 +186,11 @@ class Planner:
             for obj in self._env.scene.objects
         )
         present = replace(self._env.scene, objects=objects)
-        yield find_grasps(present, name, self._gripper)
-        if self._env.task.kind == "pick" and self._env.scene[name].asset.mass_properties.mass <= LEANING_PAYLOAD:
-            yield find_leaning_grasps(present, name, self._gripper)
+        found = find_grasps(present, name, self._gripper)
+        light = self._env.scene[name].asset.mass_properties.mass <= LEANING_PAYLOAD
+        if not found and light and self._env.task.kind == "pick":
+            found = find_leaning_grasps(present, name, self._gripper)
+        yield found
 
     def _moved(self, name: str) -> list[Grasp]:
         """Grasps of the scene at rest, moved along with the object's turn about z and its shift."""
@@ -206,7 +208,8 @@ class Planner:
             moved.append(replace(grasp, position=at, closing=grasp.closing + yaw, heading=grasp.heading + yaw))
         return moved
 
-    def _as_move(self, name: str, grasp: Grasp, half: float) -> Move:
+    def as_move(self, name: str, grasp: Grasp, half: float = 0.0) -> Move:
+        """A grasp as a move, its hand turned by `half` [rad] about the approach; nothing is checked."""
         tip, axis = self._gripper.tip, self._gripper.closing_axis
         back = LEANING_HOVER if grasp.lean else HOVER
         at, rotation = hand_pose(grasp, tip, axis, half=half)
@@ -216,7 +219,7 @@ class Planner:
     def _taken(self, name: str, grasp: Grasp) -> list[Move]:
         """The grasp, the hand turned the nearer way round first, as far as the arm gets there through nothing."""
         # A grasp that leans knows its own way round: for the other one the wrist may not turn far enough.
-        both = [self._as_move(name, grasp, half) for half in ((0.0,) if grasp.lean else (0.0, math.pi))]
+        both = [self.as_move(name, grasp, half) for half in ((0.0,) if grasp.lean else (0.0, math.pi))]
         found = [(turn, move) for move in both for turn, move in self._checked(move)]
         return [move for _, move in sorted(found, key=lambda one: one[0])]
 

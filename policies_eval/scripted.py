@@ -29,14 +29,11 @@ NEAR, ALIGNED, EXACT = 0.02, 0.006, 0.004
 ON_THE_WAY = 0.04
 """The same, of a pose that is only passed [m]."""
 
-PATIENCE = 60
+PATIENCE = 45
 """Control steps after which a move is done anyway."""
 
-STUCK_STEPS, STUCK = 6, 0.002
+STUCK_STEPS, STUCK = 10, 0.002
 """So many control steps in which a hand comes no nearer to its goal than this [m] show that something is in the way."""
-
-MISSED = 0.012
-"""A hand that gets no nearer to its grasp than this [m] has not got there."""
 
 CLOSE_STEPS = (8, 24)
 """Control steps; the fingers close for at least and at most so many, until they stand still."""
@@ -123,18 +120,19 @@ class ScriptedPolicy:
 
     def _enter(self, phase: str) -> None:
         self._phase, self._steps = phase, 0
-        self._errors: deque[float] = deque(maxlen=STUCK_STEPS + 1)
+        self._errors: list[float] = []
 
     def _go(
-        self, position: Array, fingers: float, tolerance: float, then: str, *, settled: bool = False
-    ) -> NDArray[np.float32] | None:  # fmt: skip
-        """Towards a position until it is reached, and where it is to be `settled`, not passed in flight."""
-        action, self._error = self._servo.towards(position, self._rotation, fingers)
+        self, position: Array, fingers: float, tolerance: float, then: str, *, patient: bool = False
+    ) -> NDArray[np.float32] | None:
+        """Towards a position until it is reached or something is in the way; the `patient` hand waits and pushes on."""
+        action, error = self._servo.towards(position, self._rotation, fingers)
         self._steps += 1
-        self._errors.append(self._error)
-        stuck = len(self._errors) > STUCK_STEPS and self._errors[0] - min(self._errors) < STUCK
-        there = max(list(self._errors)[-2:]) if settled else self._error
-        if there < tolerance or stuck or self._steps > PATIENCE:
+        self._errors.append(error)
+        there = error < tolerance and (not patient or self._errors[-2:][0] < 2 * tolerance)
+        impatient = not patient and len(self._errors) > STUCK_STEPS
+        stuck = impatient and self._errors[-STUCK_STEPS - 1] - min(self._errors[-STUCK_STEPS:]) < STUCK
+        if there or stuck or self._steps > PATIENCE:
             self._enter(then)
             return None
         return action
@@ -175,11 +173,10 @@ class ScriptedPolicy:
 
     def _hover(self) -> NDArray[np.float32] | None:
         # Fingers that come down beside their place push what they should take.
-        return self._go(self._move.before, -1.0, ALIGNED, "descend", settled=True)
+        return self._go(self._move.before, -1.0, ALIGNED, "descend", patient=True)
 
     def _descend(self) -> NDArray[np.float32] | None:
-        action = self._go(self._move.at, -1.0, EXACT, "close")
-        return self._failed() if action is None and self._error > MISSED else action
+        return self._go(self._move.at, -1.0, EXACT, "close", patient=True)
 
     def _close(self) -> NDArray[np.float32] | None:
         self._steps += 1
