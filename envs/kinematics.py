@@ -105,7 +105,7 @@ class ArmKinematics:
         """Of the arm in the present posture [1/(kg m^2)], shape (joints, joints)."""
         self._mujoco.mj_makeM(self._model, self._data)
         self._mujoco.mj_fullM(self._model, self._inertia, self._data.qM)
-        return np.linalg.inv(self._inertia[np.ix_(self._dofs, self._dofs)])
+        return np.asarray(np.linalg.inv(self._inertia[np.ix_(self._dofs, self._dofs)]), dtype=np.float64)
 
 
 class PlacedArm:

@@ -186,16 +186,16 @@ class ScriptedPolicy:
         if self._steps > CLOSE_STEPS[1] or (standing and self._steps > CLOSE_STEPS[0]):
             self._enter("lift")
             if self._move.spot is not None:
-                self._aim()
+                self._aim(self._move.spot)
                 self._height = self._high - float(self._move.at[2])
             return None
         return self._servo.towards(self._move.at, self._rotation, 1.0)[0]
 
-    def _aim(self) -> None:
+    def _aim(self, spot: Array) -> None:
         """Where the hand lets go [m], so that the object stands in its place, and how high it goes there."""
         state, name = self._env.simulation.state, self._move.name
         points = state.points(name)
-        self._place = self._planner.resting(name, self._move.spot) - state.centre(name) + state.hand
+        self._place = self._planner.resting(name, spot) - state.centre(name) + state.hand
         own = float(np.linalg.norm(points[:, :2] - state.hand[:2], axis=1).max())
         hanging = max(float(state.hand[2] - points[:, 2].min()), self._gripper.tip)
         below = self._planner.passing(state.hand, self._place, max(own, HAND_RADIUS / 2), name) + hanging
@@ -216,7 +216,7 @@ class ScriptedPolicy:
         error += self._height - height
         self._steps += 1
         if move.spot is not None and (error < ON_THE_WAY or self._steps > PATIENCE):
-            self._aim()
+            self._aim(move.spot)
             self._enter("carry")
             return None
         return action
