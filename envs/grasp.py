@@ -48,7 +48,7 @@ SQUEEZE = 0.004
 GRAVITY = 9.81
 """[m/s^2]"""
 
-STEADY = 0.5
+STEADY = 0.6
 """What is put down somewhere may turn the fingers by this [N m]; beyond, it swings and slips in them."""
 
 ANGLES = 16
