@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 NEAR, ALIGNED, EXACT = 0.02, 0.006, 0.004
 """Errors at which a move on the way, one before the hand comes down, and one that matters is done [m]."""
 
+FUNNEL = 4.0
+"""How much higher a hand stays that comes down beside its place, for each metre beside it."""
+
 ON_THE_WAY = 0.04
 """The same, of a pose that is only passed [m]."""
 
@@ -176,7 +179,11 @@ class ScriptedPolicy:
         return self._go(self._move.before, -1.0, ALIGNED, "descend", patient=True)
 
     def _descend(self) -> NDArray[np.float32] | None:
-        return self._go(self._move.at, -1.0, EXACT, "close", patient=True)
+        """Down as far as the hand is above its place: it still swings when it gets there."""
+        at, lean = self._move.at, self._move.grasp.lean
+        aside = float(np.hypot(*(self._env.simulation.state.hand - at)[:2]))
+        above = 0.0 if lean else FUNNEL * max(0.0, aside - ALIGNED)
+        return self._go(at + [0.0, 0.0, above], -1.0, EXACT, "close", patient=True)
 
     def _close(self) -> NDArray[np.float32] | None:
         self._steps += 1
@@ -243,7 +250,8 @@ class ScriptedPolicy:
         self._steps += 1
         apart = self._gripper.joints(self._gripper.closed + RELEASE) - self._gripper.joints(self._gripper.closed)
         wide = float(np.abs(fingers - self._fingers).max()) > float(np.abs(apart).max())
-        if wide or self._steps > OPEN_STEPS:
+        free = wide and not self._env.simulation.state.touched(self._move.name)
+        if free or self._steps > OPEN_STEPS:
             self._enter("withdraw")
             top = float(self._env.simulation.state.points(self._move.name)[:, 2].max())
             self._stay = self._from.copy()
