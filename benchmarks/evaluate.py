@@ -5,9 +5,10 @@
 objects: objects of the catalogue alone, each turned in several ways, with the scripted policy. clutter: scenes of eight
 to twelve objects from `pat3d suite`, an object of each to pick. tasks: scenes of a suite for every other kind of task.
 random: the random policy on the same cluttered episodes. clone: a network trained on demonstrations, and the scripted
-policy, where the shipped scene's mug stands elsewhere than in the demonstrations. replay: a hundred of these episodes again, bit for bit. overhead: what is neither
-physics, rendering nor policy, of the shipped scene's episodes in one process, imports and reading the scene left out;
-and what reading a scene takes. workers: episodes a second with eight processes against one, start-up left out.
+policy, where the shipped scene's mug stands elsewhere than in the demonstrations. replay: a hundred of these episodes
+again, bit for bit. overhead: what is neither physics, rendering nor policy, of the shipped scene's episodes in one
+process, imports and reading the scene left out; and what reading a scene takes. workers: episodes a second with eight
+processes against one, start-up left out.
 
 A run that was killed goes on where it stopped when it is given the same --out. Every part prints its row of the table
 at once; all rows are in table.md. In CPU seconds about: objects 1.5 for each refused object, 3 for a scene and 1 for an
