@@ -23,7 +23,7 @@ from pat3d.pipeline import generate
 from pat3d.policies_eval.episodes import Setting, episodes_of
 from pat3d.policies_eval.evaluate import evaluate
 from pat3d.policies_eval.replay import Replayer
-from pat3d.policies_eval.scripted import ScriptedPolicy
+from pat3d.policies_eval.scripted import EXACT, ScriptedPolicy
 from pat3d.policies_eval.settings import RolloutSettings
 from pat3d.policies_eval.strip import write_strip
 
@@ -47,6 +47,9 @@ class Heedless(ScriptedPolicy):
 
     def _rise(self) -> None:
         self._enter("descend")
+
+    def _descend(self) -> NDArray[np.float32] | None:
+        return self._go(self._move.at, -1.0, EXACT, "close", patient=True)
 
     def _failed(self) -> None:
         self._enter("give_up")
@@ -91,13 +94,14 @@ def main() -> None:
         print(f"{type(policy).__name__}: {result.outcome}, {result.steps} steps, toppled: {', '.join(events.toppled)}")
         replayer = Replayer(found)
         moments = [0, round(0.2 * result.steps), round(0.5 * result.steps), result.steps]
-        if not result.success:
+        clean = result.success and not events.toppled
+        if not clean:
             moments = [0, 25, 45, result.steps]
         drawn = replayer.moments(result, moments, options.camera, (FINER * SIZE[0], FINER * SIZE[1]))
         frames = [smaller(frame) for frame in drawn]
         replayer.close()
         said = (
-            "successful grasp" if result.success else f"attempted grasp that topples {len(events.toppled)} neighbours"
+            "successful grasp" if clean else f"attempted grasp that topples {len(events.toppled)} neighbours"
         )
         rows.append((said, frames))
     print(write_strip(rows, options.out, colours=COLOURS), Path(options.out).stat().st_size, "bytes")
