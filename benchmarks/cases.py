@@ -100,9 +100,7 @@ def main() -> None:
         drawn = replayer.moments(result, moments, options.camera, (FINER * SIZE[0], FINER * SIZE[1]))
         frames = [smaller(frame) for frame in drawn]
         replayer.close()
-        said = (
-            "successful grasp" if clean else f"attempted grasp that topples {len(events.toppled)} neighbours"
-        )
+        said = "successful grasp" if clean else f"attempted grasp that topples {len(events.toppled)} neighbours"
         rows.append((said, frames))
     print(write_strip(rows, options.out, colours=COLOURS), Path(options.out).stat().st_size, "bytes")
 
