@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasp import find_grasps
+from pat3d.envs.moves import Move, Planner
 from pat3d.pipeline import generate
 from pat3d.policies_eval.episodes import Setting, episodes_of
 from pat3d.policies_eval.evaluate import evaluate
-from pat3d.policies_eval.policy import EpisodeStart
 from pat3d.policies_eval.replay import Replayer
-from pat3d.policies_eval.scripted import ScriptedPolicy
+from pat3d.policies_eval.scripted import EXACT, ScriptedPolicy
 from pat3d.policies_eval.settings import RolloutSettings
 from pat3d.policies_eval.strip import write_strip
 
@@ -41,24 +42,29 @@ COLOURS = 160
 class Heedless(ScriptedPolicy):
     """The scripted policy without eyes for anything but its object."""
 
-    def reset(self, episode: EpisodeStart) -> None:
-        """Plan as if the object stood alone."""
-        super().reset(episode)
-        scene = episode.env.scene
-        self._grasps = {
-            name: tuple(find_grasps(scene, name, self._gripper, among=(scene.parent(name),))) for name in self._grasps
-        }
-        self._tried = dict.fromkeys(self._grasps, 0)
-        self._begin()
+    def _plan(self) -> Planner:
+        return Alone(self._env)
 
     def _rise(self) -> None:
         self._enter("descend")
 
-    def _retry(self) -> None:
+    def _descend(self) -> NDArray[np.float32] | None:
+        return self._go(self._move.at, -1.0, EXACT, "close", patient=True)
+
+    def _failed(self) -> None:
         self._enter("give_up")
 
     def _give_up(self) -> Any:
-        return self._servo.towards(self._at + [0.0, 0.0, 0.15], self._rotation, 1.0)[0]
+        return self._servo.towards(self._move.at + [0.0, 0.0, 0.15], self._rotation, 1.0)[0]
+
+
+class Alone(Planner):
+    """Plans as if the object stood alone on what carries it."""
+
+    def next(self, failures: Mapping[str, int]) -> Move:
+        """The best grasp of the task's object."""
+        scene, name = self._env.scene, self._env.task.target
+        return self.as_move(name, find_grasps(scene, name, self._gripper, among=(scene.parent(name),))[0])
 
 
 def smaller(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -88,14 +94,13 @@ def main() -> None:
         print(f"{type(policy).__name__}: {result.outcome}, {result.steps} steps, toppled: {', '.join(events.toppled)}")
         replayer = Replayer(found)
         moments = [0, round(0.2 * result.steps), round(0.5 * result.steps), result.steps]
-        if not result.success:
+        clean = result.success and not events.toppled
+        if not clean:
             moments = [0, 25, 45, result.steps]
         drawn = replayer.moments(result, moments, options.camera, (FINER * SIZE[0], FINER * SIZE[1]))
         frames = [smaller(frame) for frame in drawn]
         replayer.close()
-        said = (
-            "successful grasp" if result.success else f"attempted grasp that topples {len(events.toppled)} neighbours"
-        )
+        said = "successful grasp" if clean else f"attempted grasp that topples {len(events.toppled)} neighbours"
         rows.append((said, frames))
     print(write_strip(rows, options.out, colours=COLOURS), Path(options.out).stat().st_size, "bytes")
 

@@ -3,11 +3,12 @@
     python benchmarks/evaluate.py [--parts PART ...] [--workers 8] [--out FOLDER]
 
 objects: objects of the catalogue alone, each turned in several ways, with the scripted policy. clutter: scenes of eight
-to twelve objects from `pat3d suite`, an object of each to pick. random: the random policy on the same cluttered
-episodes. clone: a network trained on demonstrations, and the scripted policy, where the shipped scene's mug stands
-elsewhere than in the demonstrations. replay: a hundred of these episodes again, bit for bit. overhead: what is neither
-physics, rendering nor policy, of the shipped scene's episodes in one process, imports and reading the scene left out;
-and what reading a scene takes. workers: episodes a second with eight processes against one, start-up left out.
+to twelve objects from `pat3d suite`, an object of each to pick. tasks: scenes of a suite for every other kind of task.
+random: the random policy on the same cluttered episodes. clone: a network trained on demonstrations, and the scripted
+policy, where the shipped scene's mug stands elsewhere than in the demonstrations. replay: a hundred of these episodes
+again, bit for bit. overhead: what is neither physics, rendering nor policy, of the shipped scene's episodes in one
+process, imports and reading the scene left out; and what reading a scene takes. workers: episodes a second with eight
+processes against one, start-up left out.
 
 A run that was killed goes on where it stopped when it is given the same --out. Every part prints its row of the table
 at once; all rows are in table.md. In CPU seconds about: objects 1.5 for each refused object, 3 for a scene and 1 for an
@@ -45,7 +46,7 @@ from pat3d.policies_eval.suites import suite_settings
 from pat3d.policies_eval.summary import summarise
 from pat3d.policies_eval.train import fit
 
-PARTS = ("objects", "clutter", "random", "clone", "replay", "overhead", "workers")
+PARTS = ("objects", "clutter", "tasks", "random", "clone", "replay", "overhead", "workers")
 
 LAYOUTS = Perturbation(pose=0.04)
 """Where the mug stands: other draws for training than for testing."""
@@ -54,6 +55,9 @@ MUG = Setting(scene="", task="pick:red mug")
 
 CLUTTER = (8, 12)
 """Fewest and most objects of a cluttered scene."""
+
+KINDS = ("sort", "retrieve", "place", "stack", "unload")
+"""Of tasks, picks aside."""
 
 SEVERAL = 8
 """Workers that are compared with one."""
@@ -101,6 +105,21 @@ class Benchmark:
         settings = self._cluttered()
         found = self._evaluate("clutter", "scripted", settings, len(settings) * self.options.episodes)
         self.row(f"scripted, cluttered pick, {len(settings)} scenes", rate(found), ">= 75 %")
+
+    def tasks(self) -> None:
+        """Every kind of task but pick, in scenes of a suite."""
+        from pat3d.envs.suites.generate import generate
+        from pat3d.envs.suites.request import Request
+
+        folder, each = self.work / "tasks_suite", self.options.each
+        request = Request(tasks=KINDS, scenes=each * len(KINDS), seed=33, picture=0)
+        if not (folder / "suite.json").is_file():
+            generate(str(folder), request, workers=self.options.workers)
+        settings = sorted(suite_settings(str(folder), None)[0], key=lambda one: one.scene)
+        found = self._evaluate("tasks", "scripted", settings, len(settings))
+        for kind in KINDS:
+            went = [one.success for one in found.results if one.episode.task.startswith(kind)]
+            self.row(f"scripted, {kind}, {len(went)} scenes", str(wilson(sum(went), len(went))), ">= 95 %")
 
     def random(self) -> None:
         """The same with random actions."""
@@ -314,6 +333,7 @@ def main() -> None:
     parser.add_argument("--objects", type=int, default=0, help="nouns of the catalogue that are tried; 0 for all (0)")
     parser.add_argument("--layouts", type=int, default=3, help="scenes of every object, each turned otherwise (3)")
     parser.add_argument("--scenes", type=int, default=100, help="cluttered scenes (100)")
+    parser.add_argument("--each", type=int, default=20, help="scenes of every other kind of task (20)")
     parser.add_argument("--episodes", type=int, default=1, help="in every scene (1)")
     parser.add_argument("--demonstrations", type=int, default=100, help="for the cloned policy (100)")
     parser.add_argument("--held-out", type=int, default=100, help="layouts to test it on (100)")

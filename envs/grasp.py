@@ -45,6 +45,12 @@ SOLID = 0.003
 SQUEEZE = 0.004
 """What is held must be thicker than the closed gripper by this [m]."""
 
+GRAVITY = 9.81
+"""[m/s^2]"""
+
+STEADY = 0.6
+"""What is put down somewhere may turn the fingers by this [N m]; beyond, it swings and slips in them."""
+
 ANGLES = 16
 """Directions of closing that are tried over half a turn."""
 
@@ -73,6 +79,8 @@ class Grasp:
     """Extent of the object between the fingers, along the approach [m]."""
     score: float
     """Higher is better."""
+    width: float = 0.0
+    """Of what is between the fingers, along the closing direction [m]."""
     lean: float = 0.0
     """Angle of the approach from straight down [rad]."""
     heading: float = 0.0
@@ -161,6 +169,11 @@ def _turned(obj: SceneObject, turn: Array) -> SceneObject:
     return replace(obj, pose=pose)
 
 
+def torque(grasp: Grasp, mass: float, centre: Sequence[float]) -> float:
+    """Of the weight of `mass` [kg] about a grasp from above [N m]; `centre` is where the centre of mass is [m]."""
+    return mass * GRAVITY * math.dist(centre[:2], grasp.position[:2])
+
+
 def narrowest(obj: SceneObject) -> float:
     """Least horizontal width of an object as it lies [m]."""
     points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])[:, :2]
@@ -177,7 +190,8 @@ def _along(
     turned_all = np.maximum(turned_own, turned_other)
     width = _odd(gripper.finger_width + 2 * CLEARANCE)
     thick = _odd(gripper.finger_thickness + 2 * CLEARANCE)
-    reach = round((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
+    # Rounded outwards: how much play the object itself leaves is measured exactly in `_held`.
+    reach = math.ceil((gripper.opening / 2 + gripper.finger_thickness / 2) / CELL)
     # Axis 0 is the closing direction; a finger's highest obstacle, then shifted to either side.
     column = ndimage.maximum_filter(turned_all, size=(thick, width), mode="nearest")
     below = np.maximum(_shifted(column, reach), _shifted(column, -reach)) + TIP_CLEARANCE
@@ -218,7 +232,7 @@ def _along(
 
 
 def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Grasp]:
-    """The grasps whose pads meet surfaces that face them, with the better facing ones ranked higher."""
+    """The grasps whose pads meet surfaces that face them, centred on those, the better facing ones ranked higher."""
     if not grasps:
         return []
     towards = np.array([[math.cos(one.closing), math.sin(one.closing), 0.0] for one in grasps])
@@ -242,12 +256,20 @@ def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Gr
     count = len(grasps)
     left, right = first.reshape(count, -1).argmin(axis=1), last.reshape(count, -1).argmax(axis=1)
     number = np.arange(count)
-    thick = last.reshape(count, -1)[number, right] - first.reshape(count, -1)[number, left]
-    met = thick > gripper.closed + SQUEEZE
+    low, high = first.reshape(count, -1)[number, left], last.reshape(count, -1)[number, right]
+    thick = high - low
+    met = (thick > gripper.closed + SQUEEZE) & (thick < gripper.opening - 2 * CLEARANCE)
+    # Both fingers have to come down beside it, and one that meets it first pushes it.
+    middles = tips + (np.where(met, low, 0.0) + np.where(met, high, 0.0))[:, None] / 2 * towards
     worse = np.minimum(facing[0].reshape(count, -1)[number, left], facing[1].reshape(count, -1)[number, right])
     touched = np.isfinite(first).mean(axis=(1, 2))
     return [
-        replace(one, score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]))
+        replace(
+            one,
+            position=(float(middles[k, 0]), float(middles[k, 1]), float(middles[k, 2])),
+            width=float(thick[k]),
+            score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]),
+        )
         for k, one in enumerate(grasps)
         if met[k] and worse[k] >= FACING
     ]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.hand import Hand
-from pat3d.envs.kinematics import ArmKinematics
+from pat3d.envs.kinematics import PlacedArm
 
 Array = NDArray[np.float64]
 
@@ -25,26 +25,22 @@ class HandPath:
     """
 
     def __init__(self, env: Any) -> None:
-        self._env, self._arm = env, ArmKinematics(env.robot)
-        c, s = math.cos(env.placement.yaw), math.sin(env.placement.yaw)
-        self._base = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        self._origin = np.array(env.placement.base_position)
+        self._env = env
+        self._arm = PlacedArm(env.robot, env.placement.base_position, env.placement.yaw)
 
     def through(self, goals: list[Hand]) -> list[Hand] | None:
         """Poses from the present posture through `goals`; None where the arm does not get to one of them."""
         joints: Array = self._env.simulation.arm.copy()
         found: list[Hand] = []
         for position, rotation in goals:
-            local, turned = self._base.T @ (position - self._origin), self._base.T @ rotation
             # The start's posture is far from the joints' limits, where the present one may be near them.
             starts = (joints, np.array(self._env.placement.start))
-            ends = [end for start in starts if (end := self._arm.solve(local, turned, start)) is not None]
+            ends = [end for start in starts if (end := self._arm.solve(position, rotation, start)) is not None]
             if not ends:
                 return None
             end = min(ends, key=lambda one: float(np.abs(one - joints).max()))
             count = max(1, math.ceil(float(np.abs(end - joints).max()) / JOINT_STEP))
             for number in range(1, count + 1):
-                at, turn = self._arm.hand(joints + (end - joints) * number / count)
-                found.append((self._origin + self._base @ at, self._base @ turn))
+                found.append(self._arm.hand(joints + (end - joints) * number / count))
             joints = end
         return found

@@ -13,12 +13,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import Grasp, find_grasps
+from pat3d.envs.grasp import Grasp
 from pat3d.envs.hand import hand_pose, hand_rotation
 from pat3d.envs.kinematics import ArmKinematics
-from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN, LEANING_PAYLOAD, find_leaning_grasps
-from pat3d.envs.refusals import why_not
-from pat3d.envs.robots import PAYLOADS, measure_gripper
+from pat3d.envs.leaning import LEANING_HOVER, LEANING_MARGIN
+from pat3d.envs.robots import measure_gripper
+from pat3d.envs.taking import grasps_of
 from pat3d.errors import TaskError
 from pat3d.scene import GROUND, Scene
 
@@ -51,8 +51,6 @@ HOVER = 0.1
 LIFTED = 0.15
 """A leaning hand gets this far above its grasp [m]."""
 
-GRASPS_TRIED = 6
-
 DIRECTIONS = (90.0, 180.0, 0.0, 270.0, 135.0, 45.0, 225.0, 315.0)
 """Where to stand as seen from the work [degrees]: behind it, facing the viewer, first."""
 
@@ -69,7 +67,7 @@ class Needs:
     visit: tuple[tuple[float, float, float], ...] = ()
     """Points [m] that the fingertips have to get to, pointing down."""
     cleared: bool = False
-    """Whether what is in the way of the objects may be moved first."""
+    """Whether the objects are taken one after the other, so that what was taken is no longer in the way."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +93,7 @@ class Placement:
     start: tuple[float, ...]
     """Joint positions of the arm at the start [rad]."""
     grasps: Mapping[str, tuple[Grasp, ...]] = field(default_factory=dict)
-    """Grasps of every object of the task that are within reach, best first."""
+    """Grasps of every object of the task that are within reach, best first; objects in the order of taking them."""
     reach: Mapping[str, float] = field(default_factory=dict)
     """Horizontal distance of every object of the task from the base [m]."""
     pedestal_radius: float = 0.1
@@ -119,9 +117,7 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         TaskError: an object is too wide for the gripper, is blocked, or nothing that is needed is in reach.
     """
     gripper = measure_gripper(robot)
-    # What is put somewhere is held from above, so that the hand gets there; what is only picked up need not be.
-    leans = not needs.visit and not needs.cleared
-    grasps = {name: _grasps(scene, name, robot, cleared=needs.cleared, leans=leans) for name in needs.grasp}
+    grasps = grasps_of(scene, needs.grasp, robot, put=bool(needs.visit), cleared=needs.cleared)
     site = _Site.of(scene, needs)
     arm = ArmKinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
@@ -150,22 +146,6 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     if not any(True for _ in site.candidates(comfortable)):
         raise TaskError(f"{robot} finds no free place to stand near {site.describe()}.")
     raise TaskError(f"{robot} cannot bring its hand to every point of the task near {site.describe()}.")
-
-
-def _grasps(scene: Scene, name: str, robot: str, *, cleared: bool, leans: bool) -> list[Grasp]:
-    gripper = measure_gripper(robot)
-    mass = scene[name].asset.mass_properties.mass
-    if mass > PAYLOADS[robot]:
-        raise TaskError(
-            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
-        )
-    # Once it is cleared, nothing is in the way but what carries it.
-    found = find_grasps(scene, name, gripper, among=(scene.parent(name),) if cleared else None)[:GRASPS_TRIED]
-    if not found and leans and mass <= LEANING_PAYLOAD:
-        found = find_leaning_grasps(scene, name, gripper)
-    if not found:
-        raise TaskError(f'"{name}" cannot be taken by {robot}: {why_not(scene, name, gripper)}.')
-    return found
 
 
 @dataclass(frozen=True)

@@ -69,6 +69,15 @@ class Gripper:
     """Height of the pads, from the tips backwards [m]."""
     closing_axis: tuple[float, float, float]
     """Direction in which the fingers close, in the frame of the grip site; the approach is +z."""
+    open_joints: tuple[float, ...] = ()
+    """Positions of the gripper's joints when it is open."""
+    closed_joints: tuple[float, ...] = ()
+    """The same when it is closed."""
+
+    def joints(self, width: float) -> Array:
+        """Positions of the gripper's joints when its pads are about `width` [m] apart."""
+        share = min(1.0, max(0.0, (width - self.closed) / (self.opening - self.closed)))
+        return np.array(self.closed_joints) + share * (np.array(self.open_joints) - np.array(self.closed_joints))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -165,14 +174,15 @@ def measure_gripper(name: str) -> Gripper:
     ids = [model.actuator(actuator).id for actuator in robot.gripper_actuators]
     held = [model.joint(joint).dofadr[0] for joint in robot.arm_joints]
 
-    def drive(action: float) -> None:
-        """Bring the fingers to rest; the arm stands still in a world without gravity."""
+    def drive(action: float) -> tuple[float, ...]:
+        """Bring the fingers to rest, and where their joints are then; the arm stands still without gravity."""
         target = finger_targets(model, robot, _settled_action(robot.new_gripper(), action))
         for _ in range(round(_DRIVE_SECONDS / model.opt.timestep)):
             data.ctrl[ids] = target
             data.qvel[held] = 0.0
             mujoco.mj_step(model, data)
         mujoco.mj_kinematics(model, data)
+        return tuple(float(data.joint(joint).qpos[0]) for joint in robot.gripper_joints)
 
     def points(names: tuple[str, ...] | tuple[int, ...]) -> Array:
         """Corners of geoms in the frame of the grip site [m]."""
@@ -180,7 +190,7 @@ def measure_gripper(name: str) -> Gripper:
         found = [_geom_points(mujoco, model, data, model.geom(geom).id) for geom in names]
         return (np.concatenate(found) - site.xpos) @ site.xmat.reshape(3, 3)
 
-    drive(-1.0)
+    wide = drive(-1.0)
     pads = [points(names) for names in robot.pads]
     between = pads[1].mean(axis=0) - pads[0].mean(axis=0)
     # Across the approach, and along an axis of the site.
@@ -192,7 +202,7 @@ def measure_gripper(name: str) -> Gripper:
     hand = points(_hand_geoms(model, robot))
     tip = max(float(finger[:, 2].max()) for finger in fingers)
     ends = [finger[finger[:, 2] > tip - 0.03] for finger in fingers]
-    drive(1.0)
+    narrow = drive(1.0)
     shut = [points(names) for names in robot.pads]
     inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
     return Gripper(
@@ -205,6 +215,8 @@ def measure_gripper(name: str) -> Gripper:
         hand=(2 * float(np.abs(hand @ axis).max()), 2 * float(np.abs(hand @ across).max())),
         pad=tip - min(float(pad[:, 2].min()) for pad in pads),
         closing_axis=(float(axis[0]), float(axis[1]), float(axis[2])),
+        open_joints=wide,
+        closed_joints=narrow,
     )
 
 

@@ -1,23 +1,20 @@
-"""The scripted policy: grasps found on the true shapes and poses, done through the same actions as any policy.
+"""The scripted policy: moves planned on the true shapes and poses, done through the same actions as any policy.
 
-It plans a grasp from the object's present pose, approaches, closes and lifts; where the task names a place, it carries
-the object there, lowers it, lets go and withdraws. When it notices that the hand is empty it tries the next grasp.
+It takes an object as `moves` says, lifts it; where the task names a place, it carries the object there, lowers it, lets
+go and withdraws. When it notices that the hand is empty or stuck it plans again.
 """
 
 from __future__ import annotations
 
-import math
 from collections import deque
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasp import Grasp
-from pat3d.envs.hand import hand_pose
+from pat3d.envs.grasp import torque
 from pat3d.envs.hand_path import HandPath
-from pat3d.envs.leaning import LEANING_HOVER, find_leaning_grasps
+from pat3d.envs.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.envs.placement import HOVER
 from pat3d.envs.robots import measure_gripper
 from pat3d.envs.scripted import Servo
@@ -26,8 +23,11 @@ from pat3d.policies_eval.policy import EpisodeStart
 
 Array = NDArray[np.float64]
 
-NEAR, EXACT = 0.02, 0.005
-"""Errors at which a move on the way, and one that matters, is done [m]."""
+NEAR, ALIGNED, EXACT = 0.02, 0.006, 0.004
+"""Errors at which a move on the way, one before the hand comes down, and one that matters is done [m]."""
+
+FUNNEL = 4.0
+"""How much higher a hand stays that comes down beside its place, for each metre beside it."""
 
 ON_THE_WAY = 0.04
 """The same, of a pose that is only passed [m]."""
@@ -35,34 +35,41 @@ ON_THE_WAY = 0.04
 PATIENCE = 45
 """Control steps after which a move is done anyway."""
 
-CLOSE_STEPS, OPEN_STEPS = (8, 24), 8
+STUCK_STEPS, STUCK = 10, 0.002
+"""So many control steps in which a hand comes no nearer to its goal than this [m] show that something is in the way."""
+
+CLOSE_STEPS = (8, 24)
 """Control steps; the fingers close for at least and at most so many, until they stand still."""
+
+OPEN_STEPS = 16
+"""Control steps in which the fingers let go at the latest."""
 
 STANDING = 2e-4
 """Fingers that move by less in a control step stand still [m or rad]."""
 
-LIFT_STEP = 0.015
-"""The hand is raised by so much in a control step [m]: what is jerked slips."""
+LIFT_STEP, GENTLE_STEP = 0.015, 0.005
+"""The hand is raised by so much in a control step [m]: what is jerked slips. The second is for what turns in it."""
 
-LIFT = 0.15
-"""[m]"""
+TURNING = 0.35
+"""What turns the fingers by more than this [N m] is lifted gently."""
 
 RISE = 0.13
 """What is picked up is lifted until its centre has risen by this [m], as what is held by its rim hangs askew."""
 
-HIGHEST_LIFT = 0.35
+LIFT, HIGHEST_LIFT = 0.15, 0.35
 """[m]"""
 
-CARRY_CLEARANCE = 0.06
-"""Kept below what is carried, above everything that it passes [m]."""
+PASSING = 0.03
+"""Kept between the hand, or what it carries, and what it passes above [m]."""
 
-DROP_HEIGHT = 0.008
-"""Objects are let go this far above their place [m]."""
+HAND_RADIUS = 0.12
+"""Of everything about the hand, seen from above [m]."""
 
-LEANING_DEGREES = 20.0
-"""An object that tilted by more is taken with grasps found on its present pose."""
+SETTLE_STEPS = 14
+"""Control steps that are waited at most for what was let go to come to rest."""
 
-FREE_PLACES = 24
+AGAIN_STEPS = 10
+"""Control steps after which one who waits looks whether something is left to do."""
 
 
 class ScriptedPolicy:
@@ -76,9 +83,8 @@ class ScriptedPolicy:
         if env is None or env.control != "osc":
             raise EnvironmentSetupError('the scripted policy needs control="osc" and the environment itself.')
         self._env, self._servo, self._gripper = env, Servo(env), measure_gripper(env.robot)
-        self._grasps = {name: tuple(found) for name, found in env.placement.grasps.items()}
-        self._tried = dict.fromkeys(self._grasps, 0)
-        self._kind = env.task.kind
+        self._planner = self._plan()
+        self._failures: dict[str, int] = {}
         self._begin()
 
     def act(self, observation: Any) -> NDArray[np.float32]:
@@ -88,100 +94,71 @@ class ScriptedPolicy:
             if action is not None:
                 return action
 
+    def _plan(self) -> Planner:
+        return Planner(self._env)
+
     def _begin(self) -> None:
-        """Choose the object, and a grasp of it where it is now."""
-        self._name = self._target()
-        state, grasps = self._env.simulation.state, self._grasps.get(self._name) or ()
-        if not grasps:
-            raise EnvironmentSetupError(f'no grasp of "{self._name}" is known; {", ".join(self._grasps)} have one.')
-        tried = self._tried[self._name]
-        self._tried[self._name] += 1
-        grasp = self._moved(grasps[tried % len(grasps)], self._name)
-        if state.tilt(self._name) > LEANING_DEGREES:
-            grasp = self._found(self._name, tried) or grasp
-        self._grasp = grasp
-        self._at, _ = hand_pose(grasp, self._gripper.tip, self._gripper.closing_axis)
-        back = LEANING_HOVER if grasp.lean else HOVER
-        self._before, _ = hand_pose(grasp, self._gripper.tip, self._gripper.closing_axis, back=back)
-        self._rotation, self._height = self._servo.nearer(grasp), LIFT
+        """Choose the next move."""
+        move = self._planner.next(self._failures)
+        if move is None:
+            self._stay = self._env.simulation.state.hand.copy()
+            self._rotation = self._env.simulation.state.hand_rotation.copy()
+            self._enter("wait")
+            return
+        self._move: Move = move
+        self._rotation, self._height = move.rotation, LIFT
+        mass, state = self._env.scene[move.name].asset.mass_properties.mass, self._env.simulation.state
+        turning = torque(move.grasp, mass, state.centre(move.name)) > TURNING
+        self._lift_step = GENTLE_STEP if turning and not move.grasp.lean else LIFT_STEP
+        hand = self._from = state.hand.copy()
+        if move.grasp.lean:
+            top = float(state.points(move.name)[:, 2].max())
+            self._high = max(top + HOVER, move.before[2] + HOVER)
+        else:
+            passed = self._planner.passing(hand, move.before, HAND_RADIUS, "")
+            self._high = max(float(move.before[2]), passed + self._gripper.tip + PASSING)
         self._enter("rise")
-
-    def _target(self) -> str:
-        """What to take next: the bottom object of a retrieval last, else what the task says."""
-        if self._kind == "retrieve":
-            for name in self._grasps:
-                if name != self._env.task.target and not self._cleared(name):
-                    return name
-            return self._env.task.target
-        return self._env.verdict.target
-
-    def _cleared(self, name: str) -> bool:
-        state = self._env.simulation.state
-        return bool(np.linalg.norm(state.centre(name)[:2] - state.start_centre(name)[:2]) > 0.08)
-
-    def _moved(self, grasp: Grasp, name: str) -> Grasp:
-        """A grasp of the scene at rest, moved along with the object's turn about z and its shift."""
-        state, pose = self._env.simulation.state, self._env.scene[name].pose
-        turn = state.rotation(name) @ pose.rotation.T
-        yaw = math.atan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])
-        c, s = math.cos(yaw), math.sin(yaw)
-        flat = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        # About the centre of mass, which is known exactly at the start and now.
-        centre = pose.apply(np.array([self._env.scene[name].asset.mass_properties.centre_of_mass]))[0]
-        position = flat @ (np.array(grasp.position) - centre) + state.centre(name)
-        at = (float(position[0]), float(position[1]), float(position[2]))
-        return replace(grasp, position=at, closing=grasp.closing + yaw, heading=grasp.heading + yaw)
-
-    def _found(self, name: str, tried: int) -> Grasp | None:
-        """A grasp searched on the present poses."""
-        from pat3d.envs.grasp import find_grasps
-        from pat3d.scene import Pose
-
-        state, scene = self._env.simulation.state, self._env.scene
-        objects = tuple(
-            replace(obj, pose=Pose.from_matrix(state.rotation(obj.name), state.position(obj.name)))
-            for obj in scene.objects
-        )
-        present = replace(scene, objects=objects)
-        found = find_grasps(present, name, self._gripper)
-        if not found and self._kind == "pick":
-            found = find_leaning_grasps(present, name, self._gripper)
-        return found[tried % len(found)] if found else None
 
     # Phases: each returns the next action, or None after it has entered another phase.
 
     def _enter(self, phase: str) -> None:
         self._phase, self._steps = phase, 0
+        self._errors: list[float] = []
 
-    def _go(self, position: Array, fingers: float, tolerance: float, then: str) -> NDArray[np.float32] | None:
+    def _go(
+        self, position: Array, fingers: float, tolerance: float, then: str, *, patient: bool = False
+    ) -> NDArray[np.float32] | None:
+        """Towards a position until it is reached or something is in the way; the `patient` hand waits and pushes on."""
         action, error = self._servo.towards(position, self._rotation, fingers)
         self._steps += 1
-        if error < tolerance or self._steps > PATIENCE:
+        self._errors.append(error)
+        there = error < tolerance and (not patient or self._errors[-2:][0] < 2 * tolerance)
+        impatient = not patient and len(self._errors) > STUCK_STEPS
+        stuck = impatient and self._errors[-STUCK_STEPS - 1] - min(self._errors[-STUCK_STEPS:]) < STUCK
+        if there or stuck or self._steps > PATIENCE:
             self._enter(then)
             return None
         return action
 
     def _rise(self) -> NDArray[np.float32] | None:
         """Straight up first where the way to the grasp is low."""
-        hand = self._env.simulation.state.hand
-        above, then = self._at[2] + HOVER, "hover"
-        if self._grasp.lean:
-            above, then = self._clear(), "over"
-        if hand[2] > above - 0.02 or (not self._grasp.lean and np.hypot(*(hand - self._at)[:2]) < 0.03):
+        hand, lean = self._env.simulation.state.hand, self._move.grasp.lean
+        then = "over" if lean else "across"
+        if hand[2] > self._high - NEAR or (not lean and np.hypot(*(hand - self._move.at)[:2]) < 0.03):
             self._enter(then)
             return None
-        return self._go(np.array([hand[0], hand[1], above]), -1.0, NEAR, then)
+        return self._go(np.array([*self._from[:2], self._high]), -1.0, NEAR, then)
 
-    def _clear(self) -> float:
-        """A height for the hand [m] above the object and above where a leaning approach begins."""
-        top = float(self._env.simulation.state.points(self._name)[:, 2].max())
-        return max(top + HOVER, self._before[2] + HOVER)
+    def _across(self) -> NDArray[np.float32] | None:
+        """Above everything on the way."""
+        return self._go(np.array([*self._move.before[:2], self._high]), -1.0, ON_THE_WAY, "hover")
 
     def _over(self) -> NDArray[np.float32] | None:
         """To where a leaning approach begins, from above, on a way that the joints can go while the hand turns."""
+        before = self._move.before
         if self._steps == 0:
-            above = np.array([*self._before[:2], self._clear()])
-            way = HandPath(self._env).through([(above, self._rotation), (self._before, self._rotation)])
+            above = np.array([*before[:2], self._high])
+            way = HandPath(self._env).through([(above, self._rotation), (before, self._rotation)])
             if way is None:
                 # The hand is led there directly, as far as the arm goes.
                 self._enter("hover")
@@ -199,10 +176,14 @@ class ScriptedPolicy:
 
     def _hover(self) -> NDArray[np.float32] | None:
         # Fingers that come down beside their place push what they should take.
-        return self._go(self._before, -1.0, 0.006, "descend")
+        return self._go(self._move.before, -1.0, ALIGNED, "descend", patient=True)
 
     def _descend(self) -> NDArray[np.float32] | None:
-        return self._go(self._at, -1.0, EXACT, "close")
+        """Down as far as the hand is above its place: it still swings when it gets there."""
+        at, lean = self._move.at, self._move.grasp.lean
+        aside = float(np.hypot(*(self._env.simulation.state.hand - at)[:2]))
+        above = 0.0 if lean else FUNNEL * max(0.0, aside - ALIGNED)
+        return self._go(at + [0.0, 0.0, above], -1.0, EXACT, "close", patient=True)
 
     def _close(self) -> NDArray[np.float32] | None:
         self._steps += 1
@@ -210,139 +191,93 @@ class ScriptedPolicy:
         standing = self._steps > 1 and float(np.abs(fingers - self._fingers).max()) < STANDING
         self._fingers = fingers
         if self._steps > CLOSE_STEPS[1] or (standing and self._steps > CLOSE_STEPS[0]):
-            self._offset = self._env.simulation.state.centre(self._name) - self._env.simulation.state.hand
             self._enter("lift")
+            if self._move.spot is not None:
+                self._aim(self._move.spot)
+                self._height = self._high - float(self._move.at[2])
             return None
-        return self._servo.towards(self._at, self._rotation, 1.0)[0]
+        return self._servo.towards(self._move.at, self._rotation, 1.0)[0]
+
+    def _aim(self, spot: Array) -> None:
+        """Where the hand lets go [m], so that the object stands in its place, and how high it goes there."""
+        state, name = self._env.simulation.state, self._move.name
+        points = state.points(name)
+        self._place = self._planner.resting(name, spot) - state.centre(name) + state.hand
+        own = float(np.linalg.norm(points[:, :2] - state.hand[:2], axis=1).max())
+        hanging = max(float(state.hand[2] - points[:, 2].min()), self._gripper.tip)
+        below = self._planner.passing(state.hand, self._place, max(own, HAND_RADIUS / 2), name) + hanging
+        beside = self._planner.passing(state.hand, self._place, HAND_RADIUS, name)
+        palm = beside + self._gripper.tip - self._gripper.palm
+        self._high = max(max(below, palm) + PASSING, float(self._place[2]) + ABOVE)
 
     def _lift(self) -> NDArray[np.float32] | None:
-        state = self._env.simulation.state
-        if self._steps > 12 and not state.touched(self._name):
-            return self._retry()
-        keep = self._kind == "pick" or (self._kind == "retrieve" and self._name == self._env.task.target)
-        if keep and state.touched(self._name):
-            short = RISE - float(state.centre(self._name)[2] - state.start_centre(self._name)[2])
-            if float(state.hand[2] - self._at[2]) > self._height - NEAR and short > 0.0:
+        state, move = self._env.simulation.state, self._move
+        if self._steps > 12 and not state.touched(move.name):
+            return self._failed()
+        if move.spot is None and state.touched(move.name):
+            short = RISE - float(state.centre(move.name)[2] - state.start_centre(move.name)[2])
+            if float(state.hand[2] - move.at[2]) > self._height - NEAR and short > 0.0:
                 self._height = min(self._height + min(short, 0.02), HIGHEST_LIFT)
-        height = min(self._height, LIFT_STEP * (self._steps + 2))
-        action, error = self._servo.towards(self._at + [0.0, 0.0, height], self._rotation, 1.0)
+        height = min(self._height, self._lift_step * (self._steps + 2))
+        action, error = self._servo.towards(move.at + [0.0, 0.0, height], self._rotation, 1.0)
         error += self._height - height
         self._steps += 1
-        if not keep and (error < NEAR or self._steps > PATIENCE):
-            self._place = self._destination()
+        if move.spot is not None and (error < ON_THE_WAY or self._steps > PATIENCE):
+            self._aim(move.spot)
             self._enter("carry")
             return None
         return action
 
     def _carry(self) -> NDArray[np.float32] | None:
-        if not self._env.simulation.state.touched(self._name):
-            return self._retry()
-        hand = self._env.simulation.state.hand
-        high = max(self._place[2] + CARRY_CLEARANCE + 0.06, self._at[2] + LIFT)
-        if hand[2] < high - 0.03 and self._steps < PATIENCE:
-            self._steps += 1
-            return self._servo.towards(np.array([hand[0], hand[1], high]), self._rotation, 1.0)[0]
-        return self._go(np.array([self._place[0], self._place[1], high]), 1.0, 0.012, "lower")
+        if not self._env.simulation.state.touched(self._move.name):
+            return self._failed()
+        return self._go(np.array([*self._place[:2], self._high]), 1.0, 0.012, "lower")
 
     def _lower(self) -> NDArray[np.float32] | None:
         # What has arrived stops the hand; pushing further would tip it.
-        state = self._env.simulation.state
-        touching = any(state.touch(self._name, obj.name) for obj in self._env.scene.objects if obj.name != self._name)
-        if touching and state.hand[2] < self._place[2] + 0.02:
+        state, name = self._env.simulation.state, self._move.name
+        touching = any(state.touch(name, obj.name) for obj in self._env.scene.objects if obj.name != name)
+        if touching and state.hand[2] < self._place[2] + NEAR:
             self._enter("open")
             return None
         return self._go(self._place, 1.0, EXACT, "open")
 
     def _open(self) -> NDArray[np.float32] | None:
+        """Let go, no wider than needed: there may be neighbours."""
+        fingers = self._env.simulation.fingers.copy()
+        if self._steps == 0:
+            self._from, self._fingers = self._env.simulation.state.hand.copy(), fingers
         self._steps += 1
-        if self._steps == 1:
-            self._from = self._env.simulation.state.hand.copy()
-        if self._steps > OPEN_STEPS:
+        apart = self._gripper.joints(self._gripper.closed + RELEASE) - self._gripper.joints(self._gripper.closed)
+        wide = float(np.abs(fingers - self._fingers).max()) > float(np.abs(apart).max())
+        free = wide and not self._env.simulation.state.touched(self._move.name)
+        if free or self._steps > OPEN_STEPS:
             self._enter("withdraw")
+            top = float(self._env.simulation.state.points(self._move.name)[:, 2].max())
+            self._stay = self._from.copy()
+            self._stay[2] = max(self._from[2] + 2 * NEAR, top + self._gripper.tip + NEAR)
             return None
         return self._servo.towards(self._from, self._rotation, -1.0)[0]
 
     def _withdraw(self) -> NDArray[np.float32] | None:
-        return self._go(self._from + [0.0, 0.0, LIFT], -1.0, NEAR, "wait")
+        return self._go(self._stay, 0.0, NEAR, "settle")
 
-    def _wait(self) -> NDArray[np.float32] | None:
-        """See whether the task is done or goes on with another object."""
+    def _settle(self) -> NDArray[np.float32] | None:
+        """Until what was let go is at rest, so that what is left to do is seen."""
         self._steps += 1
-        if self._steps > 14:
+        if self._steps > 1 and (self._env.simulation.state.still(self._move.name) or self._steps > SETTLE_STEPS):
             self._begin()
             return None
-        return self._servo.towards(self._from + [0.0, 0.0, LIFT], self._rotation, -1.0)[0]
+        return self._servo.towards(self._stay, self._rotation, -1.0)[0]
 
-    def _retry(self) -> None:
+    def _wait(self) -> NDArray[np.float32] | None:
+        """Nothing is left to do, unless something moves again."""
+        self._steps += 1
+        if self._steps > AGAIN_STEPS:
+            self._begin()
+            return None
+        return self._servo.towards(self._stay, self._rotation, -1.0)[0]
+
+    def _failed(self) -> None:
+        self._failures[self._move.name] = self._failures.get(self._move.name, 0) + 1
         self._begin()
-
-    def _destination(self) -> Array:
-        """Where the hand lets go [m], so that the object stands in its place."""
-        state, verdict = self._env.simulation.state, self._env.verdict
-        bottom = float(state.centre(self._name)[2] - state.points(self._name)[:, 2].min())
-        offset = state.centre(self._name) - state.hand
-        if self._kind in ("unload", "retrieve"):
-            centre = self._free_place() + [0.0, 0.0, bottom + DROP_HEIGHT]
-        else:
-            centre = np.array(verdict.goal) + self._aside(verdict.goal)
-            half = float(self._env.scene[self._name].asset.size[2]) / 2
-            centre[2] += bottom - half + DROP_HEIGHT
-        return centre - offset
-
-    def _aside(self, goal: Any) -> Array:
-        """How far from the middle of a container [m] to let go, so that nothing lands on what is there already."""
-        state, name = self._env.simulation.state, self._name
-        own = float(np.ptp(state.points(name)[:, :2], axis=0).max()) / 2
-        near = [
-            state.centre(obj.name)[:2]
-            for obj in self._env.scene.objects
-            if obj.name != name and not obj.fixed and obj.asset.region("in") is None
-        ]
-        near = [point for point in near if math.dist(point, goal[:2]) < 0.12]
-        room = self._room(goal)
-        if not near or room <= own:
-            return np.zeros(3)
-        angles = np.linspace(0.0, 2 * math.pi, 16, endpoint=False)
-        places = (room - own) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        gaps = [min(math.dist(place + goal[:2], point) for point in near) for place in places]
-        best = places[int(np.argmax(gaps))]
-        return np.array([best[0], best[1], 0.0])
-
-    def _room(self, goal: Any) -> float:
-        """Half of the width of the container whose middle is nearest to `goal` [m]; 0 for none."""
-        state = self._env.simulation.state
-        found = [
-            (math.dist(state.position(obj.name)[:2], goal[:2]), min(region.half_size))
-            for obj in self._env.scene.objects
-            if (region := obj.asset.region("in")) is not None
-        ]
-        return min(found)[1] if found and min(found)[0] < 0.1 else 0.0
-
-    def _free_place(self) -> Array:
-        """A place on the surface of the work, near the robot and away from everything [m]."""
-        state, placement = self._env.simulation.state, self._env.placement
-        own = state.points(self._name)[:, :2]
-        radius = float(np.linalg.norm(own - own.mean(axis=0), axis=1).max()) + 0.05
-        clouds = [
-            state.points(obj.name)[:, :2]
-            for obj in self._env.scene.objects
-            if obj.name not in (self._name, placement.host)
-        ]
-        boxes = [(cloud.min(axis=0), cloud.max(axis=0)) for cloud in clouds]
-        base, focus = np.array(placement.base_position), np.array(placement.focus)
-        best, room = focus[:2], -math.inf
-        for turn in np.linspace(-1.3, 1.3, FREE_PLACES):
-            for away in (0.45, 0.52, 0.6, 0.68):
-                angle = placement.yaw + turn
-                point = base[:2] + away * np.array([math.cos(angle), math.sin(angle)])
-                if placement.bench is not None:
-                    inner = np.array(placement.bench) + [[0.12], [-0.12]]
-                    if (point < inner[0]).any() or (point > inner[1]).any():
-                        continue
-                gaps = [np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0)) for low, high in boxes]
-                gap = float(min(gaps, default=1.0)) - radius
-                # Enough room is enough; the nearest such place wins.
-                score = min(gap, 0.03) - 0.05 * float(np.linalg.norm(point - state.hand[:2]))
-                if score > room:
-                    best, room = point, score
-        return np.array([best[0], best[1], placement.surface])

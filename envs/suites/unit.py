@@ -91,7 +91,7 @@ class Making:
         with self.clock("task"):
             if not reason and attempt.checked is not None:
                 try:
-                    placement = _doable(attempt.checked.scene, made.task, request.robot)
+                    placement = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request.robot)
                 except TaskError as error:
                     reason, message = "task", str(error)
         record = _record(request, place, candidate, made, attempt)
@@ -123,18 +123,18 @@ def _fault(attempt: Attempt) -> str:
     return "equilibrium" if not proof.certificate.passed else "relations"
 
 
-def _doable(scene: Scene, task: str, robot: str) -> str:
+def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
     """Where the robot stands for the task, in words.
 
     Raises:
         TaskError: it cannot do it.
     """
-    from pat3d.envs.placement import place
+    from pat3d.envs.rehearsal import rehearse
     from pat3d.envs.tasks.registry import parse_task
 
     parsed = parse_task(task)
     parsed.check(scene)
-    return place(scene, robot, parsed.needs(scene)).describe()
+    return rehearse(scene, mjcf / "scene.xml", parsed, robot).describe()
 
 
 def _record(request: Request, place: int, candidate: int, made: Draft, attempt: Attempt) -> dict[str, Any]:

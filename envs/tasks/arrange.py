@@ -123,7 +123,7 @@ class Retrieve(Task):
             raise TaskError(f'nothing stands on or in front of "{self.target}"; use "pick:{self.target}".')
 
     def needs(self, scene: Scene) -> Needs:
-        return Needs(grasp=(*children(scene, self.target), self.target), cleared=True)
+        return Needs(grasp=(*_upon(scene, self.target), self.target), cleared=True)
 
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import RetrieveJudge
@@ -138,6 +138,12 @@ def colour_of(scene: Scene, name: str) -> str | None:
             return word
     colours = scene[name].asset.provenance.get("colours") or ()
     return colours[0] if colours and colours[0] in COLOURS else None
+
+
+def _upon(scene: Scene, name: str) -> tuple[str, ...]:
+    """Everything that an object carries, what carries others after those."""
+    carried = children(scene, name)
+    return (*(other for one in carried for other in _upon(scene, one)), *carried)
 
 
 def _in_front(scene: Scene, name: str) -> list[str]:
