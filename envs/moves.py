@@ -23,7 +23,6 @@ from pat3d.envs.hand import hand_pose
 from pat3d.envs.kinematics import PlacedArm
 from pat3d.envs.leaning import LEANING_HOVER, LEANING_PAYLOAD, find_leaning_grasps
 from pat3d.envs.placement import HOVER
-from pat3d.envs.predicates import inside, on_top
 from pat3d.envs.robots import measure_gripper
 from pat3d.envs.spots import free_spots, spots_over
 from pat3d.scene import Pose
@@ -114,13 +113,13 @@ class Planner:
         if task.kind == "pick":
             return [(task.target, None)]
         if task.kind == "place":
-            there = inside if env.scene[task.where].asset.region("in") is not None else on_top
-            return [] if there(state, task.target, task.where) else [(task.target, task.where)]
+            there = state.inside if env.scene[task.where].asset.region("in") is not None else state.on_top
+            return [] if there(task.target, task.where) else [(task.target, task.where)]
         if task.kind == "stack":
-            return [] if on_top(state, task.target, task.base) else [(task.target, task.base)]
+            return [] if state.on_top(task.target, task.base) else [(task.target, task.base)]
         if task.kind == "sort":
             pairs = task.pairs(env.scene)
-            return [(name, home) for name, home in pairs.items() if not inside(state, name, home)]
+            return [(name, home) for name, home in pairs.items() if not state.inside(name, home)]
         if task.kind == "unload":
             return [(name, "") for name in env.placement.grasps if self._within(name, task.container)]
         # What stands on the object to be retrieved, in the order in which it can be taken.
@@ -129,7 +128,7 @@ class Planner:
 
     def _within(self, name: str, container: str) -> bool:
         state = self._env.simulation.state
-        return state.touch(name, container) or inside(state, name, container) or on_top(state, name, container)
+        return state.touch(name, container) or state.inside(name, container) or state.on_top(name, container)
 
     def _cleared(self, name: str) -> bool:
         state = self._env.simulation.state

@@ -84,7 +84,7 @@ def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:
     simulation.data.qpos[first : first + 3] += shift
     mujoco: Any = import_module("mujoco")
     mujoco.mj_forward(simulation.model, simulation.data)
-    state.refresh()
+    simulation.states.refresh()
 
 
 def _refusal(planner: Planner, robot: str, name: str) -> str:

@@ -9,14 +9,14 @@ from __future__ import annotations
 import itertools
 import math
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs import predicates
 from pat3d.envs.compiled import as_written
-from pat3d.envs.snapshot import Array, Mask, Numbers, Snapshot, corners
+from pat3d.envs.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors
 from pat3d.envs.world import World
 from pat3d.scene import Scene
 
@@ -90,6 +90,7 @@ class SimState:
     def __init__(self, states: States, number: int = 0) -> None:
         self.states, self.world, self._number = states, states.world, number
         self._numbers, self._bodies = states.numbers, states.world.bodies
+        self._floors: dict[tuple[str, str, str], Floors] = {}
 
     @property
     def scene(self) -> Scene:
@@ -120,6 +121,10 @@ class SimState:
         """Corners of the object's convex parts in the world [m], shape (n, 3)."""
         return corners(self.scene[name].asset) @ self.rotation(name).T + self.position(name)
 
+    def local(self, points: Array, name: str) -> Array:
+        """World points [m], shape (n, 3), in the frame of an object."""
+        return (points - self.position(name)) @ self.rotation(name)
+
     def still(self, name: str) -> bool:
         """Whether the object is at rest."""
         return predicates.still(self.states.snapshot, self._number, self._numbers[name])
@@ -135,6 +140,20 @@ class SimState:
     def held(self, name: str) -> bool:
         """Whether both fingers touch the object."""
         return bool(_held(self.states.snapshot, self._number, self._numbers[name]))
+
+    def inside(self, name: str, container: str) -> bool:
+        """Whether an object lies in the cavity of another."""
+        return self._stands(name, container, "in")
+
+    def on_top(self, name: str, base: str) -> bool:
+        """Whether an object stands on another."""
+        return self._stands(name, base, "on")
+
+    def _stands(self, name: str, where: str, kind: Literal["in", "on"]) -> bool:
+        place = self._floors.get((name, where, kind))
+        if place is None:
+            place = self._floors[name, where, kind] = floors(self.world, [(name, where)], kind)
+        return bool(predicates.pairs_that(self.states.snapshot, place, kind == "in")[self._number, 0])
 
     def tilt(self, name: str) -> float:
         """Angle [degrees] between the object's upright direction and that at the start."""
