@@ -118,7 +118,8 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
     certificate, overlaps, mujoco = proof.certificate, proof.penetration, proof.mujoco
     least = certificate.smallest_friction
     margin = "" if least is None else f"; holds down to {least:.3g}" if math.isfinite(least) else "; holds at none"
-    margin += f"; stands a tilt of {_tilt(certificate)}" if certificate.largest_tilt is not None else ""
+    if certificate.largest_tilt is not None and not certificate.unbalanced:
+        margin += f"; stands a tilt of {_tilt(certificate)}"
     held = [found for found in proof.relations if found.holds]
     verdicts = {
         "equilibrium": "pass" if certificate.passed else "FAIL",
@@ -144,8 +145,9 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
 
 def _tilt(certificate: Certificate) -> str:
     """The tilt that a scene stands, and what does not stand more."""
-    first = ", ".join(certificate.first_to_go)
-    return f"{certificate.largest_tilt:.2g} degrees" + (f", then {first} goes" if first else " at least")
+    first = certificate.first_to_go
+    after = f", then {', '.join(first)} {'goes' if len(first) == 1 else 'go'}" if first else " at least"
+    return f"{certificate.largest_tilt:.2g} degrees{after}"
 
 
 def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
