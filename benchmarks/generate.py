@@ -88,7 +88,7 @@ def row(run: Run) -> str:
     """A line of the table."""
     cells = [f"{run.number}", f"{run.seed}"]
     if run.report is None:
-        cells += [f"no scene (exit {run.code})", *[""] * 8]
+        cells += [f"no scene (exit {run.code})", *[""] * 9]
     else:
         proof = run.report["proof"]
         certificate, overlaps, mujoco = proof["certificate"], proof["penetration"], proof["mujoco"]
@@ -97,6 +97,7 @@ def row(run: Run) -> str:
             f"{len(run.report['objects'])}",
             f"{certificate['worst']:.0e}",
             "none" if least is None else f"{least:.3f}",
+            f"{certificate['largest_tilt']:.2f}",
             _figure(mujoco["worst_mm"]),
             _figure(mujoco["worst_degrees"]),
             f"{len(overlaps['hulls'])} / {len(overlaps['visuals'])}",
@@ -113,7 +114,7 @@ def _figure(value: float | None) -> str:
 
 def table(runs: list[Run], prompts: list[str]) -> str:
     """The whole page in Markdown."""
-    titles = ("prompt", "seed", "objects", "unbalanced", "least friction", "drift mm", "drift deg",
+    titles = ("prompt", "seed", "objects", "unbalanced", "least friction", "tilt deg", "drift mm", "drift deg",
               "hull / surface overlaps", "relations", "attempts", "proven", "seconds", "MB")  # fmt: skip
     lines = ["# pat3d generate", "", *summary(runs), ""]
     lines += ["| " + " | ".join(titles) + " |", "|" + " ---: |" * len(titles), *map(row, runs), "", "## Prompts", ""]
@@ -156,6 +157,8 @@ def summary(runs: list[Run]) -> list[str]:
         ("pairs that intersect, hulls and surfaces",
          f"{sum(len(proof['penetration']['hulls']) + len(proof['penetration']['visuals']) for proof in proofs)}", "0"),
         ("largest certificate residual", f"{max(proof['certificate']['worst'] for proof in proofs):.1e}", "1e-3"),
+        ("least tilt that a scene stands [degrees]",
+         f"{min(proof['certificate']['largest_tilt'] for proof in proofs):.2f}", "0.57"),
         ("objects still within 1 mm and 1 degree", f"{still} of {len(objects)} ({still / len(objects):.1%})", "99 %"),
         ("scenes that MuJoCo warns about", f"{sum(bool(proof['mujoco']['warnings']) for proof in proofs)}", "0"),
         ("relations that hold at rest", f"{held} of {asked} ({held / max(asked, 1):.1%})", "90 %"),

@@ -14,6 +14,7 @@ from pat3d.progress import Event, Progress
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from pat3d.check.certificate import Certificate
     from pat3d.check.engines.check import Verdict
     from pat3d.check.proof import Proof
     from pat3d.exporters.reload import ParityReport
@@ -117,6 +118,8 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
     certificate, overlaps, mujoco = proof.certificate, proof.penetration, proof.mujoco
     least = certificate.smallest_friction
     margin = "" if least is None else f"; holds down to {least:.3g}" if math.isfinite(least) else "; holds at none"
+    if certificate.largest_tilt is not None and not certificate.unbalanced:
+        margin += f"; stands a tilt of {_tilt(certificate)}"
     held = [found for found in proof.relations if found.holds]
     verdicts = {
         "equilibrium": "pass" if certificate.passed else "FAIL",
@@ -138,6 +141,13 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         target.print(f"{name}: {texts[name]}", markup=False)
     for line in proof.unmet:
         target.print(f"      not met: {line}", markup=False)
+
+
+def _tilt(certificate: Certificate) -> str:
+    """The tilt that a scene stands, and what does not stand more."""
+    first = certificate.first_to_go
+    after = f", then {', '.join(first)} {'goes' if len(first) == 1 else 'go'}" if first else " at least"
+    return f"{certificate.largest_tilt:.2g} degrees{after}"
 
 
 def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:

@@ -162,7 +162,7 @@ def in_words(record: Mapping[str, Any]) -> str:
     if history:
         text += f", {_count(len(history), 'gradient step')}"
     if record.get("steadiness_degrees") is not None:
-        text += f"; endures a tilt of {record['steadiness_degrees']:g} degrees"
+        text += f"; endures a tilt of {record['steadiness_degrees']:.2g} degrees"
     return text
 
 

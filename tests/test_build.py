@@ -182,6 +182,25 @@ def test_a_scene_that_cannot_hold_is_delivered_with_its_faults_and_exit_code_1(w
     assert (workplace / "out" / "preview.png").is_file()
 
 
+def test_what_balances_on_a_tip_is_not_proven_and_the_message_says_how_little_it_stands(workplace, capfd):
+    """The tip has a radius of 0.1 mm, the middle of the plum is 26 mm over it: it tips at 0.23 degrees."""
+    (workplace / "scene.yaml").write_text(
+        "objects:\n"
+        "  - {name: cone, noun: cone, fixed: true, pose: {position: [0, 0, 0.00001]}}\n"
+        "  - {name: plum, noun: plum, pose: {position: [0, 0, 0.0685]}}\n"
+        "relations:\n  - {child: plum, kind: on, parent: cone}\n"
+    )
+    assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 1
+    streams = capfd.readouterr()
+    assert "stands a tilt of 0.23 degrees, then plum goes" in " ".join(streams.out.split())
+    assert '"plum" balances on too little: more than 0.23 degrees of tilt upset it.' in streams.err
+    certificate = json.loads((workplace / "out" / "report.json").read_text())["proof"]["certificate"]
+    assert not certificate["passed"]
+    assert certificate["worst"] < 1e-6
+    assert certificate["largest_tilt"] == pytest.approx(np.degrees(np.arctan(0.102 / 25.96)), abs=0.01)
+    assert certificate["first_to_go"] == ["plum"]
+
+
 def _nan(path):
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n")
 

@@ -150,7 +150,8 @@ def _record(request: Request, place: int, candidate: int, made: Draft, attempt: 
                        "mm": proof.mujoco.worst_mm, "degrees": proof.mujoco.worst_degrees},
             "intersections": len(proof.penetration.hulls) + len(proof.penetration.visuals),
             "equilibrium": {"passed": proof.certificate.passed, "residual": proof.certificate.worst,
-                            "smallest_friction": proof.certificate.smallest_friction},
+                            "smallest_friction": proof.certificate.smallest_friction,
+                            "largest_tilt": proof.certificate.largest_tilt},
         }  # fmt: skip
     return {
         "place": place, "candidate": candidate, "seed": made.scene_seed, "split": request.split_of(place),

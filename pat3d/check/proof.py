@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pat3d.check.certificate import Certificate, certify
+from pat3d.check.certificate import LEAST_PUSH, LEAST_TILT, Certificate, certify
 from pat3d.check.metrics import displacement, share_still
 from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
@@ -35,6 +35,12 @@ class Proof:
             f"friction {self.certificate.friction:g}."
             for name in self.certificate.unbalanced
         ]
+        if self.certificate.fragile:
+            lines.append(
+                f"{_listed(self.certificate.first_to_go)} balances on too little: more than "
+                f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. What is proven stands {LEAST_TILT:.2f} "
+                f"degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
+            )
         for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
             lines += [f'the {what} of "{pair.first}" and "{pair.second}" intersect, {1e3 * pair.depth:.3g} mm deep.'
                       for pair in overlaps]  # fmt: skip
@@ -83,6 +89,10 @@ class Proof:
                 ],
             },
         }  # fmt: skip
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return ", ".join(f'"{name}"' for name in names)
 
 
 def broken(relations: tuple[RelationResult, ...]) -> tuple[str, ...]:

@@ -10,8 +10,7 @@ from pat3d.optimize.refine import Epoch
 from pat3d.scene import Attachment, Pose
 
 STEADY = 2.0
-"""Tilt of the ground [degrees] that a scene should endure; what endures less may fall in engines whose contacts give
-way."""
+"""Tilt of the ground [degrees] that a scene should endure, several times what its proof asks for."""
 MORE_THAN_STEADY = 4.0
 """Tilt [degrees] beyond which more is not better."""
 
