@@ -60,7 +60,7 @@ class Boundaries:
         if word in ("one", "ones") and words and all(is_modifier(each) or each in lexicon.PLACES for each in words):
             return False
         if word in lexicon.DETERMINERS or (
-            (word in lexicon.NUMBERS or word.isdigit()) and word not in ("set", "single")
+            (word in lexicon.NUMBERS or word.isdecimal()) and word not in ("set", "single")
         ):
             return not (word in ("couple", "dozen", "trio") and self._tokens[at + 1].text == "of" and not run)
         if word == "of":
@@ -96,7 +96,7 @@ class Boundaries:
         word = self._tokens[at].text
         verb = word in lexicon.PARTICIPLES or (word,) in LINKS
         follower = self._tokens[at + 1].text
-        if verb and (follower in lexicon.DETERMINERS or follower in lexicon.NUMBERS or follower.isdigit()):
+        if verb and (follower in lexicon.DETERMINERS or follower in lexicon.NUMBERS or follower.isdecimal()):
             return True
         if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
             return False

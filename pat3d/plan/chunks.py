@@ -316,14 +316,14 @@ class _Chunker:
     def _several(self) -> bool:
         """Read "in two rows", "in three stacks of four"."""
         preposition, number, what = (*self._words(3), "", "")[:3]
-        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdigit() else 0)
+        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
         kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
         kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
         if preposition not in ("in", "into") or count < 1 or kind is None:
             return False
         tail = self._tokens[self._at + 3 : self._at + 5]
         of_each = (
-            len(tail) == 2 and tail[0].text == "of" and (tail[1].text in lexicon.NUMBERS or tail[1].text.isdigit())
+            len(tail) == 2 and tail[0].text == "of" and (tail[1].text in lexicon.NUMBERS or tail[1].text.isdecimal())
         )
         self._add("arrange", 5 if of_each else 3)
         each = lexicon.NUMBERS.get(tail[1].text) or int(tail[1].text[:3]) if of_each else 0

@@ -92,4 +92,4 @@ def _unit(word: str) -> float | None:
 def _value(word: str) -> float | None:
     if word in NUMBERS:
         return float(NUMBERS[word])
-    return float(word) if word[0].isdigit() else None
+    return float(word) if word[0].isdecimal() else None

@@ -140,7 +140,7 @@ class PhraseReader:
                 flags["one"] = word == "one"
                 if word == "both":
                     flags["definite"] = True
-            elif word.isascii() and word.isdigit():
+            elif word.isascii() and word.isdecimal():
                 count = int(word[:9])
                 flags["determined"] = True
             elif word in lexicon.VAGUE and word != "couple":

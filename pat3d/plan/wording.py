@@ -98,7 +98,7 @@ def _obliges(actor: str, token: Token, follower: Token) -> bool:
 def _leads(token: Token) -> bool:
     """Whether `token` is a determiner or a number."""
     words = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
-    return token.text in words or token.text.isdigit()
+    return token.text in words or token.text.isdecimal()
 
 
 def _stacked(tokens: Sequence[Token], at: int, kept: list[Token]) -> tuple[list[Token], list[Token]]:

@@ -1,6 +1,6 @@
 """Random compositions whose plan is known by construction, and text that means nothing."""
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from pat3d.errors import PromptError
@@ -96,6 +96,7 @@ def test_stack_is_a_chain_as_high_as_said(count, noun, support):
 
 
 @settings(deadline=None, max_examples=60)
+@example("0&\u1369")
 @given(st.text(max_size=200))
 def test_any_text_is_planned_or_refused(text):
     for planner in (PLANNER, LENIENT):
