@@ -37,9 +37,19 @@ class Token:
 
 
 def normalise(prompt: str) -> str:
-    """`prompt` with one kind of quote, one kind of blank and compatibility characters resolved."""
+    """`prompt` with one kind of quote, one kind of blank, decimal fractions and compatibility characters resolved."""
+    prompt = re.sub(r"(\d{0,6})([\u00bc-\u00be\u2150-\u215e])", _decimal, prompt)
     text = re.sub(r"(?<=\s)[&+](?=\s)", "and", unicodedata.normalize("NFKC", prompt))
+    text = re.sub(r"(?<![\d/.])(\d{1,3})/([1-9]\d?)(?=[ -]?(?:mm|cm|m|in|inch|inches|feet|foot|ft)\b)", _quotient, text)
     return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
+
+
+def _decimal(found: re.Match[str]) -> str:
+    return f"{int(found[1] or 0) + unicodedata.numeric(found[2]):.4g}"
+
+
+def _quotient(found: re.Match[str]) -> str:
+    return f"{int(found[1]) / int(found[2]):.4g}"
 
 
 def tokenise(text: str) -> list[Token]:

@@ -26,6 +26,7 @@ def only(planner: GrammarPlanner, prompt: str) -> PlannedObject:
         ("A 20 cm tall vase.", 0.2, "height"), ("a vase 20 cm tall", 0.2, "height"),
         ("a 20-cm-tall vase", 0.2, "height"),
         ("a vase with a height of 25 cm", 0.25, "height"), ("The vase is 20 cm high.", 0.2, "height"),
+        ("a 3½ cm block", 0.035, None), ("a 1/2 inch block", 0.0127, None),
         ("a 5cm block", 0.05, None), ("a 50 mm block", 0.05, None), ("a ten centimetre block", 0.1, None),
         ("a 30 cm wide plate", 0.3, "width"), ("a 1.2 m long table", 1.2, "length"),
         ("a 3 foot long table", 0.9144, "length"),
