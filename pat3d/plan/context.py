@@ -154,8 +154,8 @@ class Context(Relations):
         self.maker.settle_generic(group, parent)
         self.draft.place(group, self.draft.containment(parent), parent)
 
-    def antecedent(self, children: list[Group], phrase: Phrase) -> list[Group]:
-        """What `phrase` ("it", "them", "its head", "one of the shelves") speaks of."""
+    def antecedent(self, children: list[Group], phrase: Phrase, kind: str = "") -> list[Group]:
+        """What `phrase` ("it", "them", "its head", "one of the shelves") speaks of, that holds things of a `kind`."""
         child = children[-1] if children else None
         if phrase.kind == "pieces" and phrase.said == "stack":
             stacks = [group for group in self.draft.groups if group.height != 1 and group is not child]
@@ -172,6 +172,12 @@ class Context(Relations):
             central = [each.group for each in self.draft.sided if each.side == "centre" and each.group in frame.members]
             if central and child not in central:
                 return central[-1:]
+            if kind == "in" and not self.draft.is_a(frame.parents[0], lexicon.HOLLOW):
+                # "A pan on a stove with two eggs in it".
+                upon = [group for group in self.draft.groups if self.draft.support(group) is frame.parents[0]]
+                hollow = [group for group in upon if group is not child and self.draft.is_a(group, lexicon.HOLLOW)]
+                if hollow:
+                    return hollow[-1:]
             return frame.parents[:1]
         if phrase.each or phrase.head in ("them", "they", "each"):
             plural = [

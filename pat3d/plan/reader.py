@@ -317,7 +317,7 @@ class Reader:
             self._to_place(phrase, children, link)
             return
         if phrase.kind == "pronoun":
-            parents, known = self._now.antecedent(children, phrase), True
+            parents, known = self._now.antecedent(children, phrase, link.kind or ""), True
         else:
             group, known = self._group(phrase, children)
             parents = [group] if group is not None else []

@@ -180,3 +180,15 @@ def test_what_no_scene_can_be_is_refused(planner: GrammarPlanner, prompt: str, w
 )  # fmt: skip
 def test_what_only_looks_like_an_instruction_or_a_shape_is_planned(planner: GrammarPlanner, prompt: str):
     assert planner.plan(prompt).objects
+
+
+@pytest.mark.parametrize(
+    ("prompt", "held", "holder"),
+    [
+        ("A mug on a desk with two pens in it.", "pen 1", "mug"),
+        ("A bowl on a table with two apples in it.", "apple 2", "bowl"),
+        ("A desk with a lamp on it.", "lamp", "desk"),
+    ],
+)
+def test_it_is_what_can_hold(planner: GrammarPlanner, prompt: str, held: str, holder: str):
+    assert planner.plan(prompt).parent(held) == holder
