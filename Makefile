@@ -16,7 +16,7 @@ $(VENV)/.made:
 	@touch $@
 
 $(VENV)/.setup: $(VENV)/.made pyproject.toml constraints.txt
-	$(PIP) --editable .
+	$(PIP) --editable '.[usd]'
 	@touch $@
 
 # robosuite asks for packages that need a GL library, an older numpy or a compiler, and uses none of them here.

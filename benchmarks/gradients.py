@@ -251,7 +251,6 @@ def memory(device: str, worlds: int = 64, steps: int = 100) -> None:
         ended, peak = time.perf_counter(), tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         first = q0.grad if first is None else first
-        assert q0.grad is not None
         print(
             f"{every:>6} {kept / 2**20:>15.1f} MiB {peak / 2**20:>5.1f} MiB {ran - begun:>6.1f} s {ended - ran:>7.1f} s"
             f"  {float((q0.grad - first).abs().max()):.1e}"
