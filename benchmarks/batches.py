@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.kernels import prepare
-from pat3d.rest import come_to_rest, come_to_rest_together
-from pat3d.scene import Scene
+from pat3d.generation.settle_stage import come_to_rest, come_to_rest_together
+from pat3d.scene.model import Scene
+from pat3d.sim.compilation import prepare
 
 TARGET = 20.0
 """Settled scenes a second on an H200."""
@@ -28,15 +28,15 @@ ALONE = 16
 
 def laid_out(place: int) -> Scene | None:
     """The first candidate of a place of a suite, before it settles; None where it has no layout."""
-    from pat3d.attempts import Attempts
     from pat3d.envs.suites.composition import draft
     from pat3d.envs.suites.request import Request
     from pat3d.envs.suites.unit import FRICTION
     from pat3d.errors import LayoutError
-    from pat3d.gather import order_of
+    from pat3d.generation.attempts import Attempts
+    from pat3d.generation.checkpoints import Workspace
+    from pat3d.generation.report import Clock
+    from pat3d.generation.request import order_of
     from pat3d.progress import silent
-    from pat3d.report import Clock
-    from pat3d.workspace import Workspace
 
     made = draft(Request(scenes=10_000, seed=0, objects=(6, 6)), place, 0)
     with tempfile.TemporaryDirectory() as folder:

@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import Asset
-from pat3d.assets.mesh_import import import_mesh
-from pat3d.assets.room import cavity_loss
+from pat3d.assets.mesh.cavity import cavity_loss
+from pat3d.assets.mesh.importing import import_mesh
 from pat3d.errors import Pat3dError
+from pat3d.scene.asset import Asset
 
 MAX_LOSS = 0.02
 MAX_OUTSIDE = 1e-4

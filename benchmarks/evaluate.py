@@ -36,15 +36,15 @@ if __name__ in ("__main__", "__mp_main__"):
 from evaluate_scenes import demonstrated, replayed, single, spread
 
 from pat3d.assets.catalogue.registry import entries
-from pat3d.policies_eval.episodes import Episode, Setting, episodes_of
-from pat3d.policies_eval.evaluate import evaluate
-from pat3d.policies_eval.perturb import Perturbation
-from pat3d.policies_eval.records import Evaluation, read_evaluation
-from pat3d.policies_eval.rollout import Result
-from pat3d.policies_eval.statistics import wilson
-from pat3d.policies_eval.suites import suite_settings
-from pat3d.policies_eval.summary import summarise
-from pat3d.policies_eval.train import fit
+from pat3d.policies_eval.analysis.statistics import wilson
+from pat3d.policies_eval.analysis.summary import summarise
+from pat3d.policies_eval.policies.train import fit
+from pat3d.policies_eval.run.episodes import Episode, Setting, episodes_of
+from pat3d.policies_eval.run.evaluate import evaluate
+from pat3d.policies_eval.run.perturb import Perturbation
+from pat3d.policies_eval.run.records import Evaluation, read_evaluation
+from pat3d.policies_eval.run.rollout import Result
+from pat3d.policies_eval.run.suites import suite_settings
 
 PARTS = ("objects", "clutter", "tasks", "random", "clone", "replay", "overhead", "workers")
 
@@ -129,7 +129,7 @@ class Benchmark:
 
     def clone(self) -> None:
         """A cloned policy against the scripted one on held-out layouts."""
-        from pat3d.policies_eval.cloning import save
+        from pat3d.policies_eval.policies.cloning import save
 
         file = self.work / "cloned.pt"
         if not file.is_file():
@@ -274,10 +274,10 @@ class Clock:
         from unittest.mock import patch
 
         from pat3d.envs.env import TabletopEnv
+        from pat3d.envs.physics.simulation import Simulation
         from pat3d.envs.pictures import Pictures
-        from pat3d.envs.simulation import Simulation
-        from pat3d.policies_eval.scripted import ScriptedPolicy
-        from pat3d.policies_eval.settings import RolloutSettings
+        from pat3d.policies_eval.policies.scripted import ScriptedPolicy
+        from pat3d.policies_eval.run.settings import RolloutSettings
 
         stack = ExitStack()
         for name, owner, method in (

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import Pat3dError
-from pat3d.policies_eval.demonstrations import Demonstration, demonstrate
-from pat3d.policies_eval.episodes import Episode, Setting
-from pat3d.policies_eval.records import read_evaluation
-from pat3d.policies_eval.replay import Replayer
+from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstrate
+from pat3d.policies_eval.run.episodes import Episode, Setting
+from pat3d.policies_eval.run.records import read_evaluation
+from pat3d.policies_eval.run.replay import Replayer
 
 REFUSED = "refused.txt"
 """Why there is no scene of an object, so that a second run need not find out again."""
@@ -52,9 +52,9 @@ def alone(folder: str, noun: str, layout: int) -> Setting | str:
     """One object alone, turned by an angle that its name and `layout` decide; or why it cannot be picked."""
     from pat3d.assets.catalogue.registry import make
     from pat3d.envs.env import choose
-    from pat3d.envs.loading import load
-    from pat3d.scene import Pose, Scene, SceneObject
-    from pat3d.scene_io import save_scene
+    from pat3d.envs.physics.loading import load
+    from pat3d.scene.io import save_scene
+    from pat3d.scene.model import Pose, Scene, SceneObject
 
     place, task = Path(folder) / f"{noun.replace(' ', '_')}_{layout}", f"pick:{noun}"
     if (place / REFUSED).is_file():

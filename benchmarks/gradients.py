@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from benchmarks.gradient_cases import Case, cases, stack
 from benchmarks.gradient_plot import save_picture
-from pat3d.kernels import quiet_warp
+from pat3d.sim.compilation import quiet_warp
 from pat3d.sim.contact.distance import contact_at
 from pat3d.sim.model import Model
 from pat3d.sim.potential import Potential

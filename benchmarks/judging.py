@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from pat3d.envs.env import TabletopEnv
-from pat3d.envs.loading import load
 from pat3d.envs.observations import Observer
-from pat3d.envs.snapshot import Snapshot
-from pat3d.envs.state import States
+from pat3d.envs.physics.loading import load
+from pat3d.envs.physics.snapshot import Snapshot
+from pat3d.envs.physics.state import States
 from pat3d.envs.tasks.registry import TASKS, possible_tasks
 from pat3d.errors import TaskError
 

@@ -195,8 +195,8 @@ def gradients(device: str, frames: int = 300) -> list[Row]:
 def against_mujoco(prompts: list[str]) -> list[Row]:
     """Seconds to rest on the CPU of generated scenes, and what MuJoCo takes for its 5 s on the same file."""
     from pat3d.check.settle import settle_in_mujoco
-    from pat3d.pipeline import generate
-    from pat3d.rest import come_to_rest
+    from pat3d.generation.pipeline import generate
+    from pat3d.generation.settle_stage import come_to_rest
 
     seconds, ratios = [], []
     for prompt in prompts:

@@ -27,10 +27,10 @@ from pat3d.check.engines.check import check_engines
 from pat3d.check.engines.protocol import Absent, Engine, Failed
 from pat3d.check.engines.registry import chosen
 from pat3d.errors import Pat3dError
-from pat3d.exporters.exporting import export
-from pat3d.scene import Scene
-from pat3d.scene_folder import write_json
-from pat3d.scene_io import load_scene
+from pat3d.exporters.formats import export
+from pat3d.scene.folder import write_json
+from pat3d.scene.io import load_scene
+from pat3d.scene.model import Scene
 
 HERE = Path(__file__).parent
 LIMIT = 900.0

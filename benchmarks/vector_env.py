@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.vector import BatchedTabletopEnv
-from pat3d.policies_eval.policy import EpisodeStart
-from pat3d.policies_eval.scripted import ScriptedPolicy
+from pat3d.policies_eval.policies.policy import EpisodeStart
+from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 
 TARGET = 250_000
 """Physics steps a second of 2,048 worlds of a ten-object scene on an H200."""

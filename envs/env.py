@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
-from pat3d.envs.loading import DEFAULT_TASK, LoadedScene, load
+from pat3d.envs.grasping.placement import Placement, place
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
+from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
+from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.world import CAMERAS, compose
 from pat3d.envs.pictures import Pictures
-from pat3d.envs.placement import Placement, place
-from pat3d.envs.robots import make_robot
-from pat3d.envs.simulation import Simulation
+from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.task import Judge, Task, Verdict, Verdicts
-from pat3d.envs.world import CAMERAS, compose
 from pat3d.errors import EnvironmentSetupError, TaskError
-from pat3d.scene import Scene
+from pat3d.scene.model import Scene
 
 Source = str | os.PathLike[str] | Scene | None
 
@@ -37,7 +37,7 @@ _KEPT_WORLDS = 4
 class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     """A robot arm in front of a proven scene, with a task.
 
-    Actions are in [-1, 1]; see `pat3d.envs.controllers.RobotController`. An episode terminates with success; the time
+    Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the time
     limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the task's
     progress in [0, 1], see the judge of each task.
 

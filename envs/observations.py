@@ -10,10 +10,10 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from pat3d.envs.compiled import compiled
-from pat3d.envs.state import States
+from pat3d.envs.physics.compiled import compiled
+from pat3d.envs.physics.state import States
+from pat3d.envs.physics.world import PREFIX, World
 from pat3d.envs.tasks.task import Verdicts
-from pat3d.envs.world import PREFIX, World
 from pat3d.errors import EnvironmentSetupError
 
 Observation = dict[str, NDArray[Any]]

@@ -16,8 +16,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.simulation import Simulation
-from pat3d.envs.world import ROBOT
+from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.world import ROBOT
 from pat3d.errors import EnvironmentSetupError
 
 BACKENDS = ("gl", "cpu")

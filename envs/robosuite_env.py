@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from pat3d.envs.env import Source, choose
-from pat3d.envs.loading import DEFAULT_TASK, load
-from pat3d.envs.mujoco_state import MujocoState
-from pat3d.envs.robots import make_robot, robosuite_module
-from pat3d.envs.state import SimState
+from pat3d.envs.physics.loading import DEFAULT_TASK, load
+from pat3d.envs.physics.mujoco_state import MujocoState
+from pat3d.envs.physics.state import SimState
+from pat3d.envs.physics.world import furnish, index
+from pat3d.envs.robots.arms import make_robot, robosuite_module
 from pat3d.envs.tasks.task import Judge, Task, Verdict
-from pat3d.envs.world import furnish, index
 from pat3d.errors import EnvironmentSetupError
 
 _Base: Any = robosuite_module("environments.manipulation.manipulation_env").ManipulationEnv

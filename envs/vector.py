@@ -11,15 +11,15 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from pat3d.envs.arguments import number, one_of, whole
-from pat3d.envs.controllers import CONTROLS
 from pat3d.envs.env import REWARDS, Source, choose
-from pat3d.envs.loading import DEFAULT_TASK, load
 from pat3d.envs.observations import ObservationSpec, Observer
+from pat3d.envs.physics.loading import DEFAULT_TASK, load
+from pat3d.envs.physics.world import compose
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
-from pat3d.envs.robots import make_robot
+from pat3d.envs.robots.arms import make_robot
+from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.task import Judge, Task, Verdicts
-from pat3d.envs.world import compose
 from pat3d.errors import EnvironmentSetupError
 
 Observations = dict[str, NDArray[np.float32]]

@@ -14,15 +14,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pat3d.exporters.exporting import FORMATS, export
-    from pat3d.exporters.reload import parity
+    from pat3d.exporters.formats import FORMATS, export
+    from pat3d.exporters.parity import parity
 
 __all__ = ["FORMATS", "export", "parity"]
 
 _HOMES = {
-    "FORMATS": "pat3d.exporters.exporting",
-    "export": "pat3d.exporters.exporting",
-    "parity": "pat3d.exporters.reload",
+    "FORMATS": "pat3d.exporters.formats",
+    "export": "pat3d.exporters.formats",
+    "parity": "pat3d.exporters.parity",
 }
 
 

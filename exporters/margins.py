@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.contacts import GROUND_INDEX, Contacts
 from pat3d.errors import ExportError
-from pat3d.scene import Pose, Scene
+from pat3d.geometry.contacts import GROUND_INDEX, Contacts
+from pat3d.scene.model import Pose, Scene
 
 _SAME_SPOT = 5e-4
 """Contacts of one pair closer together than this [m] are one support."""

@@ -6,13 +6,24 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.assets.asset import Asset
-from pat3d.exporters.meshes import hull_obj, part_file, write_visual
-from pat3d.exporters.mjcf import GROUND_FRICTION, GROUND_HALF_THICKNESS, body_names
-from pat3d.scene import Scene
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Scene
+from pat3d.scene.naming import unique_slugs
+from pat3d.scene.obj_files import hull_obj, part_file, write_visual
+
+CONTACT_GAP = 1e-4
+"""Bodies closer than this rest on one another [m]."""
+
+GROUND_HALF_THICKNESS = 0.5
+"""[m]"""
 
 SIDE = 10.0
 """Full width of the ground [m], at least."""
+
+
+def body_names(scene: Scene) -> dict[str, str]:
+    """Name of every object's body in the files: "red mug 1" -> "red_mug_1"."""
+    return unique_slugs((obj.name for obj in scene.objects), taken=("world", "ground"))
 
 
 def stored_assets(scene: Scene) -> dict[int, str]:
@@ -26,11 +37,6 @@ def ground_size(scene: Scene) -> tuple[float, float, float]:
     points = np.concatenate([obj.pose.apply(part.vertices) for obj in scene.objects for part in obj.asset.parts])
     side = max(SIDE, 4.0 * float(np.abs(points[:, :2]).max()) + 1.0)
     return side, side, 2.0 * GROUND_HALF_THICKNESS
-
-
-def ground_friction(scene: Scene) -> float:
-    """Friction coefficient [-] of the ground, as in the MJCF."""
-    return max(GROUND_FRICTION, scene.settling_friction)
 
 
 def write_meshes(asset: Asset, folder: Path) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
-from pat3d.exporters.meshes import read_obj
+from pat3d.scene.obj_files import read_obj
 
 MAX_XML_BYTES = 64 * 2**20
 

@@ -3,29 +3,28 @@
     scene = pat3d.generate("a red mug on a wooden table", out="scenes/mug")
 
 The names below load what they need when they are first used; importing `pat3d` alone is cheap. It registers the
-environment "PAT3D-v0" with Gymnasium, at once or as soon as Gymnasium is imported.
+environment "PAT3D-v0" where Gymnasium is imported already.
 """
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pat3d.envs.registration import register_with_gymnasium
+from pat3d.scene.versions import VERSION as __version__
 
 if TYPE_CHECKING:
-    from pat3d.pipeline import build, generate
-    from pat3d.scene_io import load_scene, save_scene
-
-__version__ = "0.1.0"
+    from pat3d.generation.pipeline import build, generate
+    from pat3d.scene.io import load_scene, save_scene
 
 __all__ = ["__version__", "build", "generate", "load_scene", "save_scene"]
 
 _HOMES = {
-    "build": "pat3d.pipeline",
-    "generate": "pat3d.pipeline",
-    "load_scene": "pat3d.scene_io",
-    "save_scene": "pat3d.scene_io",
+    "build": "pat3d.generation.pipeline",
+    "generate": "pat3d.generation.pipeline",
+    "load_scene": "pat3d.scene.io",
+    "save_scene": "pat3d.scene.io",
 }
 
 
@@ -39,4 +38,7 @@ def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
 
 
-register_with_gymnasium()
+if "gymnasium" in sys.modules:
+    from pat3d.envs.registration import register_with_gymnasium
+
+    register_with_gymnasium()

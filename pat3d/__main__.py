@@ -2,6 +2,6 @@
 
 import sys
 
-from pat3d.cli import main
+from pat3d.cli.main import main
 
 sys.exit(main())

@@ -48,8 +48,8 @@ def test_the_version_is_the_distribution_s():
 
 
 def test_lazy_names_are_the_real_functions():
-    from pat3d.pipeline import build, generate
-    from pat3d.scene_io import load_scene
+    from pat3d.generation.pipeline import build, generate
+    from pat3d.scene.io import load_scene
 
     assert (pat3d.generate, pat3d.build, pat3d.load_scene) == (generate, build, load_scene)
     assert {"generate", "build", "load_scene", "__version__"} <= set(dir(pat3d))

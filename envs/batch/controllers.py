@@ -10,9 +10,9 @@ import numpy as np
 import warp as wp
 
 from pat3d.envs.batch.kernels import aim_hand, aim_joints, move_fingers, torque_kernels
-from pat3d.envs.controllers import part_settings
-from pat3d.envs.robots import finger_targets
-from pat3d.envs.world import World
+from pat3d.envs.physics.world import World
+from pat3d.envs.robots.arms import finger_targets
+from pat3d.envs.robots.controllers import part_settings
 from pat3d.errors import EnvironmentSetupError
 
 CONTROLS = ("osc", "joint_position")

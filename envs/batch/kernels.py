@@ -1,6 +1,6 @@
 """The kernels of a batch: goals and torques of robosuite's controllers, and what has to be noted of every world.
 
-They compute what `pat3d.envs.controllers.RobotController` does, in double precision from MuJoCo Warp's single one.
+They compute what `pat3d.envs.robots.controllers.RobotController` does, in double precision from MuJoCo Warp's single one.
 """
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false, reportReturnType=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAttributeAccessIssue=false
@@ -11,7 +11,7 @@ from typing import Any
 
 import warp as wp
 
-from pat3d.envs.state import TOUCH
+from pat3d.envs.physics.state import TOUCH
 
 NULLSPACE_STIFFNESS = wp.constant(wp.float64(10.0))
 """Of the start posture among those of one hand pose [1/s^2], as in robosuite."""

@@ -20,15 +20,16 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from pat3d.assets.cache import cache_root
 from pat3d.envs.batch.controllers import BatchedController
 from pat3d.envs.batch.kernels import note_peaks, note_touches
-from pat3d.envs.loading import store_record
-from pat3d.envs.mujoco_state import fingers
-from pat3d.envs.predicates import OWNERS
-from pat3d.envs.simulation import Simulation
-from pat3d.envs.world import World
+from pat3d.envs.physics.loading import store_record
+from pat3d.envs.physics.mujoco_state import fingers
+from pat3d.envs.physics.predicates import OWNERS
+from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.world import World
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
+from pat3d.scene.cache import cache_root
+from pat3d.scene.physics import STILL_SECONDS
 
 Array = NDArray[np.float32]
 
@@ -51,7 +52,6 @@ ROBOT_CONTACTS = 48
 ROWS_PER_CONTACT = 6
 """Of the constraint matrix, for the widest contacts that scenes have (pyramids with torsional friction)."""
 
-CHECK_SECONDS = 5.0
 MAX_MM, MAX_DEGREES = 1.0, 1.0
 """What stands still moves less in that time."""
 
@@ -258,7 +258,7 @@ def mujoco_warp() -> Any:
 
 def require_still(
     world: World, checksum: str, control: str, control_freq: float, device: str, room: Room,
-    seconds: float = CHECK_SECONDS,
+    seconds: float = STILL_SECONDS,
 ) -> None:  # fmt: skip
     """Refuse a scene that moves on this device while the robot stands still; known results are not tried again.
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from pat3d.envs.batch.physics import BatchedPhysics
-from pat3d.envs.snapshot import Array, Snapshot
-from pat3d.envs.state import States
+from pat3d.envs.physics.snapshot import Array, Snapshot
+from pat3d.envs.physics.state import States
 
 
 class BatchState(States):

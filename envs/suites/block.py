@@ -7,14 +7,14 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import Any
 
-from pat3d.attempts import Attempt
 from pat3d.envs.suites.crew import Unit
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.unit import Making, make_unit
 from pat3d.errors import SimulationError
-from pat3d.kernels import device_name
-from pat3d.rest import Rest, come_to_rest_together
+from pat3d.generation.attempts import Attempt
+from pat3d.generation.settle_stage import Rest, come_to_rest_together
+from pat3d.sim.compilation import device_name
 
 
 def make_block(

@@ -15,7 +15,7 @@ from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.structures import CORES, SIDES, Core
-from pat3d.gather import derived_seed
+from pat3d.generation.request import derived_seed
 from pat3d.plan.scene_plan import ScenePlan
 
 _DRAWS = 200

@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.errors import ExportError, SuiteError
-from pat3d.scene_folder import finite
+from pat3d.scene.folder import finite
 
 MANIFEST, SCENES, REJECTED, WORK, LOCK, LOG, PAGE, HUB = (
     "suite.json", "scenes", "rejected", ".work", ".lock", "log.jsonl", "index.html", "env.py",

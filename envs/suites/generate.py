@@ -92,8 +92,8 @@ def generate(
         EnvironmentSetupError: there is no such robot, or robosuite is not installed.
         SpecError: there is no GPU here, where the request asks for one.
     """
-    from pat3d.envs.robots import make_robot
-    from pat3d.kernels import device_name
+    from pat3d.envs.robots.arms import make_robot
+    from pat3d.sim.compilation import device_name
 
     make_robot(request.robot)
     device_name(request.device)
@@ -155,7 +155,7 @@ def _check_same(folder: SuiteFolder, request: Request) -> None:
             f"{folder.path} holds a suite of {earlier.scenes} scenes; it can be made longer, not shorter. "
             "Give a new folder."
         )
-    from pat3d.versions import versions
+    from pat3d.scene.versions import versions
 
     found = document.get("versions")
     made_with = found if isinstance(found, dict) else {}

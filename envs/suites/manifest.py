@@ -23,7 +23,7 @@ from pat3d.envs.suites.folder import (
 )
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.request import SPLITS, Request, in_split
-from pat3d.versions import version_of, versions
+from pat3d.scene.versions import version_of, versions
 
 AXES = {
     "objects": "objects in the scene, containers among them",

@@ -21,7 +21,7 @@ from pat3d.envs.suites.local_crew import python_path
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.threads import ONE_THREAD
 from pat3d.errors import ExportError, Pat3dError, SuiteError
-from pat3d.versions import versions
+from pat3d.scene.versions import versions
 
 MAX_UNIT_BYTES = 2**30
 """Of a unit's files together."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.envs.loading import LoadedScene
+from pat3d.envs.physics.loading import LoadedScene
 from pat3d.envs.suites.suite import Entry, Suite
 from pat3d.errors import EnvironmentSetupError, SuiteError
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pat3d.envs.loading import LoadedScene, load
+from pat3d.envs.physics.loading import LoadedScene, load
 from pat3d.envs.suites.folder import FORMAT, MANIFEST, VERSION, SuiteFolder, checksum_of, read_document
 from pat3d.envs.suites.request import SPLITS, TASKS, Request, check_split, in_split
 from pat3d.errors import SuiteError, UnsettledSceneError

@@ -10,20 +10,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pat3d.attempts import Attempt, Attempts
 from pat3d.envs.suites.composition import Draft, draft
 from pat3d.envs.suites.folder import RECORD, SuiteFolder, checksum_of, write_document
 from pat3d.envs.suites.request import Request
 from pat3d.errors import LayoutError, TaskError
-from pat3d.gather import order_of
+from pat3d.generation.attempts import Attempt, Attempts
+from pat3d.generation.checkpoints import Workspace
+from pat3d.generation.report import Clock
+from pat3d.generation.request import order_of
 from pat3d.progress import silent
-from pat3d.report import Clock
-from pat3d.scene import GROUND, Scene
-from pat3d.scene_io import save_scene
-from pat3d.workspace import Workspace
-
-FRICTION = 0.2
-"""Coulomb coefficient [-] while settling."""
+from pat3d.scene.io import save_scene
+from pat3d.scene.model import GROUND, Scene
+from pat3d.scene.physics import SETTLING_FRICTION
 
 
 def make_unit(folder: SuiteFolder, request: Request, place: int, candidate: int) -> dict[str, Any]:
@@ -50,7 +48,7 @@ class Making:
         self._draft, self.clock = draft(request, place, candidate), Clock()
         self._scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
         self.attempts = Attempts(
-            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=FRICTION, device=request.device,
+            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=SETTLING_FRICTION, device=request.device,
             workspace=Workspace(self._scratch / "none", keep=False), clock=self.clock, progress=silent,
             scratch=self._scratch,
         )  # fmt: skip
@@ -129,8 +127,8 @@ def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
     Raises:
         TaskError: it cannot do it.
     """
-    from pat3d.envs.rehearsal import rehearse
     from pat3d.envs.tasks.registry import parse_task
+    from pat3d.envs.tasks.rehearsal import rehearse
 
     parsed = parse_task(task)
     parsed.check(scene)

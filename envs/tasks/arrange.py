@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from pat3d.assets.colours import COLOURS
-from pat3d.envs.placement import Needs
+from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.manipulate import above, check_move
 from pat3d.envs.tasks.task import Judge, Task, children, movable, origin, present, standing_on
 from pat3d.errors import TaskError
-from pat3d.scene import Scene
+from pat3d.scene.model import Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.state import States
+    from pat3d.envs.physics.state import States
 
 BEHIND = 0.15
 """Something this much nearer to the viewer, and in line, is in front [m]."""

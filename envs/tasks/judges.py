@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.envs import predicates
-from pat3d.envs.snapshot import Array, Numbers, floors
-from pat3d.envs.state import States
+from pat3d.envs.physics import predicates
+from pat3d.envs.physics.snapshot import Array, Numbers, floors
+from pat3d.envs.physics.state import States
 from pat3d.envs.tasks.task import Judge, Verdicts
 
 LIFT = 0.10

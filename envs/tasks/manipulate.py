@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from pat3d.envs.grasp import narrowest
-from pat3d.envs.placement import Needs
+from pat3d.envs.grasping.grasp import narrowest
+from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.room import has_room, overhang_room
 from pat3d.envs.tasks.task import Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
-from pat3d.scene import Scene
+from pat3d.scene.model import Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.state import States
+    from pat3d.envs.physics.state import States
 
 CARRY_HEIGHT = 0.12
 """Above a container or a base, where the hand has to get [m]."""

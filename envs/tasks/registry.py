@@ -10,7 +10,7 @@ from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
 from pat3d.envs.tasks.manipulate import Pick, Place, Stack
 from pat3d.envs.tasks.task import Task, split
 from pat3d.errors import TaskError
-from pat3d.scene import Scene
+from pat3d.scene.model import Scene
 
 TASKS: dict[str, type[Task]] = {kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve)}
 """Every kind of task by the first word of its specification."""

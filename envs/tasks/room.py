@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import Region
-from pat3d.envs.grasp import narrowest
-from pat3d.scene import Scene
+from pat3d.envs.grasping.grasp import narrowest
+from pat3d.scene.asset import Region
+from pat3d.scene.model import Scene
 
 Array = NDArray[np.float64]
 

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pat3d.envs.placement import Needs
-from pat3d.envs.snapshot import Array, Mask, Numbers
+from pat3d.envs.grasping.placement import Needs
+from pat3d.envs.physics.snapshot import Array, Mask, Numbers
 from pat3d.errors import TaskError
-from pat3d.scene import GROUND, Scene
+from pat3d.scene.model import GROUND, Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.state import States
+    from pat3d.envs.physics.state import States
 
 
 @dataclass(frozen=True, kw_only=True)

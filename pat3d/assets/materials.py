@@ -9,8 +9,8 @@ Handbook for Mechanical Engineers, 11th ed., table 3.2.1), rounded down where so
 
 from __future__ import annotations
 
-from pat3d.assets.asset import Material
 from pat3d.errors import AssetError
+from pat3d.scene.asset import Material
 
 _TABLE: dict[str, tuple[float, float]] = {
     "wood": (650.0, 0.45),

@@ -16,12 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.contacts import Contacts, find_contacts, merged
-from pat3d.exporters.objects import ground_friction
-from pat3d.scene import Scene
-
-GRAVITY = 9.81
-"""[m/s^2], along -z."""
+from pat3d.geometry.contacts import Contacts, find_contacts, merged
+from pat3d.scene.model import Scene
+from pat3d.scene.physics import GRAVITY, ground_friction
 
 ATTACHED = 1e-3
 """[m]; an anchor whose ends are further apart carries nothing."""
@@ -65,7 +62,7 @@ class Balance:
                              for obj, mass in zip(scene.objects, masses, strict=True)]),
             weight=np.array([mass.mass * GRAVITY for mass in masses]),
             size=np.array([float(obj.asset.size.max()) for obj in scene.objects]),
-            friction=np.array([*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene)]),
+            friction=np.array([*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene.settling_friction)]),
         )  # fmt: skip
         self.groups = [
             Group(

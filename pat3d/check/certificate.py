@@ -28,7 +28,7 @@ import numpy as np
 
 from pat3d.check.balance import Balance
 from pat3d.errors import CheckError
-from pat3d.scene import Scene
+from pat3d.scene.model import Scene
 
 TOLERANCE = 1e-3
 """Largest residual, as a share of the weight, that passes."""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import CheckError
+from pat3d.scene.physics import GRAVITY
 
 HEIGHTS = 8.0
 """Drop height in heights of the object."""
@@ -107,7 +108,7 @@ def _fall(
     mujoco: Any, model: Any, data: Any, body: int, points: NDArray[np.float64], upright: NDArray[np.float64],
     height: float, size: float,
 ) -> DropReport:  # fmt: skip
-    limit = math.sqrt(2.0 * height / 9.81) + 1.0
+    limit = math.sqrt(2.0 * height / GRAVITY) + 1.0
     touched = still = math.inf
     deepest = depth = 0.0
     step = 0

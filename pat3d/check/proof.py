@@ -8,14 +8,12 @@ from typing import Any
 
 from pat3d.check.certificate import LEAST_PUSH, LEAST_TILT, Certificate, certify
 from pat3d.check.metrics import displacement, share_still
-from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
+from pat3d.geometry.penetration import PenetrationReport, penetration
 from pat3d.layout.predicates import RelationResult, check_relations
 from pat3d.progress import Event, Progress, silent
-from pat3d.scene import Scene
-
-SECONDS = 5.0
-"""Simulated time in MuJoCo [s]."""
+from pat3d.scene.model import Scene
+from pat3d.scene.physics import STILL_SECONDS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +109,7 @@ def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
     )
 
 
-def prove(scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, seconds: float = SECONDS) -> Proof:
+def prove(scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, seconds: float = STILL_SECONDS) -> Proof:
     """Check `scene`, written as MJCF at `mjcf_path`, in every way.
 
     Raises:

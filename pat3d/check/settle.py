@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import CheckError
+from pat3d.scene.physics import STILL_SECONDS
 
 SAMPLE_STEPS = 5
 """Time steps between two measurements of the drift."""
@@ -74,7 +75,7 @@ class SettleReport:
         return {**asdict(self), "worst_mm": self.worst_mm, "worst_degrees": self.worst_degrees, "passed": self.passed}
 
 
-def settle_in_mujoco(mjcf_path: str | Path, seconds: float = 5.0) -> SettleReport:
+def settle_in_mujoco(mjcf_path: str | Path, seconds: float = STILL_SECONDS) -> SettleReport:
     """Load an MJCF file with MuJoCo, simulate it untouched, and measure how far everything strays.
 
     Args:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.assets.asset import Region
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column
 from pat3d.layout.flat import Surface
+from pat3d.scene.asset import Region
 
 _UPRIGHT = math.cos(math.radians(3.0))
 

@@ -13,13 +13,13 @@ import math
 import numpy as np
 from scipy.ndimage import uniform_filter
 
-from pat3d.assets.asset import Asset
 from pat3d.errors import LayoutError
 from pat3d.layout.bodies import Array, Body, Placed
 from pat3d.layout.drop import clear, fall
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
-from pat3d.scene import Attachment
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Attachment
 
 CELLS = 48
 """Positions tried across the carrier."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pat3d.assets.asset import Asset
 from pat3d.errors import LayoutError
 from pat3d.layout.bodies import Placed, box_gap, distance, place_all
-from pat3d.scene import GROUND, Pose
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import GROUND, Pose
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.asset import Asset
+from pat3d.scene.asset import Asset
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,14 +13,15 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import Asset
 from pat3d.errors import LayoutError
 from pat3d.layout.bodies import Body, Placed
 from pat3d.layout.containers import lower
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.proof import prove
 from pat3d.optimize.loss import states
-from pat3d.scene import GROUND, Attachment, Pose, Relation, Scene, SceneObject, parent_of
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import GROUND, Attachment, Pose, Relation, Scene, SceneObject, parent_of
+from pat3d.scene.physics import SETTLING_FRICTION
 
 GAP = 0.002
 """Distance kept from what will carry an object [m], as in the layout."""
@@ -147,7 +148,7 @@ class Placement:
         attachments: tuple[Attachment, ...],
         *,
         poses: Mapping[str, Pose] | None = None,
-        friction: float = 0.2,
+        friction: float = SETTLING_FRICTION,
     ) -> Scene:
         """The objects as a scene laid out at `poses0`, and at rest at `poses`, settled with `friction` [-]."""
         objects = tuple(

@@ -12,7 +12,7 @@ from pat3d.view.preview import save_png, scene_items
 
 if TYPE_CHECKING:
     from pat3d.optimize.refine import Epoch
-    from pat3d.scene import Scene
+    from pat3d.scene.model import Scene
 
 _PAPER, _INK, _GRID = (250, 250, 249), (52, 54, 58), (222, 223, 225)
 _LINES = ((31, 97, 141), (192, 87, 20), (60, 130, 70), (125, 70, 140))

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.contacts import find_contacts
 from pat3d.errors import LayoutError
+from pat3d.geometry.contacts import find_contacts
 from pat3d.optimize.placement import Placement
-from pat3d.scene import GROUND, Pose, Scene
+from pat3d.scene.model import GROUND, Pose, Scene
 
 ENOUGH = 8.0
 """Tilt [degrees] that an object endures without being moved."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from pat3d.errors import PromptError
-from pat3d.plan.measures import Axis
-from pat3d.scene import Relation, check_tree, parent_of
+from pat3d.plan.grammar.measures import Axis
+from pat3d.scene.model import Relation, check_tree, parent_of
 
 
 @dataclass(frozen=True, kw_only=True)

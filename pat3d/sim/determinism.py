@@ -14,13 +14,13 @@ import warp as wp
 from numpy.typing import NDArray
 
 RECORDS = {
-    "pat3d.sim.energies.inertia": 1,
-    "pat3d.sim.energies.orthogonality": 1,
-    "pat3d.sim.energies.attachment": 8 * 8 * 3,
-    "pat3d.sim.energies.contact": 8 * 8 * 9,
-    "pat3d.sim.energies.friction": 8 * 8 * 9,
-    "pat3d.sim.energies.contact_reach": 1,
-    "pat3d.sim.energies.friction_lag": 8,
+    "pat3d.sim.terms.inertia": 1,
+    "pat3d.sim.terms.orthogonality": 1,
+    "pat3d.sim.terms.attachment": 8 * 8 * 3,
+    "pat3d.sim.terms.contact": 8 * 8 * 9,
+    "pat3d.sim.terms.friction": 8 * 8 * 9,
+    "pat3d.sim.terms.contact_reach": 1,
+    "pat3d.sim.terms.friction_lag": 8,
     "pat3d.sim.solvers.line_search": 2,
     "pat3d.sim.measures": 1,
     "pat3d.sim.adjoint": 1,

@@ -16,13 +16,11 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import Asset, ConvexPart
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose, Scene
+from pat3d.scene.asset import Asset, ConvexPart
+from pat3d.scene.model import Pose, Scene
+from pat3d.scene.physics import GRAVITY
 from pat3d.sim.contact.clusters import ClusteredPart, cluster
-
-GRAVITY = 9.81
-"""[m/s^2], along -z."""
 
 ATTACHMENT_STRETCH = 5.0e-7
 """How far an anchor gives way under the weight of the lighter of the two bodies that it joins [m]."""

@@ -15,14 +15,15 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.scene.physics import GRAVITY
 from pat3d.sim.contact.broad_phase import Candidates
-from pat3d.sim.energies.attachment import PointAttachment
-from pat3d.sim.energies.contact import BarrierContact
-from pat3d.sim.energies.friction import Friction
-from pat3d.sim.energies.inertia import Inertia
-from pat3d.sim.energies.orthogonality import Orthogonality
-from pat3d.sim.model import GRAVITY, Model
+from pat3d.sim.model import Model
 from pat3d.sim.program import Mirror, Program
+from pat3d.sim.terms.attachment import PointAttachment
+from pat3d.sim.terms.contact import BarrierContact
+from pat3d.sim.terms.friction import Friction
+from pat3d.sim.terms.inertia import Inertia
+from pat3d.sim.terms.orthogonality import Orthogonality
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 

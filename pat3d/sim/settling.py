@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from pat3d.errors import SimulationError
+from pat3d.scene.physics import SETTLING_FRICTION
 from pat3d.sim.contact.intersection import intersecting_bodies
 from pat3d.sim.failure import Status, diagnose, dump, explain
 from pat3d.sim.measures import StepMeasures
@@ -51,7 +52,7 @@ MOST_INERTIA = 1e8
 class SettleOptions:
     """Settings of a settling run; the defaults suit household scenes."""
 
-    friction: float = 0.2
+    friction: float = SETTLING_FRICTION
     """Coefficient of every contact [-], well below what exports carry."""
     time_step: float = 0.03
     """[s]"""

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.asset import VisualMesh
 from pat3d.errors import SpecError
-from pat3d.scene import Pose
+from pat3d.scene.asset import VisualMesh
+from pat3d.scene.model import Pose
 from pat3d.view import light
 from pat3d.view.camera import Camera, frame
 from pat3d.view.denoise import smooth

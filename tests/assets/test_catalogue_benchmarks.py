@@ -7,8 +7,8 @@ import pytest
 import trimesh
 
 from pat3d.assets.catalogue import find, make, registry
-from pat3d.plan.grammar import GrammarPlanner
-from pat3d.plan.vocabulary import Nouns
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.grammar.vocabulary import Nouns
 
 # Sizes [mm], smallest first, and mass [g] as Calli et al. 2015 publish them for the YCB set.
 YCB = {

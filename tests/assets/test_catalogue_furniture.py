@@ -7,11 +7,11 @@ import pytest
 import trimesh
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.asset import Asset
 from pat3d.assets.catalogue import entries, find, make
 from pat3d.assets.catalogue.joinery import padded, resting_ball, wrapped
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import convex
+from pat3d.scene.asset import Asset
 
 FAMILIES = ("appliances", "basics", "desk", "electronics", "furniture", "room", "storage", "tools")
 NOUNS = [made.noun for made in entries() if made.family in FAMILIES]

@@ -9,10 +9,10 @@ import pytest
 import trimesh
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.asset import Asset
 from pat3d.assets.catalogue import entries, find, make
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import SMOOTH_SEGMENTS
+from pat3d.scene.asset import Asset
 
 FAMILIES = ("bathroom", "decor", "food", "grocery", "household", "kitchen", "laboratory", "tableware")
 NOUNS = [entry.noun for entry in entries() if entry.family in FAMILIES]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pat3d.assets.cover import TOLERANCE, cover, outside, surface_patches, surface_points
+from pat3d.assets.mesh.cover import TOLERANCE, cover, outside, surface_patches, surface_points
 
 LEFT = np.array([[x, y, z] for x in (0.0, 0.09) for y in (0.0, 0.1) for z in (0.0, 0.1)])
 RIGHT = LEFT + [0.11, 0.0, 0.0]

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import trimesh
 
-from pat3d.assets import coacd_worker
-from pat3d.assets import decompose as module
-from pat3d.assets.cache import cache_root, load_points
-from pat3d.assets.cover import outside
-from pat3d.assets.decompose import decompose
-from pat3d.assets.hull import convex_part
+from pat3d.assets.mesh import coacd_worker
+from pat3d.assets.mesh import decompose as module
+from pat3d.assets.mesh.cover import outside
+from pat3d.assets.mesh.decompose import decompose
 from pat3d.errors import AssetError
+from pat3d.geometry.hulls import convex_part
+from pat3d.scene.cache import cache_root, load_points
 
 
 @pytest.fixture(scope="module")

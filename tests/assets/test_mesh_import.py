@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from PIL import Image
 
-from pat3d.assets import mesh_load
-from pat3d.assets.cover import outside, surface_points
-from pat3d.assets.mesh_import import import_mesh
-from pat3d.assets.repair import repair
-from pat3d.assets.topology import signed_volume
+from pat3d.assets.mesh import load as mesh_load
+from pat3d.assets.mesh.cover import outside, surface_points
+from pat3d.assets.mesh.importing import import_mesh
+from pat3d.assets.mesh.repair import repair
+from pat3d.assets.mesh.topology import signed_volume
 from pat3d.errors import AssetError
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pat3d.assets import shapes
-from pat3d.assets.cover import outside
-from pat3d.assets.hull import convex_part
-from pat3d.assets.regions import cavity, find_regions, height_map, mesh_height_map
+from pat3d.assets.mesh.cover import outside
+from pat3d.assets.mesh.regions import cavity, find_regions, height_map, mesh_height_map
+from pat3d.geometry.hulls import convex_part
 
 
 def _parts(*pieces):

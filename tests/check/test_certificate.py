@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pat3d.assets.asset import Material
 from pat3d.assets.shapes import box, cylinder, vessel
 from pat3d.check.balance import SHARPNESS
 from pat3d.check.certificate import (
@@ -19,7 +18,8 @@ from pat3d.check.certificate import (
     steadiness,
 )
 from pat3d.errors import CheckError
-from pat3d.scene import Attachment, Pose
+from pat3d.scene.asset import Material
+from pat3d.scene.model import Attachment, Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

@@ -16,11 +16,11 @@ from pat3d.check.engines.process import DRIVERS, ScriptEngine, read_run
 from pat3d.check.engines.protocol import Absent, EngineRun, Failed
 from pat3d.check.engines.registry import ENGINES, GROUPS, chosen
 from pat3d.check.settle import SettleReport, settle_in_mujoco
-from pat3d.cli import main
+from pat3d.cli.main import main
 from pat3d.errors import CheckError, SpecError
-from pat3d.exporters.mjcf import FOR_MUJOCO_3_3, SCENE, write_mjcf
-from pat3d.scene import Pose
-from pat3d.scene_io import save_scene
+from pat3d.exporters.mjcf.writer import FOR_MUJOCO_3_3, SCENE, write_mjcf
+from pat3d.scene.io import save_scene
+from pat3d.scene.model import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 MUJOCO = chosen(["mujoco"])[0]

@@ -25,7 +25,7 @@ def env():
 @pytest.fixture(scope="session")
 def breakfast():
     """The shipped scene: a red mug, a green apple, a banana and a blue bowl on a wooden tray."""
-    from pat3d.envs.loading import default_scene
-    from pat3d.scene_io import load_scene
+    from pat3d.envs.physics.loading import default_scene
+    from pat3d.scene.io import load_scene
 
     return load_scene(default_scene())

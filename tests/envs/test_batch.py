@@ -21,10 +21,10 @@ from pat3d.envs.batch import physics as batch_physics  # noqa: E402
 from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
 from pat3d.envs.batch.physics import Room, in_single_precision, require_still  # noqa: E402
 from pat3d.envs.env import TabletopEnv  # noqa: E402
-from pat3d.envs.state import SimState  # noqa: E402
+from pat3d.envs.physics.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError  # noqa: E402
-from pat3d.pipeline import generate  # noqa: E402
+from pat3d.generation.pipeline import generate  # noqa: E402
 
 WORLDS = 3
 SINGLE = 1e-5
@@ -108,7 +108,7 @@ def test_single_precision_changes_contacts_and_nothing_else(env):
 
 def test_softer_contacts_hold_the_shipped_scene_in_double_precision_too(env):
     """Time constant 10 ms, impedance 0.99: bodies sink by g (1 - d) t^2 = 10 um, times what they carry."""
-    from pat3d.envs.simulation import Simulation
+    from pat3d.envs.physics.simulation import Simulation
 
     world = env.simulation.world
     simulation = Simulation(replace(world, model=in_single_precision(world.model)), "osc", 20.0, sleep=False)

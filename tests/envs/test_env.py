@@ -16,8 +16,8 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 import pat3d  # noqa: E402, F401
 from pat3d.envs.env import TabletopEnv  # noqa: E402
-from pat3d.envs.loading import default_scene, load  # noqa: E402
-from pat3d.envs.scripted import ScriptedPick  # noqa: E402
+from pat3d.envs.grasping.scripted import ScriptedPick  # noqa: E402
+from pat3d.envs.physics.loading import default_scene, load  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, TaskError  # noqa: E402
 
 
@@ -275,7 +275,7 @@ def test_another_scene_can_be_entered_at_reset(env, tmp_path, breakfast):
     """The shipped scene without its bowl: one object fewer, the rows beyond it are zero."""
     from dataclasses import replace
 
-    from pat3d.scene_io import save_scene
+    from pat3d.scene.io import save_scene
 
     fewer = replace(
         breakfast,

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from pat3d.assets.asset import Asset, MassProperties, Material, Region, VisualMesh
-from pat3d.assets.hull import convex_part
-from pat3d.envs.grasp import find_grasps, narrowest
-from pat3d.envs.robots import Gripper
-from pat3d.scene import Pose, Scene, SceneObject
+from pat3d.envs.grasping.grasp import find_grasps, narrowest
+from pat3d.envs.robots.arms import Gripper
+from pat3d.geometry.hulls import convex_part
+from pat3d.scene.asset import Asset, MassProperties, Material, Region, VisualMesh
+from pat3d.scene.model import Pose, Scene, SceneObject
 
 GRIPPER = Gripper(
     opening=0.08, closed=0.0, finger_thickness=0.015, finger_width=0.02, tip=0.01, palm=0.045, hand=(0.2, 0.06),
@@ -79,7 +79,7 @@ def test_a_sheet_too_low_for_the_pads_is_no_grasp(height, found):
 
 def test_a_sheet_is_refused_for_its_height_and_a_block_for_its_width():
     pytest.importorskip("robosuite")
-    from pat3d.envs.placement import Needs, place
+    from pat3d.envs.grasping.placement import Needs, place
     from pat3d.errors import TaskError
 
     for size, said in (((0.05, 0.05, 0.004), "is 4 mm high"), ((0.1, 0.12, 0.1), "100 mm wide")):
@@ -101,7 +101,7 @@ def test_the_narrowest_width_of_a_turned_bar_is_its_thickness():
 
 def test_inverse_kinematics_reaches_what_forward_kinematics_left():
     pytest.importorskip("robosuite")
-    from pat3d.envs.kinematics import ArmKinematics
+    from pat3d.envs.robots.kinematics import ArmKinematics
 
     arm, random = ArmKinematics("Panda"), np.random.default_rng(0)
     solved = 0

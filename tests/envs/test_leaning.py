@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pat3d.assets.asset import MassProperties
-from pat3d.assets.hull import convex_part
-from pat3d.envs.grasp import find_grasps, leaning
-from pat3d.envs.leaning import LEANING_PAYLOAD, LEANS, find_leaning_grasps
+from pat3d.envs.grasping.grasp import find_grasps, leaning
+from pat3d.envs.grasping.leaning import LEANING_PAYLOAD, LEANS, find_leaning_grasps
 from pat3d.errors import TaskError
-from pat3d.scene import Scene, SceneObject
+from pat3d.geometry.hulls import convex_part
+from pat3d.scene.asset import MassProperties
+from pat3d.scene.model import Scene, SceneObject
 from tests.envs.test_grasp import GRIPPER, bar
 
 
@@ -77,7 +77,7 @@ def test_leaning_is_a_rotation_towards_the_heading():
 
 def test_what_is_only_picked_up_may_be_taken_from_the_side_and_what_is_heavy_not():
     pytest.importorskip("robosuite")
-    from pat3d.envs.placement import Needs, place
+    from pat3d.envs.grasping.placement import Needs, place
 
     grasps = place(Scene(objects=(mushroom(),)), "Panda", Needs(grasp=("mushroom",))).grasps["mushroom"]
     assert all(one.lean for one in grasps)
@@ -91,7 +91,7 @@ def test_what_is_only_picked_up_may_be_taken_from_the_side_and_what_is_heavy_not
 
 
 def test_the_way_of_the_hand_is_continuous_and_ends_where_it_should(env):
-    from pat3d.envs.hand_path import HandPath
+    from pat3d.envs.grasping.hand_path import HandPath
 
     env.reset(seed=0)
     state = env.simulation.state
@@ -109,12 +109,12 @@ def test_the_scripted_policy_takes_a_bouquet_by_its_stems(tmp_path):
     """Its flowers are wider than the gripper opens, and cover the stems from above."""
     pytest.importorskip("robosuite")
     from pat3d.assets.catalogue.registry import make
-    from pat3d.policies_eval.episodes import Setting, episodes_of
-    from pat3d.policies_eval.rollout import Runner
-    from pat3d.policies_eval.scripted import ScriptedPolicy
-    from pat3d.policies_eval.settings import RolloutSettings
-    from pat3d.scene import Pose
-    from pat3d.scene_io import save_scene
+    from pat3d.policies_eval.policies.scripted import ScriptedPolicy
+    from pat3d.policies_eval.run.episodes import Setting, episodes_of
+    from pat3d.policies_eval.run.rollout import Runner
+    from pat3d.policies_eval.run.settings import RolloutSettings
+    from pat3d.scene.io import save_scene
+    from pat3d.scene.model import Pose
 
     pose = Pose.from_yaw(0.0, (0.0, 0.0, 0.0))
     bouquet = SceneObject(name="bouquet", asset=make("bouquet"), pose=pose, initial_pose=pose)

@@ -7,9 +7,9 @@ import shutil
 import numpy as np
 import pytest
 
-from pat3d.envs.loading import default_scene, load
+from pat3d.envs.physics.loading import default_scene, load
 from pat3d.errors import SpecError, UnsettledSceneError
-from pat3d.exporters.mjcf import write_mjcf
+from pat3d.exporters.mjcf.writer import write_mjcf
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def test_the_shipped_scene_is_small_and_whole():
 @pytest.mark.slow
 def test_the_shipped_scene_is_what_its_sentence_and_seed_give_today(tmp_path, breakfast):
     """Generated anew it has the same objects in the same places; a change here asks for a new shipped scene."""
-    from pat3d.pipeline import generate
+    from pat3d.generation.pipeline import generate
 
     fresh = generate(breakfast.prompt, out=tmp_path / "fresh", seed=breakfast.seed)
     assert [obj.name for obj in fresh.objects] == [obj.name for obj in breakfast.objects]
@@ -57,7 +57,7 @@ def test_a_scene_without_an_export_is_exported_once_into_the_cache(cache):
 
 def test_processes_that_export_the_same_scene_at_once_do_not_take_each_other_s_files(cache, monkeypatch):
     """While one writes, another is done and reads: its files stay."""
-    from pat3d.exporters import mjcf
+    from pat3d.exporters.mjcf import writer as mjcf
 
     write, before = mjcf.write_mjcf, []
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pat3d.assets.hull import convex_part
-from pat3d.envs.grasp import STEADY, find_grasps, torque
-from pat3d.envs.kinematics import ArmKinematics
+from pat3d.envs.grasping.grasp import STEADY, find_grasps, torque
+from pat3d.envs.robots.kinematics import ArmKinematics
 from pat3d.errors import TaskError
-from pat3d.scene import Relation, Scene, SceneObject
+from pat3d.geometry.hulls import convex_part
+from pat3d.scene.model import Relation, Scene, SceneObject
 from tests.envs.test_grasp import GRIPPER, bar
 
 pytest.importorskip("robosuite")
@@ -33,9 +33,9 @@ def tower(*names: str) -> Scene:
 
 def rehearsed(scene: Scene, task: str, folder):
     """The placement of a Panda that can do a task in a scene as it stands."""
-    from pat3d.envs.rehearsal import rehearse
     from pat3d.envs.tasks.registry import parse_task
-    from pat3d.exporters.mjcf import write_mjcf
+    from pat3d.envs.tasks.rehearsal import rehearse
+    from pat3d.exporters.mjcf.writer import write_mjcf
 
     return rehearse(scene, write_mjcf(scene, folder / "mjcf"), parse_task(task), "Panda")
 
@@ -69,7 +69,7 @@ def test_torque_is_weight_times_the_distance_of_the_grasp():
 
 
 def test_what_stands_on_another_is_taken_first_and_no_longer_in_the_way():
-    from pat3d.envs.taking import grasps_of
+    from pat3d.envs.grasping.taking import grasps_of
     from pat3d.envs.tasks.registry import parse_task
 
     scene = tower("bottom", "middle", "top")
@@ -82,7 +82,7 @@ def test_what_stands_on_another_is_taken_first_and_no_longer_in_the_way():
 
 def test_a_wall_that_stays_still_refuses_what_is_cleared_of_everything_else():
     """Nothing but what is taken goes away."""
-    from pat3d.envs.taking import grasps_of
+    from pat3d.envs.grasping.taking import grasps_of
 
     walls = tuple(
         bar(f"wall {x} {y}", (0.02, 0.2, 0.2) if x else (0.2, 0.02, 0.2), (0.04 * x, 0.04 * y))
@@ -95,8 +95,8 @@ def test_a_wall_that_stays_still_refuses_what_is_cleared_of_everything_else():
 
 
 def test_what_can_only_be_held_far_from_its_middle_is_picked_up_and_not_put_anywhere():
-    from pat3d.assets.asset import MassProperties
-    from pat3d.envs.taking import grasps_of
+    from pat3d.envs.grasping.taking import grasps_of
+    from pat3d.scene.asset import MassProperties
 
     made = bar("beam", (0.5, 0.04, 0.05))
     heavy = MassProperties(
@@ -112,7 +112,7 @@ def test_what_can_only_be_held_far_from_its_middle_is_picked_up_and_not_put_anyw
 
 def test_the_posture_of_the_arm_is_the_one_its_controller_settles_in(env):
     """Held at a pose for three seconds, the arm has the joint positions that inverse kinematics says."""
-    from pat3d.envs.scripted import Servo
+    from pat3d.envs.grasping.scripted import Servo
 
     env.reset(seed=0)
     state, arm = env.simulation.state, ArmKinematics(env.robot)
@@ -142,9 +142,9 @@ def test_a_plan_names_what_is_in_its_way(tmp_path):
     post = bar("post", (0.07, 0.07, 0.3))
     pose = replace(post.pose, position=(0.3, 0.0, 0.03))
     full = box_on(free, replace(post, pose=pose, initial_pose=pose), "base")
-    from pat3d.envs.rehearsal import rehearse
     from pat3d.envs.tasks.registry import parse_task
-    from pat3d.exporters.mjcf import write_mjcf
+    from pat3d.envs.tasks.rehearsal import rehearse
+    from pat3d.exporters.mjcf.writer import write_mjcf
 
     with pytest.raises(TaskError, match=r'no way to move "cube".*"post"'):
         rehearse(full, write_mjcf(full, tmp_path / "full"), parse_task("stack:cube:base"), "Panda")
@@ -155,7 +155,7 @@ def test_a_rehearsal_goes_through_all_moves_of_a_task(tmp_path):
 
 
 def test_what_is_put_down_goes_to_a_spot_that_is_free(env):
-    from pat3d.envs.spots import FREE_GAP, free_spots
+    from pat3d.envs.grasping.spots import FREE_GAP, free_spots
 
     env.reset(seed=0, options={"task": "unload:wooden tray"})
     (low, high), state = env.placement.bench, env.simulation.state

@@ -13,11 +13,11 @@ pytest.importorskip("gymnasium")
 import mujoco
 from scipy.spatial.transform import Rotation
 
-from pat3d.envs import predicates
 from pat3d.envs.observations import Observer
-from pat3d.envs.predicates import CONTACT_DEPTH, OWNERS, UPRIGHT_DEGREES, pairs_that, upsets
-from pat3d.envs.snapshot import REGION_MARGIN, Snapshot, floors
-from pat3d.envs.state import SimState, States
+from pat3d.envs.physics import predicates
+from pat3d.envs.physics.predicates import CONTACT_DEPTH, OWNERS, UPRIGHT_DEGREES, pairs_that, upsets
+from pat3d.envs.physics.snapshot import REGION_MARGIN, Snapshot, floors
+from pat3d.envs.physics.state import SimState, States
 from pat3d.envs.tasks.judges import SortJudge
 from pat3d.envs.tasks.registry import parse_task
 

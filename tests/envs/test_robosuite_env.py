@@ -11,7 +11,7 @@ robosuite = pytest.importorskip("robosuite")
 import mujoco  # noqa: E402
 
 import pat3d.envs.robosuite_env  # noqa: E402, F401
-from pat3d.envs.loading import load  # noqa: E402
+from pat3d.envs.physics.loading import load  # noqa: E402
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
-from pat3d.cli import main  # noqa: E402
+from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder  # noqa: E402
 from pat3d.envs.suites.generate import generate  # noqa: E402

@@ -14,8 +14,7 @@ import pytest
 
 pytest.importorskip("robosuite")
 
-from pat3d.attempts import Attempts
-from pat3d.cli import main
+from pat3d.cli.main import main
 from pat3d.envs.suites.block import make_block
 from pat3d.envs.suites.check import check_suite
 from pat3d.envs.suites.crew import Crew
@@ -24,8 +23,9 @@ from pat3d.envs.suites.generate import generate
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.suite import Suite
 from pat3d.errors import SpecError, SuiteError
-from pat3d.kernels import quiet_warp
-from pat3d.scene_io import load_scene
+from pat3d.generation.attempts import Attempts
+from pat3d.scene.io import load_scene
+from pat3d.sim.compilation import quiet_warp
 from tests.envs.suites import SMALL, files_of
 
 REQUEST = replace(SMALL, picture=0)

@@ -15,7 +15,7 @@ from pat3d.envs.suites.request import SPLITS, TASKS, Request, check_split, in_sp
 from pat3d.envs.tasks.registry import TASKS as JUDGED
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.errors import SuiteError
-from pat3d.plan.grammar import GrammarPlanner
+from pat3d.plan.grammar.planner import GrammarPlanner
 
 REQUEST = Request(tasks=TASKS, scenes=300)
 

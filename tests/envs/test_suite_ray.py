@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("robosuite")
 
-from pat3d.cli import main
+from pat3d.cli.main import main
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.generate import generate
 from pat3d.errors import SuiteError

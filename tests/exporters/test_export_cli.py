@@ -8,9 +8,9 @@ from PIL import Image
 
 from pat3d.assets.catalogue import make
 from pat3d.check.drop import ground_drop
-from pat3d.cli import main
-from pat3d.exporters.mjcf import write_mjcf
-from pat3d.scene_io import load_scene, save_scene
+from pat3d.cli.main import main
+from pat3d.exporters.mjcf.writer import write_mjcf
+from pat3d.scene.io import load_scene, save_scene
 from tests.exporters.things import mixed_scene
 from tests.scenes import placed, scene_of
 
@@ -58,7 +58,7 @@ def test_wrong_arguments_are_refused_before_anything_is_written(folder, tmp_path
 
 
 def test_usd_without_its_package_names_the_extra(folder, tmp_path, capfd, monkeypatch):
-    monkeypatch.setattr("pat3d.exporters.exporting.find_spec", lambda name: None)
+    monkeypatch.setattr("pat3d.exporters.formats.find_spec", lambda name: None)
     assert main(["export", str(folder), "--formats", "usd", "--out", str(tmp_path / "out")]) == 2
     assert "pip install 'pat3d[usd]'" in capfd.readouterr().err
 

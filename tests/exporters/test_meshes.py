@@ -2,7 +2,7 @@ import numpy as np
 import trimesh
 
 from pat3d.assets.shapes import box, cylinder
-from pat3d.exporters.meshes import corner_normals, write_visual
+from pat3d.scene.obj_files import corner_normals, write_visual
 from tests.scenes import asset_of
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from pat3d.errors import ExportError
 from pat3d.exporters import parity
-from pat3d.exporters.sdf import write_sdf
-from pat3d.scene import Attachment
+from pat3d.exporters.sdf.writer import write_sdf
+from pat3d.scene.model import Attachment
 from tests.exporters.things import hung_bar, mixed_scene
 
 

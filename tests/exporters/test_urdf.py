@@ -8,13 +8,13 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from pat3d.assets.asset import Material
 from pat3d.assets.shapes import box, convex, join
 from pat3d.errors import ExportError
 from pat3d.exporters import parity
-from pat3d.exporters.meshes import read_obj
-from pat3d.exporters.mjcf import body_names
-from pat3d.exporters.urdf import write_urdf
+from pat3d.exporters.mjcf.writer import body_names
+from pat3d.exporters.urdf.writer import write_urdf
+from pat3d.scene.asset import Material
+from pat3d.scene.obj_files import read_obj
 from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
@@ -93,7 +93,7 @@ def test_pybullet_has_the_masses_the_inertias_and_the_poses(scene, folder):
 
 def test_pybullet_holds_the_scene_still(tmp_path):
     pybullet = pytest.importorskip("pybullet")
-    from pat3d.exporters.load_pybullet import load_pybullet
+    from pat3d.exporters.urdf.load_pybullet import load_pybullet
 
     client = pybullet.connect(pybullet.DIRECT)
     try:
@@ -112,7 +112,7 @@ def test_pybullet_holds_the_scene_still(tmp_path):
 def test_pybullet_holds_a_saddle_on_a_roof_that_it_would_roll_off_without_friction(tmp_path):
     """At PyBullet's own solver threshold it moves by half a millimetre in 5 s; the gaps are 0.02 mm."""
     pybullet = pytest.importorskip("pybullet")
-    from pat3d.exporters.load_pybullet import load_pybullet
+    from pat3d.exporters.urdf.load_pybullet import load_pybullet
 
     rise = math.tan(math.radians(30))
     roof = convex([(x, y, z) for x in (-0.1, 0.1) for y, z in ((-0.05, 0), (0.05, 0), (0, 0.05 * rise))])
@@ -136,7 +136,7 @@ def test_pybullet_holds_a_saddle_on_a_roof_that_it_would_roll_off_without_fricti
 
 def test_pybullet_lets_a_hung_bar_hang(tmp_path):
     pybullet = pytest.importorskip("pybullet")
-    from pat3d.exporters.load_pybullet import load_pybullet
+    from pat3d.exporters.urdf.load_pybullet import load_pybullet
 
     client = pybullet.connect(pybullet.DIRECT)
     try:

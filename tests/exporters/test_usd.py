@@ -10,14 +10,14 @@ from scipy.spatial.transform import Rotation
 pytest.importorskip("pxr")
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
-from pat3d.assets.asset import Asset, VisualMesh
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, join, vessel
 from pat3d.errors import ExportError
-from pat3d.exporters.mjcf import body_names
-from pat3d.exporters.usd import write_usd, write_usd_asset
-from pat3d.exporters.usd_read import read_usd
-from pat3d.scene import Attachment, Pose
+from pat3d.exporters.mjcf.writer import body_names
+from pat3d.exporters.usd.reader import read_usd
+from pat3d.exporters.usd.writer import write_usd, write_usd_asset
+from pat3d.scene.asset import Asset, VisualMesh
+from pat3d.scene.model import Attachment, Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

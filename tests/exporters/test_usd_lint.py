@@ -7,9 +7,9 @@ pytest.importorskip("pxr")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
 from pat3d.assets.shapes import box, cylinder, vessel
-from pat3d.exporters.usd import write_usd, write_usd_asset
-from pat3d.exporters.usd_lint import RULES, lint_usd
-from pat3d.scene import Attachment
+from pat3d.exporters.usd.lint.rules import RULES, lint_usd
+from pat3d.exporters.usd.writer import write_usd, write_usd_asset
+from pat3d.scene.model import Attachment
 from tests.scenes import GAP, asset_of, placed, scene_of
 
 CAN = "/World/can"

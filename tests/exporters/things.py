@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pat3d.assets.asset import Asset
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, join, vessel
-from pat3d.scene import Attachment, Pose, Scene
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Attachment, Pose, Scene
 from tests.scenes import GAP, asset_of, placed, scene_of
 
 

@@ -10,7 +10,7 @@ from pat3d.assets.catalogue import make
 from pat3d.errors import LayoutError, SpecError
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_relations, relation_holds
-from pat3d.scene import GROUND, LATERAL_KINDS, SUPPORT_KINDS, Pose, Relation
+from pat3d.scene.model import GROUND, LATERAL_KINDS, SUPPORT_KINDS, Pose, Relation
 from tests.layout.things import (
     asset,
     ball,

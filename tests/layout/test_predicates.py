@@ -5,7 +5,7 @@ import pytest
 
 from pat3d.errors import SpecError
 from pat3d.layout.predicates import check_relations, polygon_gap, relation_holds
-from pat3d.scene import GROUND, Attachment, Pose, Relation
+from pat3d.scene.model import GROUND, Attachment, Pose, Relation
 from tests.layout.things import ball, block, table, tree_with_branch, vessel
 
 ASSETS = {

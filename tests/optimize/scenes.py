@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pat3d.assets.asset import Asset
-from pat3d.scene import Pose, Relation
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Pose, Relation
 from tests.layout.things import block
 
 

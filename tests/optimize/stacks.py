@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from pat3d.assets import shapes
-from pat3d.assets.asset import Asset
-from pat3d.scene import Pose, Relation
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Pose, Relation
 from tests.layout.things import asset
 
 

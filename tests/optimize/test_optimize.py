@@ -18,7 +18,7 @@ from pat3d.optimize.placement import Placement
 from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
 from pat3d.optimize.steady import deepest
-from pat3d.scene import Pose, Relation
+from pat3d.scene.model import Pose, Relation
 from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
 from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
 from tests.optimize.scenes import on, overhanging

@@ -5,7 +5,7 @@ import pytest
 from pat3d.assets import catalogue
 from pat3d.errors import PromptError
 from pat3d.plan.describe import describe
-from pat3d.plan.grammar import GrammarPlanner
+from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
 from tests.plan.prompts import PROMPTS, Expected
 from tests.plan.tabletop_prompts import TABLETOP_PROMPTS

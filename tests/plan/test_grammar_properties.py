@@ -4,10 +4,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from pat3d.errors import PromptError
-from pat3d.plan import lexicon
 from pat3d.plan.describe import describe
-from pat3d.plan.grammar import GrammarPlanner
-from pat3d.plan.links import LINKS, SIDES
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import LINKS, SIDES
+from pat3d.plan.grammar.planner import GrammarPlanner
 from tests.plan.vocabulary import NOUNS, Table
 
 PLANNER = GrammarPlanner(vocabulary=Table())

@@ -3,8 +3,8 @@
 import pytest
 
 from pat3d.errors import PromptError
-from pat3d.gather import gather_plan
-from pat3d.plan.grammar import GrammarPlanner
+from pat3d.generation.request import gather_plan
+from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import Extent, PlannedObject
 from pat3d.progress import silent
 from tests.plan.vocabulary import Table

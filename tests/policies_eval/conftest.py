@@ -14,8 +14,8 @@ def runner():
     """Runs episodes of at most 100 steps on the shipped scene."""
     pytest.importorskip("robosuite")
     pytest.importorskip("gymnasium")
-    from pat3d.policies_eval.rollout import Runner
-    from pat3d.policies_eval.settings import RolloutSettings
+    from pat3d.policies_eval.run.rollout import Runner
+    from pat3d.policies_eval.run.settings import RolloutSettings
 
     made = Runner(RolloutSettings(max_steps=100, act_seconds=2.0))
     yield made
@@ -25,6 +25,6 @@ def runner():
 @pytest.fixture(scope="session")
 def episode():
     """Picking the red mug."""
-    from pat3d.policies_eval.episodes import Episode
+    from pat3d.policies_eval.run.episodes import Episode
 
     return Episode(index=0, scene="", task="pick:red mug", seed=11)

@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 torch = pytest.importorskip("torch")
 
 from pat3d.errors import EvaluationError  # noqa: E402
-from pat3d.policies_eval.cloning import FEATURES, ClonedPolicy, features, load, make_network, save  # noqa: E402
-from pat3d.policies_eval.demonstrations import Demonstration, demonstrate  # noqa: E402
-from pat3d.policies_eval.episodes import Episode  # noqa: E402
-from pat3d.policies_eval.settings import RolloutSettings  # noqa: E402
-from pat3d.policies_eval.train import fit  # noqa: E402
+from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstrate  # noqa: E402
+from pat3d.policies_eval.policies.cloning import FEATURES, ClonedPolicy, features, load, make_network, save  # noqa: E402
+from pat3d.policies_eval.policies.train import fit  # noqa: E402
+from pat3d.policies_eval.run.episodes import Episode  # noqa: E402
+from pat3d.policies_eval.run.settings import RolloutSettings  # noqa: E402
 
 
 def observation(random, turn=None, shift=(0.0, 0.0, 0.0)):
@@ -102,7 +102,7 @@ def test_a_checkpoint_that_does_not_fit_is_an_error(tmp_path, change):
 def test_demonstrations_keep_the_answer_and_not_the_push(tmp_path):
     pytest.importorskip("robosuite")
     h5py = pytest.importorskip("h5py")
-    from pat3d.policies_eval.robomimic_file import write_robomimic
+    from pat3d.policies_eval.datasets.robomimic import write_robomimic
 
     episode = Episode(index=0, scene="", task="pick:red mug", seed=3)
     shown = demonstrate([episode], noise=0.2, settings=RolloutSettings(max_steps=200))[0]

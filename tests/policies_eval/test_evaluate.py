@@ -13,18 +13,18 @@ import pytest
 pytest.importorskip("pyarrow")
 pytest.importorskip("robosuite")
 
-from pat3d.cli import main
+from pat3d.cli.main import main
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval import evaluate as module
-from pat3d.policies_eval import records as records_module
-from pat3d.policies_eval.compare import compare_evaluations, show_leaderboard, verdict
-from pat3d.policies_eval.episodes import Setting, episodes_of
-from pat3d.policies_eval.evaluate import evaluate, next_episode
-from pat3d.policies_eval.policies import RandomPolicy
-from pat3d.policies_eval.records import read_evaluation
-from pat3d.policies_eval.report import write_report
-from pat3d.policies_eval.settings import RolloutSettings
-from pat3d.policies_eval.summary import summarise
+from pat3d.policies_eval.analysis.compare import compare_evaluations, show_leaderboard, verdict
+from pat3d.policies_eval.analysis.report import write_report
+from pat3d.policies_eval.analysis.summary import summarise
+from pat3d.policies_eval.policies.registry import RandomPolicy
+from pat3d.policies_eval.run import evaluate as module
+from pat3d.policies_eval.run import records as records_module
+from pat3d.policies_eval.run.episodes import Setting, episodes_of
+from pat3d.policies_eval.run.evaluate import evaluate, next_episode
+from pat3d.policies_eval.run.records import read_evaluation
+from pat3d.policies_eval.run.settings import RolloutSettings
 
 SHORT = RolloutSettings(max_steps=8, act_seconds=1.0)
 EPISODES = episodes_of([Setting(scene="", task="pick:red mug")], 4)
@@ -138,7 +138,7 @@ def test_comparison_pairs_episodes_and_refuses_what_cannot_be_compared(done, tmp
 
 
 def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
-    from pat3d.console import console
+    from pat3d.cli.console import console
 
     other = read_evaluation(done.folder)
     other.manifest["engine"]["mujoco"] = "2.0.0"

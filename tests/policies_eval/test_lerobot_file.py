@@ -12,12 +12,12 @@ pa = pytest.importorskip("pyarrow")
 import pyarrow.parquet as pq  # noqa: E402
 
 from pat3d.errors import EvaluationError  # noqa: E402
-from pat3d.policies_eval import lerobot_file  # noqa: E402
-from pat3d.policies_eval.demonstration_files import write_demonstrations  # noqa: E402
-from pat3d.policies_eval.demonstrations import Demonstration  # noqa: E402
-from pat3d.policies_eval.episodes import Episode  # noqa: E402
-from pat3d.policies_eval.lerobot_file import write_lerobot  # noqa: E402
-from pat3d.policies_eval.settings import RolloutSettings  # noqa: E402
+from pat3d.policies_eval.datasets import lerobot as lerobot_file  # noqa: E402
+from pat3d.policies_eval.datasets.demonstrations import Demonstration  # noqa: E402
+from pat3d.policies_eval.datasets.files import write_demonstrations  # noqa: E402
+from pat3d.policies_eval.datasets.lerobot import write_lerobot  # noqa: E402
+from pat3d.policies_eval.run.episodes import Episode  # noqa: E402
+from pat3d.policies_eval.run.settings import RolloutSettings  # noqa: E402
 
 LENGTHS = (5, 8, 3)
 WORDS = ("pick up the mug", "please pick up the mug", "pick up the mug")
@@ -200,7 +200,7 @@ def test_the_name_decides_the_format(tmp_path, shown):
 
 def test_the_command_writes_what_the_scripted_policy_did(tmp_path, capsys):
     pytest.importorskip("robosuite")
-    from pat3d.cli import main
+    from pat3d.cli.main import main
 
     arguments = ["demonstrate", "--episodes", "2", "--noise", "0", "--max-steps", "150", "--out", str(tmp_path / "set")]
     assert main(arguments) == 0

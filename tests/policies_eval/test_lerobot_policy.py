@@ -14,12 +14,12 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from pat3d.errors import EvaluationError  # noqa: E402
-from pat3d.policies_eval.episodes import Episode  # noqa: E402
-from pat3d.policies_eval.evaluate import evaluate  # noqa: E402
-from pat3d.policies_eval.lerobot_policy import LeRobotPolicy  # noqa: E402
-from pat3d.policies_eval.policies import identity, make_policy  # noqa: E402
-from pat3d.policies_eval.policy import EpisodeStart  # noqa: E402
-from pat3d.policies_eval.settings import RolloutSettings  # noqa: E402
+from pat3d.policies_eval.policies.lerobot import LeRobotPolicy  # noqa: E402
+from pat3d.policies_eval.policies.policy import EpisodeStart  # noqa: E402
+from pat3d.policies_eval.policies.registry import identity, make_policy  # noqa: E402
+from pat3d.policies_eval.run.episodes import Episode  # noqa: E402
+from pat3d.policies_eval.run.evaluate import evaluate  # noqa: E402
+from pat3d.policies_eval.run.settings import RolloutSettings  # noqa: E402
 
 
 class Pipeline:

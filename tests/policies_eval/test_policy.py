@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.policies import make_policy
-from pat3d.policies_eval.policy import Policy, PolicyError, checked
+from pat3d.policies_eval.policies.policy import Policy, PolicyError, checked
+from pat3d.policies_eval.policies.registry import make_policy
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from pat3d.errors import EvaluationError, TaskError
-from pat3d.policies_eval.episodes import Episode, Setting, episodes_of, settings_of
-from pat3d.policies_eval.perturb import Perturbation, parse, reworded
-from pat3d.policies_eval.policies import RandomPolicy
-from pat3d.policies_eval.scripted import ScriptedPolicy
+from pat3d.policies_eval.policies.registry import RandomPolicy
+from pat3d.policies_eval.policies.scripted import ScriptedPolicy
+from pat3d.policies_eval.run.episodes import Episode, Setting, episodes_of, settings_of
+from pat3d.policies_eval.run.perturb import Perturbation, parse, reworded
 
 MUG = Setting(scene="", task="pick:red mug")
 ALL = Perturbation(pose=0.03, friction=0.5, mass=0.5, camera=0.02, light=0.2)

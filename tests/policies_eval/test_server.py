@@ -15,10 +15,10 @@ pytest.importorskip("websockets")
 from websockets.sync.server import serve as raw_server
 
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval import wire
-from pat3d.policies_eval.policies import make_policy
-from pat3d.policies_eval.policy import PolicyError
-from pat3d.policies_eval.server import ServerPolicy, message_of, serve
+from pat3d.policies_eval.policies import wire
+from pat3d.policies_eval.policies.policy import PolicyError
+from pat3d.policies_eval.policies.registry import make_policy
+from pat3d.policies_eval.policies.server import ServerPolicy, message_of, serve
 
 OBSERVATION = {
     "eef_pos": np.arange(3, dtype=np.float32),
@@ -51,7 +51,7 @@ class Echo:
 
 
 def start(text="do it"):
-    from pat3d.policies_eval.policy import EpisodeStart
+    from pat3d.policies_eval.policies.policy import EpisodeStart
 
     return EpisodeStart(
         instruction=text, task="pick:a", seed=0, robot="Panda", control="osc", action_size=7, control_freq=20.0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.statistics import clopper_pearson, compare, episodes_needed, mcnemar, wilson
+from pat3d.policies_eval.analysis.statistics import clopper_pearson, compare, episodes_needed, mcnemar, wilson
 
 
 @given(st.integers(1, 400), st.data())

@@ -8,9 +8,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from pat3d.cli import main
+from pat3d.cli.main import main
 from pat3d.envs.suites import suite as suites
-from pat3d.policies_eval.suites import suite_settings
+from pat3d.policies_eval.run.suites import suite_settings
 
 
 def test_a_suite_gives_scenes_tasks_and_difficulty_of_a_split_and_checks_every_file(tmp_path, monkeypatch):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 msgpack = pytest.importorskip("msgpack")
 
-from pat3d.policies_eval import wire  # noqa: E402
+from pat3d.policies_eval.policies import wire  # noqa: E402
 
 
 @pytest.mark.parametrize("dtype", ["<f4", "<f8", "|u1", "<i8", "|b1", "<u2", "<f2"])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from pat3d.assets.hull import convex_part
-from pat3d.assets.mass import mass_properties
-from pat3d.scene import Pose
+from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.mass import mass_properties
+from pat3d.scene.model import Pose
 from pat3d.sim.model import ModelBuilder
 
 

@@ -9,7 +9,7 @@ import pytest
 import torch
 import warp as wp
 
-from pat3d.scene import Pose
+from pat3d.scene.model import Pose
 from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.recording import RecordedRun, Recording

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose
+from pat3d.scene.model import Pose
 from pat3d.sim.model import ATTACHMENT_STRETCH, Model, ModelBuilder, poses_from_states
 from pat3d.sim.rollouts import rollout
 from pat3d.sim.settling import SettleOptions, settle

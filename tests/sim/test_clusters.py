@@ -5,11 +5,11 @@ import pytest
 import trimesh
 import warp as wp
 
-from pat3d.assets.asset import ConvexPart
-from pat3d.assets.hull import convex_part
-from pat3d.assets.mass import mass_properties
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose
+from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.mass import mass_properties
+from pat3d.scene.asset import ConvexPart
+from pat3d.scene.model import Pose
 from pat3d.sim.contact import clusters
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.intersection import GROUND_BODY, intersecting_bodies

@@ -8,7 +8,7 @@ import pytest
 import warp as wp
 
 from pat3d.sim.contact.distance import EDGE_EDGE, PARALLEL, POINT_TRIANGLE
-from pat3d.sim.energies.contact import BarrierContact
+from pat3d.sim.terms.contact import BarrierContact
 
 D_HAT = 2e-2
 STIFFNESS = 3.0

@@ -7,7 +7,7 @@ import pytest
 import warp as wp
 
 from pat3d.errors import SimulationError
-from pat3d.scene import Pose
+from pat3d.scene.model import Pose
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import fractions, safe_step
 from pat3d.sim.failure import Status
@@ -84,8 +84,8 @@ def test_a_blocked_pair_of_bodies_is_named():
 
 
 def body(label: str) -> dict:
-    from pat3d.assets.hull import convex_part
-    from pat3d.assets.mass import mass_properties
+    from pat3d.geometry.hulls import convex_part
+    from pat3d.geometry.mass import mass_properties
 
     part = convex_part(box_points(0.1, 0.1, 0.1))
     properties = mass_properties(part.vertices, part.faces, density=500.0)

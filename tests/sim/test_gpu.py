@@ -51,7 +51,7 @@ def settle_repeatedly() -> None:
     """Print a digest and the seconds of runs on a GPU, two of each scene."""
     import hashlib
 
-    from pat3d.kernels import prepare
+    from pat3d.sim.compilation import prepare
 
     device = prepare("cuda", deterministic="deterministic" in sys.argv)
     for kind in KINDS:

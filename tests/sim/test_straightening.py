@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from pat3d.scene import Pose
+from pat3d.scene.model import Pose
 from pat3d.sim import straightening
 from pat3d.sim.model import ModelBuilder, poses_from_states
 from pat3d.sim.settling import SettleOptions, settle

@@ -3,8 +3,8 @@
 import numpy as np
 import trimesh
 
-from pat3d.assets.asset import Asset, ConvexPart, MassProperties, Material, VisualMesh
-from pat3d.scene import Pose, Scene, SceneObject
+from pat3d.scene.asset import Asset, ConvexPart, MassProperties, Material, VisualMesh
+from pat3d.scene.model import Pose, Scene, SceneObject
 
 
 def painted(mesh: trimesh.Trimesh, colour: tuple[int, int, int]) -> VisualMesh:

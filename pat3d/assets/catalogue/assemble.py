@@ -11,12 +11,12 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from pat3d.assets.asset import Asset, Material, Region, VisualMesh
 from pat3d.assets.catalogue.registry import RGB, Build
-from pat3d.assets.hull import convex_part
-from pat3d.assets.mass import mass_properties
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError
+from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.mass import mass_properties
+from pat3d.scene.asset import Asset, Material, Region, VisualMesh
 
 
 def assemble(noun: str, build: Build, *, material: Material, scale: float, provenance: Mapping[str, Any]) -> Asset:

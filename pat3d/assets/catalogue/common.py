@@ -9,10 +9,10 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import root_scalar
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import Style
 from pat3d.assets.rounded import clear_radius, unseen
 from pat3d.assets.shapes import Shape, box
+from pat3d.scene.asset import Region
 
 CREAM = (244, 236, 214)
 LEAF = (86, 134, 62)

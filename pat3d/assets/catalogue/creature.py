@@ -9,9 +9,9 @@ import manifold3d
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import RGB, Build, Style
 from pat3d.assets.shapes import Shape, ellipsoid, join
+from pat3d.scene.asset import Region
 
 DARK: RGB = (34, 30, 32)
 """Eyes, noses, tyres."""

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from scipy.spatial.transform import Rotation
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.registry import RGB, Style
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, frustum, join, soft_box, turned_solid
+from pat3d.scene.asset import Region
 
 Range = tuple[float, float]
 

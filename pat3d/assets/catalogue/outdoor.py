@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.creature import DARK, WHITE, finish, limb, tint
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
 from pat3d.assets.shapes import (
@@ -20,6 +19,7 @@ from pat3d.assets.shapes import (
     turned_solid,
     vessel,
 )
+from pat3d.scene.asset import Region
 
 SOIL: RGB = (74, 52, 38)
 STEEL: RGB = (176, 180, 186)

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pat3d.assets.asset import Asset, Region
 from pat3d.assets.colours import COLOURS, find_colour
 from pat3d.assets.materials import NATURAL_COLOURS
 from pat3d.assets.materials import material as find_material_entry
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError, PromptError
+from pat3d.scene.asset import Asset, Region
 
 RGB = tuple[int, int, int]
 

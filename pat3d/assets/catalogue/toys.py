@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.creature import DARK, WHITE, finish, limb, tint
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
 from pat3d.assets.shapes import (
@@ -24,6 +23,7 @@ from pat3d.assets.shapes import (
     tray,
     turned_solid,
 )
+from pat3d.scene.asset import Region
 
 GLASS: RGB = (150, 190, 212)
 

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from pat3d.assets.asset import Region
 from pat3d.assets.catalogue.creature import finish, limb, on_top, pair, tint
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.shapes import (
@@ -22,6 +21,7 @@ from pat3d.assets.shapes import (
     turned_solid,
     vessel,
 )
+from pat3d.scene.asset import Region
 
 HAT_SEGMENTS = 8
 

@@ -11,13 +11,11 @@ import numpy as np
 from pat3d.check.engines.protocol import Absent, Engine, EngineRun, Failed, Format
 from pat3d.check.settle import ObjectDrift, SettleReport
 from pat3d.errors import CheckError, ExportError
-from pat3d.exporters.exporting import export
-from pat3d.exporters.mjcf import body_names
+from pat3d.exporters.formats import export
+from pat3d.exporters.objects import body_names
 from pat3d.progress import Event, Progress, silent
-from pat3d.scene import Scene, SceneObject
-
-SECONDS = 5.0
-"""Simulated time [s]."""
+from pat3d.scene.model import Scene, SceneObject
+from pat3d.scene.physics import STILL_SECONDS
 
 TIMEOUT = 900.0
 """Wall time after which an engine is given up [s]."""
@@ -30,7 +28,7 @@ def check_engines(
     engines: Sequence[Engine],
     exports: Path | None = None,
     *,
-    seconds: float = SECONDS,
+    seconds: float = STILL_SECONDS,
     timeout: float = TIMEOUT,
     progress: Progress = silent,
 ) -> tuple[Verdict, ...]:

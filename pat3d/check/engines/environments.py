@@ -16,8 +16,8 @@ import tempfile
 import venv
 from pathlib import Path
 
-from pat3d.assets.cache import cache_root
 from pat3d.errors import CheckError
+from pat3d.scene.cache import cache_root
 
 PINS = Path(__file__).parent / "pins"
 NAMES = ("mujoco-oldest", "mujoco-newest", "newton", "pybullet", "drake", "physx")

@@ -1,0 +1,93 @@
+"""What a robot would touch in a posture: MuJoCo's own collision detection on a copy of the present state."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.physics.world import FLOOR, PREFIX, ROBOT, SUPPORT
+from pat3d.scene.model import GROUND
+
+Array = NDArray[np.float64]
+
+DEPTH = 0.002
+"""Overlaps up to this [m] count as none: inverse kinematics is as exact."""
+
+NOTICED = 0.008
+"""Things further apart than this [m] are clear of one another."""
+
+
+class Clearance:
+    """Asks about postures of the arm of one environment, among its objects as they are now.
+
+    Args:
+        env: a TabletopEnv after its reset.
+    """
+
+    def __init__(self, env: Any) -> None:
+        self._mujoco: Any = import_module("mujoco")
+        self._simulation, self._world = env.simulation, env.simulation.world
+        self._model = self._world.model
+        self._data = self._mujoco.MjData(self._model)
+        robot = self._world.robot
+        self._arm = self._addresses(robot.arm_joints)
+        self._fingers = self._addresses(robot.gripper_joints)
+        self._numbers = {obj.name: number for number, obj in enumerate(self._world.scene.objects)}
+        self._names = {number: name for name, number in self._numbers.items()} | {SUPPORT: GROUND, FLOOR: GROUND}
+
+    def _addresses(self, joints: tuple[str, ...]) -> NDArray[np.int64]:
+        return np.array([int(self._model.joint(PREFIX + name).qposadr[0]) for name in joints], dtype=np.int64)
+
+    def obstacle(self, joints: Array, fingers: Array, carried: str = "", shift: Array | None = None) -> str:
+        """Name of what the robot, or what it carries, would be in; nothing where it is free.
+
+        Args:
+            joints: of the arm [rad].
+            fingers: joint positions of the gripper.
+            carried: an object that the robot may be in; none by default.
+            shift: by which `carried` is moved from where it is [m], shape (3,); without one, the robot alone counts.
+        """
+        number = self._numbers.get(carried, ROBOT)
+        owners = self._overlaps(carried, shift, joints, fingers)
+        moved = (owners == ROBOT) | (owners == number if shift is not None else False)
+        # Of the two one moves along, and the other is none of the robot's.
+        own = (owners == ROBOT) | (owners == number)
+        met = owners[moved.any(axis=1) & ~own.all(axis=1)]
+        return "" if not len(met) else self._names[int(next(one for one in met[0] if one not in (ROBOT, number)))]
+
+    def fits(self, name: str, shift: Array) -> bool:
+        """Whether an object moved by `shift` [m] is in no other and not in the ground, the robot left out."""
+        owners = self._overlaps(name, shift)
+        return not ((owners == self._numbers[name]).any(axis=1) & (owners != ROBOT).all(axis=1)).any()
+
+    def room(self, joints: Array, fingers: Array, carried: str = "") -> float:
+        """How far the robot would be from all objects but `carried` [m], at most NOTICED; see `obstacle`."""
+        self._overlaps(carried, None, joints, fingers)
+        model, data, owner = self._model, self._data, self._world.owner
+        collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+        others = np.flatnonzero(collides & (owner >= 0) & (owner != self._numbers.get(carried, ROBOT)))
+        room = NOTICED
+        for geom in np.flatnonzero(collides & (owner == ROBOT)).tolist():
+            reach = model.geom_rbound[geom] + model.geom_rbound[others] + room
+            near = np.linalg.norm(data.geom_xpos[others] - data.geom_xpos[geom], axis=1) < reach
+            for other in others[near].tolist():
+                room = min(room, self._mujoco.mj_geomDistance(model, data, geom, other, room, None))
+        return room
+
+    def _overlaps(
+        self, carried: str, shift: Array | None, joints: Array | None = None, fingers: Array | None = None
+    ) -> NDArray[np.int64]:
+        """Whose the geoms of every pair are that overlap by more than DEPTH, shape (pairs, 2)."""
+        model, data, world = self._model, self._data, self._world
+        data.qpos[:] = self._simulation.data.qpos
+        if joints is not None:
+            data.qpos[self._arm], data.qpos[self._fingers] = joints, fingers
+        if shift is not None:
+            first = int(world.positions[world.objects.index(carried)])
+            data.qpos[first : first + 3] += shift
+        self._mujoco.mj_kinematics(model, data)
+        self._mujoco.mj_collision(model, data)
+        return world.owner[data.contact.geom[data.contact.dist < -DEPTH]]

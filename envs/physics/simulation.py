@@ -1,0 +1,118 @@
+"""The running simulation of one world: reset to the proven rest, control steps of a fixed length."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.physics.mujoco_state import MujocoState
+from pat3d.envs.physics.state import SimState
+from pat3d.envs.physics.world import PREFIX, ROBOT, World
+from pat3d.envs.robots.controllers import RobotController
+from pat3d.errors import EnvironmentSetupError
+
+Array = NDArray[np.float64]
+
+
+class Simulation:
+    """One world with its robot under control.
+
+    With `sleep`, objects at rest are not stepped until something touches them; that costs a fraction, and what nobody
+    touches stays exactly where it was. Between calls positions, velocities and contacts are those of the present state.
+    """
+
+    def __init__(self, world: World, control: str, control_freq: float, *, sleep: bool = True) -> None:
+        self._mujoco: Any = import_module("mujoco")
+        self.world, self.model = world, world.model
+        # MuJoCo's sleeping knows no equalities of tendons, which the Robotiq 140 has.
+        if sleep and not (self.model.eq_type == self._mujoco.mjtEq.mjEQ_TENDON).any():
+            self.model.opt.enableflags |= int(self._mujoco.mjtEnableBit.mjENBL_SLEEP)
+        timestep = float(self.model.opt.timestep)
+        # Physics steps of a control step.
+        self.substeps = round(1.0 / (control_freq * timestep)) if control_freq > 0 else 0
+        if self.substeps < 1 or abs(self.substeps * timestep * control_freq - 1.0) > 1e-9:
+            raise EnvironmentSetupError(
+                f"{control_freq} actions a second is no whole number of time steps of {timestep} s; "
+                "valid are 500, 250, 125, 100, 50, 25, 20, 10, ..."
+            )
+        self.period = self.substeps * timestep
+        """Length of a control step [s]."""
+        self.data = self._mujoco.MjData(self.model)
+        kinds = self._mujoco.mjtWarning
+        wrong = (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)
+        self._warnings = [self.data.warning[kind] for kind in wrong]
+        self._arm = np.array([int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.arm_joints])
+        self._fingers = np.array(
+            [int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.gripper_joints]
+        )
+        self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
+        self._home = self._rest()
+        self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
+        self.states = MujocoState(world, self.data)
+        """As tasks judge them: one world."""
+        self.state = SimState(self.states)
+        """The same by name."""
+
+    def _rest(self) -> Array:
+        """The state at the start: objects where they were proven to rest, the robot in its start posture."""
+        model, data, robot = self.model, self.data, self.world.robot
+        self._mujoco.mj_resetData(model, data)
+        data.qpos[self._arm] = self.world.placement.start
+        for joint, value in zip(robot.gripper_joints, robot.gripper_home, strict=True):
+            data.joint(PREFIX + joint).qpos[:] = value
+        self._mujoco.mj_forward(model, data)
+        # A robot that starts in contact with the scene would move it.
+        owners = self.world.owner[data.contact.geom] if data.ncon else np.zeros((0, 2), dtype=np.int64)
+        for first, second in owners[(owners == ROBOT).any(axis=1)].tolist():
+            other = second if first == ROBOT else first
+            if other >= 0:
+                name = self.world.scene.objects[other].name
+                raise EnvironmentSetupError(
+                    f'{robot.name} touches "{name}" in its start posture ({self.world.placement.describe()}).'
+                )
+        state = np.zeros(self._mujoco.mj_stateSize(model, self._signature))
+        self._mujoco.mj_getState(model, data, state, self._signature)
+        return state
+
+    def reset(self, noise: Array | None = None) -> None:
+        """Return to the start; `noise` [rad], shape (arm joints,), is added to the robot's posture."""
+        model, data = self.model, self.data
+        self._mujoco.mj_resetData(model, data)
+        self._mujoco.mj_setState(model, data, self._home, self._signature)
+        if noise is not None:
+            data.qpos[self._arm] += noise
+        self.restart()
+
+    def restart(self) -> None:
+        """Take the present state, which somebody changed, as the start of the episode."""
+        self.controller.reset()
+        self._mujoco.mj_forward(self.model, self.data)
+        self.states.begin()
+
+    def step(self, action: Array) -> None:
+        """One control step with `action`, shape (controller.size,)."""
+        model, data = self.model, self.data
+        self.controller.set_action(action)
+        for _ in range(self.substeps):
+            self.controller.control()
+            self._mujoco.mj_step2(model, data)
+            self._mujoco.mj_step1(model, data)
+        self.states.refresh()
+
+    @property
+    def arm(self) -> Array:
+        """Positions of the arm's joints [rad]."""
+        return self.data.qpos[self._arm]
+
+    @property
+    def fingers(self) -> Array:
+        """Positions of the gripper's joints [m or rad]."""
+        return self.data.qpos[self._fingers]
+
+    @property
+    def broken(self) -> bool:
+        """Whether the simulation blew up and MuJoCo started it over."""
+        return any(warning.number for warning in self._warnings)

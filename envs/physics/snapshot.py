@@ -1,0 +1,107 @@
+"""What predicates read: the state of worlds that are copies of one another, and the floors of containers and bases."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.physics.world import World
+from pat3d.scene.asset import Asset, Region
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+REGION_MARGIN = 0.01
+"""An object counts as over a floor up to this far beyond its edge [m]."""
+
+SLACK = 1e-4
+"""By which bounds are wider than what they bound [m], for states in single precision."""
+
+
+class Snapshot(NamedTuple):
+    """The state of worlds as the predicates read it."""
+
+    xpos: Array
+    """Of body frames [m], shape (worlds, bodies, 3)."""
+    xmat: Array
+    """Of body frames, shape (worlds, bodies, 9)."""
+    xipos: Array
+    """Of centres of mass [m], shape (worlds, bodies, 3)."""
+    qvel: Array
+    """[m/s] and [rad/s], shape (worlds, degrees of freedom)."""
+    sites: Array
+    """[m], shape (worlds, sites, 3)."""
+    touching: Mask
+    """Who touches whom, symmetric, shape (worlds, OWNERS + objects, OWNERS + objects)."""
+    pinched: Mask
+    """What either finger touches, shape (worlds, 2, OWNERS + objects)."""
+    start_centre: Array
+    """Of mass at the start of the episode [m], shape (worlds, objects, 3)."""
+    start_up: Array
+    """The world's upright direction in the objects' frames at the start, shape (worlds, objects, 3)."""
+    bodies: Numbers
+    """Of every object."""
+    dofs: Numbers
+    """First of every object, -1 where it cannot move."""
+    hand: int
+    """Site of the grip."""
+    surface: float
+    """Height below which an object is off the work [m]."""
+
+
+class Floors(NamedTuple):
+    """Children and the floors of their parents, pair by pair."""
+
+    children: Numbers
+    parents: Numbers
+    present: Mask
+    """Whether the parent has such a floor."""
+    disc: Mask
+    floor: Array
+    """Its centre in the parent's frame [m], shape (pairs, 3)."""
+    half: Array
+    """Its half extents with the margin [m], shape (pairs, 2)."""
+    height: Array
+    """Free above it [m]."""
+    corners: Array
+    """Of all children, each in its own frame [m], shape (corners, 3)."""
+    ends: Numbers
+    """Corners of pair k are those from ends[k] to ends[k + 1]."""
+    reach: Array
+    """No corner of the child is further from its centre of mass [m]."""
+
+
+def floors(world: World, pairs: Sequence[tuple[str, str]], kind: Literal["in", "on"]) -> Floors:
+    """The floors of one kind for pairs of child and parent."""
+    scene = world.scene
+    numbers = {obj.name: number for number, obj in enumerate(scene.objects)}
+    regions = [scene[parent].asset.region(kind) for _, parent in pairs]
+    none = Region(kind=kind, shape="disc", floor=(0.0, 0.0, 0.0), half_size=(0.0, 0.0))
+    known = [region or none for region in regions]
+    assets = [scene[child].asset for child, _ in pairs]
+    hulls = [corners(asset) for asset in assets]
+    middles = [np.array(asset.mass_properties.centre_of_mass) for asset in assets]
+    reach = [np.linalg.norm(own - middle, axis=1).max() for own, middle in zip(hulls, middles, strict=True)]
+    return Floors(
+        children=np.array([numbers[child] for child, _ in pairs], dtype=np.int64),
+        parents=np.array([numbers[parent] for _, parent in pairs], dtype=np.int64),
+        present=np.array([region is not None for region in regions], dtype=np.bool_),
+        disc=np.array([region.shape == "disc" for region in known], dtype=np.bool_),
+        floor=np.array([region.floor for region in known], dtype=np.float64),
+        half=np.array([region.half_size for region in known], dtype=np.float64) + REGION_MARGIN,
+        height=np.array([region.height for region in known], dtype=np.float64),
+        corners=np.ascontiguousarray(np.concatenate(hulls)),
+        ends=np.cumsum([0, *map(len, hulls)], dtype=np.int64),
+        reach=np.array(reach) + SLACK,
+    )
+
+
+@functools.lru_cache(maxsize=1024)
+def corners(asset: Asset) -> Array:
+    """Of the convex parts of an asset, in its frame [m], shape (n, 3)."""
+    return np.concatenate([part.vertices for part in asset.parts])

@@ -1,0 +1,221 @@
+"""The simulated world of an environment: the exported scene as it is, with a robot attached, furniture and cameras.
+
+The scene's frame stays the world's, so every pose, contact parameter, inertia and solver option is the one that was
+proven. What is added: the robot on its pedestal; for a scene on the ground, the ground's extent becomes the top of a
+workbench, with a floor below.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.grasping.placement import Placement
+from pat3d.envs.robots.arms import Robot
+from pat3d.errors import EnvironmentSetupError
+from pat3d.exporters.objects import GROUND_HALF_THICKNESS, body_names
+from pat3d.scene.model import Pose, Scene
+
+Array = NDArray[np.float64]
+
+PREFIX = "robot/"
+"""Of every name that belongs to the robot."""
+
+CAMERAS = ("agentview", "frontview", "wrist")
+
+_HIDDEN_GROUP = 4
+"""Sites and collision geoms of the robot are drawn only when asked for."""
+
+_SHADOW_REACH = 1.6
+"""[m]"""
+
+_TOP_THICKNESS = 0.04
+_LEG = 0.03
+"""Of the drawn workbench [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class World:
+    """A compiled world and where its parts are."""
+
+    model: Any
+    scene: Scene
+    robot: Robot
+    placement: Placement
+    prefix: str
+    """Before every name that belongs to the robot."""
+    objects: tuple[str, ...]
+    """Objects that can move, in the order of the scene."""
+    bodies: dict[str, int]
+    """MuJoCo body of every object of the scene, fixed ones too."""
+    positions: NDArray[np.int64]
+    """First entry in qpos of every moving object, shape (objects,)."""
+    velocities: NDArray[np.int64]
+    """First entry in qvel of every moving object, shape (objects,)."""
+    owner: NDArray[np.int64]
+    """Whose every geom is: index into the scene's objects, or one of ROBOT, SUPPORT, FLOOR; shape (geoms,)."""
+
+
+ROBOT, SUPPORT, FLOOR = -1, -2, -3
+"""Owners of geoms that are no object's: the robot, what the scene stands on, and the floor below a workbench."""
+
+
+def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> World:
+    """Attach `robot` to the scene in the file `mjcf`.
+
+    Raises:
+        EnvironmentSetupError: MuJoCo refuses the scene or the combination; the message is MuJoCo's.
+    """
+    mujoco: Any = import_module("mujoco")
+    try:
+        spec = mujoco.MjSpec.from_file(str(mjcf))
+        _attach(mujoco, spec, robot, placement)
+        furnish(spec, placement)
+        spec.camera(PREFIX + robot.wrist_camera).name = "wrist"
+        model = spec.compile()
+    except ValueError as error:
+        raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
+    return index(model, scene, robot, placement)
+
+
+def furnish(spec: Any, placement: Placement) -> None:
+    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
+    mujoco: Any = import_module("mujoco")
+    if placement.bench is not None:
+        _bench(mujoco, spec, placement)
+    _pedestal(mujoco, spec, placement)
+    _cameras(spec, placement)
+    # Shadows reach as far as the robot does, not only around the objects.
+    spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
+
+
+def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
+    child = mujoco.MjSpec.from_string(robot.xml)
+    for geom in child.geoms:
+        if geom.group == 0:
+            geom.group = 3
+    for site in child.sites:
+        site.group = _HIDDEN_GROUP
+    # robosuite draws its tool frame with tendons and sites alone; its own camera of the robot is of no use here.
+    frame = spec.worldbody.add_frame(
+        pos=placement.base_position, quat=[math.cos(placement.yaw / 2), 0.0, 0.0, math.sin(placement.yaw / 2)]
+    )
+    spec.attach(child, prefix=PREFIX, frame=frame)
+
+
+def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
+    """Cut the ground to the top of a workbench and put a floor below it."""
+    (low_x, low_y), (high_x, high_y) = placement.bench  # type: ignore[misc]
+    centre = [(low_x + high_x) / 2, (low_y + high_y) / 2]
+    half = [(high_x - low_x) / 2, (high_y - low_y) / 2]
+    ground = spec.geom("ground")
+    ground.pos, ground.size = [*centre, ground.pos[2]], [*half, ground.size[2]]
+    ground.rgba = [0, 0, 0, 0]
+    drawn = spec.geom("ground/visual")
+    drawn.pos = [0, 0, placement.floor]
+    wood = spec.add_material(name="bench", rgba=[0.80, 0.77, 0.72, 1.0], specular=0.15, shininess=0.2)
+    steel = spec.add_material(name="bench/legs", rgba=[0.33, 0.34, 0.36, 1.0], specular=0.3, shininess=0.4)
+
+    def box(name: str, position: list[float], size: list[float], material: Any) -> None:
+        spec.worldbody.add_geom(
+            name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=position, size=size, material=material.name, contype=0,
+            conaffinity=0, group=0, mass=0.0,
+        )  # fmt: skip
+
+    # A hair below the plane on which objects rest, so that the two never flicker.
+    box("bench/top", [*centre, -_TOP_THICKNESS / 2 - 1e-5], [*half, _TOP_THICKNESS / 2], wood)
+    legs = (placement.floor - _TOP_THICKNESS) / 2
+    for number, (x, y) in enumerate(((-1, -1), (-1, 1), (1, -1), (1, 1))):
+        corner = [centre[0] + x * (half[0] - 2 * _LEG), centre[1] + y * (half[1] - 2 * _LEG)]
+        box(f"bench/leg_{number}", [*corner, legs], [_LEG, _LEG, -legs - _TOP_THICKNESS], steel)
+    spec.worldbody.add_geom(
+        name="floor", type=mujoco.mjtGeom.mjGEOM_BOX, group=3, friction=ground.friction, condim=ground.condim,
+        solref=ground.solref, solimp=ground.solimp, pos=[0, 0, placement.floor - GROUND_HALF_THICKNESS],
+        size=[5.0, 5.0, GROUND_HALF_THICKNESS], rgba=[0, 0, 0, 0],
+    )  # fmt: skip
+
+
+def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
+    height = placement.base_position[2] - placement.floor
+    if height < 1e-3:
+        return
+    x, y = placement.base_position[:2]
+    spec.worldbody.add_geom(
+        name="pedestal", type=mujoco.mjtGeom.mjGEOM_CYLINDER, pos=[x, y, placement.floor + height / 2],
+        size=[placement.pedestal_radius, height / 2, 0], rgba=[0.25, 0.26, 0.28, 1.0], group=0,
+    )  # fmt: skip
+
+
+def _cameras(spec: Any, placement: Placement) -> None:
+    """Views: agentview looks across the work at the robot, frontview from further back."""
+    centre = np.array(placement.focus)
+    towards = np.array([math.cos(placement.yaw), math.sin(placement.yaw), 0.0])
+    reach = placement.focus_radius
+    views = {
+        "agentview": (
+            centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.46 + 0.8 * reach],
+            centre + [0, 0, 0.07],
+            45.0,
+        ),
+        "frontview": (
+            centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach],
+            centre - 0.15 * towards,
+            45.0,
+        ),
+    }
+    for name, (eye, target, fovy) in views.items():
+        back = (eye - target) / np.linalg.norm(eye - target)
+        right = np.cross([0.0, 0.0, 1.0], back)
+        right /= np.linalg.norm(right)
+        up = np.cross(back, right).astype(np.float64)
+        spec.worldbody.add_camera(name=name, pos=eye, fovy=fovy, quat=_quat(right, up))
+
+
+def _quat(x: Array, y: Array) -> list[float]:
+    """Orientation (wxyz) of a camera whose picture spans x to the right and y upwards."""
+    return list(Pose.from_matrix(np.stack([x, y, np.cross(x, y)], axis=1), np.zeros(3)).quat_wxyz)
+
+
+def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: str = PREFIX) -> World:
+    """Where the parts of a compiled world are.
+
+    Args:
+        model: MuJoCo's.
+        scene: whose MJCF is in it.
+        robot: that is in it.
+        placement: of the robot.
+        prefix: before every name of the robot; robosuite's own worlds have none.
+    """
+    starts = prefix or (robot.naming_prefix, "gripper0_")
+    names = body_names(scene)
+    bodies = {obj.name: int(model.body(names[obj.name]).id) for obj in scene.objects}
+    moving = tuple(obj.name for obj in scene.objects if not obj.fixed)
+    joints = [model.joint(names[name]) for name in moving]
+    order = {body: number for number, body in enumerate(bodies.values())}
+    owner = np.full(model.ngeom, SUPPORT, dtype=np.int64)
+    for geom in range(model.ngeom):
+        body, name = int(model.geom_bodyid[geom]), model.geom(geom).name
+        if body in order:
+            owner[geom] = order[body]
+        elif model.body(body).name.startswith(starts) or name == "pedestal":
+            owner[geom] = ROBOT
+        elif name == "floor" or (name == "ground" and placement.host is not None):
+            owner[geom] = FLOOR
+    return World(
+        model=model,
+        scene=scene,
+        robot=robot,
+        placement=placement,
+        prefix=prefix,
+        objects=moving,
+        bodies=bodies,
+        positions=np.array([int(joint.qposadr[0]) for joint in joints], dtype=np.int64),
+        velocities=np.array([int(joint.dofadr[0]) for joint in joints], dtype=np.int64),
+        owner=owner,
+    )

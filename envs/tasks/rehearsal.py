@@ -1,0 +1,95 @@
+"""Whether an arm can do a task: the scripted plan gone through without physics, one move after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pat3d.envs.grasping.placement import Placement, place
+from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.world import compose
+from pat3d.envs.robots.arms import make_robot
+from pat3d.envs.tasks.moves import Move, Planner
+from pat3d.envs.tasks.task import Task
+from pat3d.errors import EnvironmentSetupError, TaskError
+from pat3d.scene.model import GROUND, Scene
+
+SINK = 2e-4
+"""What is put down overlaps what carries it by this [m], so that the two touch."""
+
+FALL = 0.004
+"""Between the heights at which it is tried [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Workplace:
+    """A scene with a robot in front of it, which stands still."""
+
+    scene: Scene
+    task: Task
+    robot: str
+    placement: Placement
+    simulation: Simulation
+
+
+def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
+    """Where the robot stands to do a task, all moves of which are free of obstacles.
+
+    Args:
+        scene: at rest.
+        mjcf: the file of the scene.
+        task: that the scene allows.
+        robot: name of the arm.
+
+    Raises:
+        TaskError: something is out of reach, too wide, too heavy, or in the way, or has no room where it should go.
+    """
+    placement = place(scene, robot, task.needs(scene))
+    try:
+        simulation = Simulation(compose(scene, mjcf, make_robot(robot), placement), "osc", 20.0, sleep=False)
+    except EnvironmentSetupError as error:
+        raise TaskError(str(error)) from error
+    simulation.reset()
+    planner = Planner(Workplace(scene=scene, task=task, robot=robot, placement=placement, simulation=simulation))
+    done: set[str] = set()
+    while wanted := planner.wanted():
+        again = [name for name, _ in wanted if name in done]
+        if again:
+            raise TaskError(f'{robot} can put "{again[0]}" where it should go, but it finds no room to stay there.')
+        moves = (planner.clear(name, where) for name, where in wanted)
+        move = next((move for move in moves if move is not None), None)
+        if move is None:
+            raise TaskError(_refusal(planner, robot, wanted[0][0]))
+        if move.spot is None:
+            break
+        _put_down(planner, simulation, move)
+        done.add(move.name)
+    return placement
+
+
+def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:
+    """Set an object down where it is let go, or further down, as far as there is room."""
+    state = simulation.state
+    bottom = float(state.points(move.name)[:, 2].min())
+    released = planner.resting(move.name, np.asarray(move.spot)) - state.centre(move.name)
+    low = float(move.floor) - bottom - SINK
+    heights = (*np.arange(low, released[2], FALL), released[2])
+    ways = (np.array([released[0], released[1], height]) for height in heights)
+    shift = next((way for way in ways if planner.clearance.fits(move.name, way)), released)
+    first = int(simulation.world.positions[simulation.world.objects.index(move.name)])
+    simulation.data.qpos[first : first + 3] += shift
+    mujoco: Any = import_module("mujoco")
+    mujoco.mj_forward(simulation.model, simulation.data)
+    simulation.states.refresh()
+
+
+def _refusal(planner: Planner, robot: str, name: str) -> str:
+    found = planner.obstacles.most_common(1)
+    if not found:
+        return f'{robot} finds no posture in which to take "{name}" and to put it where it should go.'
+    what = "the ground" if found[0][0] == GROUND else f'"{found[0][0]}"'
+    return f'{robot} finds no way to move "{name}" on which neither arm nor object is in {what}.'

@@ -1,0 +1,100 @@
+"""USD: a scene for Isaac Sim, Newton and every other reader of UsdPhysics.
+
+Metres, kilograms, Z up. Masses, centres and inertias are on the bodies and never on colliders; every convex part is a
+collider of its own, boxes as cubes where the MJCF export has boxes; objects that do not move carry no rigid body;
+nothing is an articulation. Poses and the places of colliders are in double precision; what the schema keeps in single
+precision is rounded once.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pat3d.errors import ExportError
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Scene
+from pat3d.scene.naming import slug
+
+SUFFIXES = (".usdc", ".usda", ".usdz")
+
+
+def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: bool = False) -> Path:
+    """Write `scene` as scene.usdc with one referenced layer an asset into `folder`, replacing it as a whole.
+
+    Args:
+        scene: what to write.
+        folder: new, empty, or an earlier export.
+        text: scene.usda and assets to match, for people to read.
+        package: also scene.usdz, the same in one file.
+
+    Returns:
+        The path of scene.usdc, or of scene.usda.
+
+    Raises:
+        ExportError: `folder` is a file or holds something else than a USD export, or usd-core is not installed.
+    """
+    from pat3d.exporters.usd.scene_layer import write_scene
+
+    with _replacing(Path(folder), "scene") as fresh:
+        path = write_scene(scene, fresh, suffix="usda" if text else "usdc")
+        if package:
+            _package(path)
+    return Path(folder) / path.name
+
+
+def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *, text: bool = False) -> Path:
+    """Write one asset as `<name>.usdc` with its texture into `folder`, replacing it as a whole.
+
+    Args:
+        asset: what to write.
+        folder: new, empty, or an earlier export of the same name.
+        name: of the file and the body; the asset's noun where not given.
+        text: .usda in place of .usdc.
+
+    Returns:
+        The path of the layer.
+
+    Raises:
+        ExportError: `folder` is a file or holds something else, or usd-core is not installed.
+    """
+    from pat3d.exporters.usd.asset_layer import write_asset
+    from pat3d.exporters.usd.scene_layer import prim_name
+
+    stem = prim_name(slug(name or asset.noun))
+    file = f"{stem}.{'usda' if text else 'usdc'}"
+    with _replacing(Path(folder), stem) as fresh:
+        write_asset(asset, stem, fresh / file)
+    return Path(folder) / file
+
+
+def _package(path: Path) -> None:
+    """Write everything that the layer at `path` needs as one .usdz beside it."""
+    from pat3d.exporters.usd.openusd import Sdf, UsdUtils
+
+    if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(path)), str(path.with_suffix(".usdz"))):
+        raise ExportError(f"{path.with_suffix('.usdz').name}: usd-core could not package {path.name}.")
+
+
+@contextmanager
+def _replacing(folder: Path, stem: str) -> Iterator[Path]:
+    """A new folder that takes the place of `folder` when the block ends without an error."""
+    if folder.exists() and not folder.is_dir():
+        raise ExportError(f"{folder} is a file; give a folder to write the USD into.")
+    if folder.exists() and any(folder.iterdir()) and not any((folder / f"{stem}{end}").is_file() for end in SUFFIXES):
+        raise ExportError(f"{folder} is not empty and holds no {stem}.usdc; give a new folder or an earlier export.")
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".usd-") as temporary:
+        fresh = Path(temporary) / "new"
+        fresh.mkdir()
+        yield fresh
+        if folder.exists():
+            folder.rename(Path(temporary) / "old")
+        try:
+            fresh.rename(folder)
+        except OSError:
+            shutil.move(Path(temporary) / "old", folder)
+            raise

@@ -1,0 +1,61 @@
+"""How much of a cavity its convex parts leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.assets.mesh.cover import planes
+from pat3d.scene.asset import ConvexPart, Region
+
+
+def cavity_loss(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.integer[Any]],
+    parts: Sequence[ConvexPart],
+    region: Region,
+    *,
+    directions: int = 64,
+    levels: int = 8,
+) -> NDArray[np.float64]:
+    """Fraction by which the free radius around a cavity's axis shrinks from the mesh to its parts, shape (rays,).
+
+    Args:
+        vertices: of the closed mesh [m], shape (vertices, 3).
+        faces: shape (faces, 3).
+        parts: convex parts of the mesh.
+        region: cavity of the mesh.
+        directions: rays at each level.
+        levels: heights between a tenth and nine tenths of the depth.
+    """
+    import trimesh
+
+    angle = 2.0 * np.pi * (np.arange(directions) + 0.5) / directions
+    height = region.floor[2] + region.height * np.linspace(0.1, 0.9, levels)
+    angle, height = (grid.ravel() for grid in np.meshgrid(angle, height))
+    origins = np.stack([np.full_like(angle, region.floor[0]), np.full_like(angle, region.floor[1]), height], axis=1)
+    rays = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    points, index, _ = mesh.ray.intersects_location(origins, rays, multiple_hits=False)
+    free = np.full(len(rays), np.inf)
+    np.minimum.at(free, index, np.linalg.norm(points - origins[index], axis=1))
+    left = np.full(len(rays), np.inf)
+    for part in parts:
+        left = np.minimum(left, _entry(origins, rays, planes(part)))
+    walled = np.isfinite(free)
+    return np.clip(1.0 - left[walled] / free[walled], 0.0, 1.0)
+
+
+def _entry(origins: NDArray[np.float64], rays: NDArray[np.float64], sides: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distance along each ray to a convex polyhedron [m], 0 inside, inf where it is missed."""
+    speed = rays @ sides[:, :3].T
+    depth = origins @ sides[:, :3].T + sides[:, 3]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cross = -depth / speed
+    first = np.where(speed < -1e-12, cross, np.where((np.abs(speed) <= 1e-12) & (depth > 0), np.inf, 0.0)).max(axis=1)
+    last = np.where(speed > 1e-12, cross, np.inf).min(axis=1)
+    first = np.maximum(first, 0.0)
+    return np.where(first <= last, first, np.inf)

@@ -1,0 +1,114 @@
+"""The catalogue for people: a table of everything, or one object with its picture."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import groupby
+from pathlib import Path
+
+from pat3d.assets import catalogue
+from pat3d.cli.console import console, watch
+from pat3d.errors import PromptError
+from pat3d.progress import Event, Progress
+from pat3d.scene.asset import VisualMesh
+from pat3d.scene.cache import cache_root
+from pat3d.scene.folder import read_json, write_json
+from pat3d.scene.naming import slug
+
+
+def everything(*, seed: int, sheet: str | None) -> int:
+    """Print every noun by family; with `sheet`, draw them all into that PNG file."""
+    from rich.table import Table
+
+    target, found = console(), catalogue.entries()
+    written: list[Path] = []
+    with watch(console(stderr=True)) as progress:
+        sizes = _sizes(seed, progress)
+        if sheet is not None:
+            from pat3d.view.preview import contact_sheet
+
+            written = contact_sheet(_drawn(found, seed, progress), sheet, per_page=120)
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in ("noun", "cm", "also called"):
+        table.add_column(title, justify="right" if title == "cm" else "left", overflow="fold")
+    for family, entries in groupby(found, key=lambda entry: entry.family):
+        table.add_row(family, style="bold")
+        for entry in entries:
+            table.add_row(f"  {entry.noun}", _centimetres(sizes[entry.noun]), ", ".join(entry.synonyms))
+    target.print(table)
+    target.print(f"\n{len(found)} nouns. `pat3d catalogue NAME` shows one.")
+    for path in written:
+        target.print(f"pictures: {path}", markup=False, soft_wrap=True)
+    return 0
+
+
+def _drawn(found: tuple[catalogue.Entry, ...], seed: int, progress: Progress) -> Iterator[tuple[str, VisualMesh]]:
+    """Name and mesh of every noun, made when it is their turn."""
+    for number, entry in enumerate(found):
+        progress(Event(stage="drawing", detail=entry.noun, step=number, steps=len(found)))
+        yield entry.noun, catalogue.make(entry.noun, seed=seed).visual
+
+
+def _sizes(seed: int, progress: Progress) -> dict[str, list[float]]:
+    """Extents of every noun [m]; kept in the cache, for as long as no recipe changes."""
+    recipes = sorted(Path(catalogue.__file__).parent.parent.rglob("*.py"))
+    digest = hashlib.sha256(b"".join(path.read_bytes() for path in recipes)).hexdigest()
+    cache = cache_root() / f"catalogue-{digest[:16]}-{seed}.json"
+    found = catalogue.entries()
+    sizes = read_json(cache)
+    if all(_is_size(sizes.get(entry.noun)) for entry in found):
+        return sizes
+    for number, entry in enumerate(found):
+        progress(Event(stage="measuring", detail=entry.noun, step=number, steps=len(found)))
+        sizes[entry.noun] = catalogue.make(entry.noun, seed=seed).size.tolist()
+    # A folder that cannot be written only costs the time again.
+    with suppress(OSError):
+        cache.parent.mkdir(parents=True, exist_ok=True)
+        write_json(cache, sizes)
+    return sizes
+
+
+def _is_size(value: object) -> bool:
+    return isinstance(value, list) and len(value) == 3 and all(isinstance(side, float) for side in value)
+
+
+def _centimetres(size: list[float]) -> str:
+    return " x ".join(f"{100 * side:.0f}" if side >= 0.1 else f"{100 * side:.1f}" for side in size)
+
+
+def one(name: str, *, seed: int, out: str | None) -> int:
+    """Print what is known about one noun, and draw it."""
+    from pat3d.view.preview import save_turntable
+
+    words = " ".join(name.lower().split())
+    entry = catalogue.find(words)
+    if entry is None:
+        near = ", ".join(f'"{other}"' for other in catalogue.nearest(words)) or "see `pat3d catalogue`"
+        raise PromptError(f'"{name}" is not in the catalogue. Nearest: {near}.')
+    asset = catalogue.make(entry.noun, seed=seed)
+    picture = Path(out) if out is not None else Path(f"{slug(entry.noun)}.png")
+    properties, material = asset.mass_properties, asset.material
+    places = ", ".join(
+        f"{region.kind} ({200 * region.half_size[0]:.0f} x {200 * region.half_size[1]:.0f} cm)"
+        for region in asset.regions
+    )
+    rows = (
+        ("family", entry.family),
+        ("also called", ", ".join(entry.synonyms) or "-"),
+        ("size", " x ".join(f"{100 * side:.1f}" for side in asset.size) + " cm (width, depth, height)"),
+        ("mass", f"{properties.mass:.3g} kg"),
+        ("material", f"{material.name}: {material.density:.0f} kg/m^3, friction {material.friction:g}"),
+        ("colours", ", ".join(entry.colours) + " unless the prompt says otherwise"),
+        ("convex parts", f"{len(asset.parts)}, {sum(part.box is not None for part in asset.parts)} of them boxes"),
+        ("surface", f"{len(asset.visual.faces)} triangles"),
+        ("room for things", places or "-"),
+        ("picture", str(picture)),
+    )
+    save_turntable(asset.visual, picture, caption=entry.noun)
+    target = console()
+    target.print(entry.noun, style="bold")
+    for label, text in rows:
+        target.print(f"  {label:16s} {text}", markup=False, soft_wrap=True)
+    return 0

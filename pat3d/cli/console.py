@@ -1,0 +1,258 @@
+"""What a person sees in the terminal: progress while it runs, a summary at the end."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pat3d.progress import Event, Progress
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from pat3d.check.certificate import Certificate
+    from pat3d.check.engines.check import Verdict
+    from pat3d.check.proof import Proof
+    from pat3d.exporters.parity import ParityReport
+    from pat3d.generation.optimize_folder import Outcome
+    from pat3d.generation.report import Report
+    from pat3d.scene.model import Scene
+
+_QUIET_SECONDS = 10.0
+"""A log that is no terminal hears of a stage in progress at most this often."""
+
+
+def console(*, stderr: bool = False) -> Console:
+    """A console that writes plain text where the stream is no terminal."""
+    from rich.console import Console
+
+    made = Console(stderr=stderr, highlight=False, emoji=False)
+    if not made.is_terminal:
+        made = Console(stderr=stderr, highlight=False, emoji=False, width=120)
+    return made
+
+
+@contextmanager
+def watch(target: Console) -> Iterator[Progress]:
+    """Shows a run's events on `target`: one live line in a terminal, a few plain lines elsewhere."""
+    if not target.is_terminal:
+        yield _Lines(target).tell
+        return
+    from rich.markup import escape
+    from rich.progress import Progress as Live
+    from rich.progress import SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
+    with Live(*columns, console=target, transient=True) as live:
+        task = live.add_task("starting", total=None)
+        yield lambda event: live.update(task, description=escape(_words(event)))
+
+
+class _Lines:
+    def __init__(self, target: Console) -> None:
+        self._console = target
+        self._start = self._last = time.perf_counter()
+        self._stage = ""
+
+    def tell(self, event: Event) -> None:
+        now = time.perf_counter()
+        if event.stage == self._stage and now - self._last < _QUIET_SECONDS:
+            return
+        self._stage, self._last = event.stage, now
+        self._console.print(f"{now - self._start:6.1f} s  {_words(event)}", markup=False)
+
+
+def _words(event: Event) -> str:
+    text = event.stage
+    if event.step is not None and event.steps is not None:
+        text += f" {event.step + 1}/{event.steps}"
+    elif event.step:
+        text += f", step {event.step}"
+    if event.motion is not None:
+        text += f", moving {_length(event.motion)}"
+    if event.loss is not None:
+        text += f", loss {event.loss:.2g} m^2"
+    return f"{text}: {event.detail}" if event.detail else text
+
+
+def _length(metres: float) -> str:
+    """A length in words that fit it."""
+    for limit, factor, unit in ((1e-6, 1e9, "nm"), (1e-3, 1e6, "um"), (1.0, 1e3, "mm")):
+        if metres < limit:
+            return f"{metres * factor:.3g} {unit}"
+    return f"{metres:.3g} m"
+
+
+def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
+    """The table of a scene's objects, and what the checks found."""
+    from rich.table import Table
+
+    drifts = {obj.name: obj for obj in proof.mujoco.objects}
+    gaps: dict[str, float] = {}
+    for gap in proof.penetration.gaps:
+        for name in (gap.first, gap.second):
+            gaps[name] = min(gap.distance, gaps.get(name, gap.distance))
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("object", overflow="fold")
+    table.add_column("rests on", overflow="fold")
+    for title in ("mass kg", "drift mm", "drift deg", "unbalanced", "gap mm"):
+        table.add_column(title, justify="right")
+    for obj in scene.objects:
+        drift = drifts.get(obj.name)
+        residual = proof.certificate.residuals.get(obj.name)
+        table.add_row(
+            obj.name,
+            "fixed" if obj.fixed else scene.parent(obj.name),
+            f"{obj.asset.mass_properties.mass:.3g}",
+            "-" if drift is None else f"{max(drift.centre_mm, drift.origin_mm):.3f}",
+            "-" if drift is None else f"{drift.degrees:.3f}",
+            "-" if residual is None else f"{residual:.0e}",
+            f"{1e3 * gaps[obj.name]:.3f}" if obj.name in gaps else "-",
+        )
+    target.print(table)
+    target.print()
+    certificate, overlaps, mujoco = proof.certificate, proof.penetration, proof.mujoco
+    least = certificate.smallest_friction
+    margin = "" if least is None else f"; holds down to {least:.3g}" if math.isfinite(least) else "; holds at none"
+    if certificate.largest_tilt is not None and not certificate.unbalanced:
+        margin += f"; stands a tilt of {_tilt(certificate)}"
+    held = [found for found in proof.relations if found.holds]
+    verdicts = {
+        "equilibrium": "pass" if certificate.passed else "FAIL",
+        "intersections": "pass" if overlaps.passed else "FAIL",
+        "MuJoCo": "pass" if mujoco.passed else "FAIL",
+        "relations": "FAIL" if proof.broken else "part" if proof.unmet else "pass",
+    }
+    texts = {
+        "equilibrium": f"unbalanced by at most {certificate.worst:.0e} of the weight at friction "
+        f"{certificate.friction:g}{margin}",
+        "intersections": f"{len(overlaps.hulls)} pairs of hulls, {len(overlaps.visuals)} of surfaces; "
+        f"R = {overlaps.ratio:.2g}",
+        "MuJoCo": f"{mujoco.version}, {mujoco.seconds:g} s: at most {mujoco.worst_mm:.3f} mm and "
+        f"{mujoco.worst_degrees:.3f} degrees; {len(mujoco.warnings)} warnings",
+        "relations": f"{len(held)} of {len(proof.relations)} hold",
+    }
+    for name, verdict in verdicts.items():
+        target.print(verdict, style={"pass": "green", "FAIL": "bold red", "part": "yellow"}[verdict], end="  ")
+        target.print(f"{name}: {texts[name]}", markup=False)
+    for line in proof.unmet:
+        target.print(f"      not met: {line}", markup=False)
+
+
+def _tilt(certificate: Certificate) -> str:
+    """The tilt that a scene stands, and what does not stand more."""
+    first = certificate.first_to_go
+    after = f", then {', '.join(first)} {'goes' if len(first) == 1 else 'go'}" if first else " at least"
+    return f"{certificate.largest_tilt:.2g} degrees{after}"
+
+
+def show_parity(target: Console, reports: Mapping[str, ParityReport]) -> None:
+    """One line for every format of a scene folder."""
+    for name, report in reports.items():
+        readers = ", ".join(reading.reader for reading in report.readings)
+        target.print("pass" if report.passed else "FAIL", style="green" if report.passed else "bold red", end="  ")
+        target.print(f"{name}: read back by {readers}; off by at most {report.largest:.0e}", markup=False)
+
+
+def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> None:
+    """The drift of every object in every engine, and the settings they ran with."""
+    from rich.table import Table
+
+    from pat3d.check.engines.protocol import Absent, Failed
+
+    runs = [verdict for verdict in verdicts if not isinstance(verdict, Absent | Failed)]
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("mm, degrees", overflow="fold")
+    for run in runs:
+        table.add_column(f"{run.engine} {run.version}", justify="right", overflow="fold")
+    drifts = [{obj.name: obj for obj in run.objects} for run in runs]
+    for obj in scene.objects:
+        cells = [drift.get(obj.name) for drift in drifts]
+        table.add_row(
+            obj.name,
+            *("fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
+              for cell in cells),
+        )  # fmt: skip
+    if runs:
+        target.print(table)
+        target.print()
+    for verdict in verdicts:
+        if isinstance(verdict, Absent):
+            target.print("none", style="yellow", end="  ")
+            target.print(f"{verdict.engine}: {verdict.reason}", markup=False)
+        elif isinstance(verdict, Failed):
+            target.print("FAIL", style="bold red", end="  ")
+            target.print(verdict.reason, markup=False)
+        else:
+            settings = ", ".join(f"{key} {value}" for key, value in verdict.settings.items())
+            style = "green" if verdict.passed else "bold red"
+            target.print("pass" if verdict.passed else "FAIL", style=style, end="  ")
+            target.print(
+                f"{verdict.engine} {verdict.version}, {verdict.seconds:g} s in {verdict.wall_seconds:.1f} s: at most "
+                f"{verdict.worst_mm:.3f} mm and {verdict.worst_degrees:.3f} degrees ({settings})",
+                markup=False,
+            )
+
+
+def show_report(target: Console, report: Report, folder: Path) -> None:
+    """The summary that ends a run."""
+    from pat3d.generation.optimize_stage import TORCH, available
+
+    delivery = report.delivery
+    best = delivery.best
+    show_proof(target, delivery.checked.scene, delivery.checked.proof)
+    show_optimisation(target, delivery.checked.rest.optimisation)
+    show_parity(target, report.exports)
+    for note in (*_said_back(report.order), *best.notes):
+        target.print(f"note  {note}", markup=False)
+    if report.failures and delivery.checked.rest.optimisation is None and not available():
+        target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
+    if len(delivery.tried) > 1:
+        target.print(f"note  attempt {best.number + 1} of {len(delivery.tried)} was kept", markup=False)
+    if report.reused:
+        target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
+    target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
+    mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
+    show_files(target, folder, mains)
+
+
+def _said_back(order: Mapping[str, Any]) -> tuple[str, ...]:
+    """What the planner assumed or left out, and what it took for scenery."""
+    aside = "; ".join(order.get("set_aside", ()))
+    return (*order.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
+
+
+def show_mended(target: Console, outcome: Outcome) -> None:
+    """The summary that ends `pat3d optimize`."""
+    if outcome.skipped:
+        target.print("every relation holds already; the scene is left as it is", markup=False)
+        return
+    if outcome.proof is None:
+        show_optimisation(target, outcome.improved.record(kept=False))
+        target.print("the scene is left as it is", markup=False)
+        return
+    show_proof(target, outcome.scene, outcome.proof)
+    show_optimisation(target, outcome.improved.record(kept=True))
+    target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
+    show_files(target, outcome.folder)
+
+
+def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None:
+    """What an optimisation did, from its record; nothing where there was none."""
+    from pat3d.generation.optimize_stage import in_words
+
+    if record is not None:
+        target.print(f"optimisation: {in_words(record)}", markup=False)
+
+
+def show_files(target: Console, folder: Path, exports: Sequence[str] = ("mjcf/scene.xml",)) -> None:
+    """The files of a scene folder that a person would open."""
+    from pat3d.generation.optimize_stage import PICTURES
+
+    for name in ("scene.json", *exports, "report.json", "preview.png", *PICTURES):
+        if (folder / name).is_file():
+            target.print(f"  {folder / name}", markup=False, soft_wrap=True)

@@ -1,0 +1,151 @@
+"""`pat3d export`: a scene folder, a mesh, or a folder of meshes in the formats of other programs."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pat3d.cli.console import console, watch
+from pat3d.errors import Pat3dError, SpecError
+from pat3d.exporters.formats import FORMATS, chosen, export, has_usd
+from pat3d.exporters.parity import ParityReport, parity
+from pat3d.progress import Event
+
+if TYPE_CHECKING:
+    from pat3d.generation.asset_export import ExportedAsset
+
+MESH_OPTIONS = ("mass", "density", "material", "friction", "units", "scale", "size", "up", "parts", "thickness")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run `pat3d export`."""
+    source, out = Path(options.source).expanduser(), Path(options.out).expanduser()
+    formats, notes = _formats(options.formats)
+    usd = {"text": options.usda, "package": options.usdz}
+    mesh = {name: value for name in MESH_OPTIONS if (value := getattr(options, name)) is not None}
+    if (source / "scene.json").is_file() or source.name == "scene.json":
+        if mesh:
+            raise SpecError(f"--{next(iter(mesh))} is for meshes; {source} is a scene, whose objects are weighed.")
+        code = _scene(source if source.is_dir() else source.parent, out, formats, usd)
+    else:
+        code = _meshes(source, out, formats, usd, mesh)
+    for note in notes:
+        console().print(f"note  {note}", markup=False)
+    return code
+
+
+def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:
+    """The formats to write, and what to tell about them; all that can be written here where none were given."""
+    if given is not None:
+        return chosen(given), []
+    if has_usd():
+        return FORMATS, []
+    return tuple(name for name in FORMATS if name != "usd"), [
+        "usd was left out, because usd-core is not installed: pip install 'pat3d[usd]'."
+    ]
+
+
+def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any]) -> int:
+    from pat3d.scene.io import load_scene
+
+    with watch(console(stderr=True)) as progress:
+        scene = load_scene(folder)
+        start = time.perf_counter()
+        paths = export(scene, formats, out, progress=progress, **usd)
+        seconds = time.perf_counter() - start
+        reports = {name: parity(scene, path) for name, path in paths.items()}
+    target = console()
+    target.print(parity_table(reports))
+    target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
+    for path in paths.values():
+        target.print(f"  {path}", markup=False, soft_wrap=True)
+    return _verdict(tuple(line for report in reports.values() for line in report.failures))
+
+
+def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh: dict[str, Any]) -> int:
+    from pat3d.generation.asset_export import export_asset, mesh_files
+
+    files = mesh_files(source)
+    several = not source.is_file()
+    made: list[ExportedAsset] = []
+    refused: list[Pat3dError] = []
+    with watch(console(stderr=True)) as progress:
+        for number, (path, name) in enumerate(files.items()):
+            if several:
+                progress(Event(stage="exporting", detail=name, step=number, steps=len(files)))
+            try:
+                folder = out / name if several else out
+                made.append(export_asset(path, folder, formats, progress=progress, usd=usd, name=name, **mesh))
+            except Pat3dError as error:
+                if not several:
+                    raise
+                refused.append(error)
+    target = console()
+    if made:
+        target.print(assets_table(made))
+        worst = {name: max(made, key=lambda one, key=name: one.parities[key].largest).parities[name]
+                 for name in formats}  # fmt: skip
+        target.print()
+        target.print(parity_table(worst))
+        target.print("\nwritten to:", markup=False)
+    for one in made:
+        target.print(f"  {one.folder}", markup=False, soft_wrap=True)
+    errors = console(stderr=True)
+    for error in refused:
+        errors.print(f"pat3d: {type(error).__name__}: {error}", markup=False, soft_wrap=True)
+    code = _verdict(tuple(line for one in made for line in one.failures))
+    return max((error.exit_code for error in refused), default=code)
+
+
+def _verdict(failures: tuple[str, ...]) -> int:
+    errors = console(stderr=True)
+    for line in failures:
+        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
+    return 1 if failures else 0
+
+
+def parity_table(reports: Mapping[str, ParityReport]) -> Any:
+    """A row for every parser that read a format back, with its largest errors."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in ("format", "read back by"):
+        table.add_column(title, no_wrap=True)
+    for title in ("mass", "centre", "inertia", "friction", "hulls", "position", "rotation"):
+        table.add_column(title, justify="right", no_wrap=True)
+    table.add_column("")
+    for name, report in reports.items():
+        for number, reading in enumerate(report.readings):
+            errors = ["-" if error is None else "0" if error == 0.0 else f"{error:.0e}"
+                      for error in reading.worst.values()]  # fmt: skip
+            verdict = "[bold red]FAIL[/]" if reading.failures else "[green]same[/]"
+            table.add_row("" if number else name, reading.reader, *errors, verdict)
+    table.caption = "Largest errors of any object: relative; position in m, rotation in rad; the limit is 1e-06."
+    table.caption_justify = "left"
+    return table
+
+
+def assets_table(made: list[ExportedAsset]) -> Any:
+    """A row for every asset."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("asset", overflow="fold")
+    for title in ("cm", "kg", "kg/m^3", "parts", "cavity lost", "repairs", "rest after fall"):
+        table.add_column(title, justify="right", no_wrap=True)
+    for one in made:
+        asset, loss, drop = one.asset, one.cavity_loss, one.drop
+        table.add_row(
+            asset.noun,
+            " x ".join(f"{100 * side:.3g}" for side in asset.size),
+            f"{asset.mass_properties.mass:.4g}",
+            f"{asset.material.density:.0f}",
+            str(len(asset.parts)),
+            "-" if loss is None else f"{100 * loss:.1f} %",
+            str(len(asset.provenance.get("repairs", ()))),
+            "-" if drop is None else f"{drop.seconds:.2f} s" if drop.passed else "[bold red]FAIL[/]",
+        )
+    return table

@@ -1,0 +1,200 @@
+"""`pat3d suite`: the terminal's side of suites."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from pat3d.cli.console import console
+from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
+from pat3d.errors import SuiteError
+
+if TYPE_CHECKING:
+    from pat3d.envs.suites.generate import Status, Watcher
+
+_QUIET_SECONDS = 10.0
+"""A log that is no terminal hears at most this often."""
+
+
+def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
+    """The verbs of `pat3d suite`."""
+    verbs = to.add_subparsers(dest="verb", required=True, metavar="VERB")
+    making = verbs.add_parser("generate", help="make a suite, or what is missing of it", formatter_class=formatter,
+                              epilog="Interrupted or killed, the same command goes on where it stopped. The same seed "
+                              "gives the same suite with any number of workers (on a GPU, to 1e-9 m).")  # fmt: skip
+    making.add_argument("folder", metavar="OUT", help="suite folder to write")
+    making.add_argument("--tasks", default=",".join(TASKS[:5]), help=f"any of {', '.join(TASKS)} (all but retrieve)")
+    making.add_argument("--scenes", type=int, default=100, help="how many (100); a larger number makes a suite longer")
+    making.add_argument("--seed", type=int, default=0, help="the same seed gives the same suite (0)")
+    making.add_argument("--objects", default="5-8", metavar="N or N-M", help="objects of a scene (5-8)")
+    making.add_argument("--robot", default="Panda", help="that must be able to do the tasks (Panda)")
+    making.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
+    making.add_argument("--device", choices=DEVICES, default="cpu",
+                        help="where scenes settle; on a GPU, many side by side (cpu)")  # fmt: skip
+    making.add_argument("--ray", metavar="ADDRESS", help="let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto")
+    making.add_argument("--limit", type=float, default=300.0, metavar="SECONDS",
+                        help="for one scene; one that takes longer twice is replaced (300)")  # fmt: skip
+    making.add_argument("--picture", type=int, default=320, metavar="PIXELS",
+                        help="width of the scenes' pictures; 0 for none (320)")  # fmt: skip
+    checking = verbs.add_parser("check", help="prove a suite again: files, splits, stillness in MuJoCo")
+    checking.add_argument("folder", metavar="OUT", help="suite folder")
+    checking.add_argument("--quick", action="store_true", help="checksums and splits only")
+    checking.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
+    showing = verbs.add_parser("show", help="numbers in the terminal; pictures on the page index.html")
+    showing.add_argument("folder", metavar="OUT", help="suite folder")
+
+
+def run(options: argparse.Namespace) -> int:
+    """`pat3d suite VERB`."""
+    return {"generate": _generate, "check": _check, "show": _show}[options.verb](options)
+
+
+def _generate(options: argparse.Namespace) -> int:
+    from pat3d.envs.suites.crew import worker_count
+    from pat3d.envs.suites.generate import generate
+    from pat3d.envs.suites.suite import Suite
+
+    worker_count(options.workers)
+
+    request = Request(
+        tasks=tuple(name.strip() for name in options.tasks.split(",")), scenes=options.scenes, seed=options.seed,
+        objects=_range(options.objects), robot=options.robot, picture=options.picture,
+        device=options.device,
+    )  # fmt: skip
+    with _progress() as tell:
+        status = generate(
+            options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
+        )
+    _summary(Suite.open(options.folder))
+    if status.made:
+        console().print(f"\n{status.made} scenes in {status.seconds:.0f} s: {status.per_hour:.0f} an hour with "
+                        f"{status.workers} workers", markup=False)  # fmt: skip
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    from pat3d.envs.suites.check import check_suite
+    from pat3d.envs.suites.crew import worker_count
+    from pat3d.envs.suites.suite import Suite
+
+    suite = Suite.open(options.folder)
+    with _counting("checking") as tell:
+        lines = check_suite(suite, settle=not options.quick, workers=worker_count(options.workers), tell=tell)
+    errors = console(stderr=True)
+    for line in lines:
+        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
+    how = "files and splits" if options.quick else "files, splits and stillness in MuJoCo"
+    if not lines:
+        console().print(f"pass  {len(suite.entries)} scenes: {how}", markup=False)
+    return 1 if lines else 0
+
+
+def _show(options: argparse.Namespace) -> int:
+    from pat3d.envs.suites.folder import PAGE, write_text
+    from pat3d.envs.suites.page import page
+    from pat3d.envs.suites.suite import Suite
+
+    suite = Suite.open(options.folder)
+    _summary(suite)
+    write_text(suite.folder.path / PAGE, page(suite.folder.path.name, suite.document))
+    console().print(f"\n  {suite.folder.path / PAGE}", markup=False, soft_wrap=True)
+    return 0
+
+
+def _range(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{1,4})(?:-(\d{1,4}))?", text.strip())
+    if match is None:
+        raise SuiteError(f'--objects is a number or a range such as 5-8, not "{text}".')
+    return int(match[1]), int(match[2] or match[1])
+
+
+def _summary(suite: Any) -> None:
+    """Tables of splits, axes and rejections."""
+    from rich.table import Table
+
+    target, document = console(), suite.document
+    kinds = document["request"]["tasks"]
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("split")
+    for kind in (*kinds, "all"):
+        table.add_column(kind, justify="right")
+    for split in SPLITS:
+        own = [one.kind for one in suite.entries if in_split(one.split, split)]
+        table.add_row(split, *(str(own.count(kind)) for kind in kinds), str(len(own)))
+    target.print(table)
+    target.print()
+    for axis, told in document["axes"].items():
+        counts = ", ".join(f"{value}: {count}" for value, count in told["scenes"].items())
+        target.print(f"{axis:13s} {counts}", markup=False)
+    found = document["numbers"]
+    settled = found["settled_in_mujoco"]
+    target.print(
+        f"\n{found['scenes']} scenes from {found['candidates']} candidates; {settled['passed']} of {settled['of']} "
+        f"settled ones stay still in MuJoCo, {found['intersections']} intersections; at most "
+        f"{found['largest_drift_mm']:.2g} mm and {found['largest_turn_degrees']:.2g} degrees in the suite",
+        markup=False,
+    )
+    for reason, count in sorted(found["rejected"].items(), key=lambda item: -item[1]):
+        example = next(one["message"] for one in document["rejected"] if one["reason"] == reason)
+        target.print(f"  rejected  {count:4d}  {reason}: {example}", markup=False, overflow="ellipsis", no_wrap=True)
+
+
+@contextmanager
+def _progress() -> Iterator[Watcher]:
+    """A bar with rate and time to go in a terminal, a line now and then elsewhere."""
+    target = console(stderr=True)
+    if not target.is_terminal:
+        yield _Lines(target).tell
+        return
+    with _bar(target, "{task.fields[words]}") as live:
+        task = live.add_task("scenes", total=None, words="")
+        yield lambda status: live.update(task, completed=status.done, total=status.total, words=_words(status))
+
+
+@contextmanager
+def _counting(what: str) -> Iterator[Callable[[int, int], None]]:
+    target = console(stderr=True)
+    if not target.is_terminal:
+        yield lambda done, of: None
+        return
+    with _bar(target, "{task.description}") as live:
+        task = live.add_task(what, total=None)
+        yield lambda done, of: live.update(task, completed=done, total=of)
+
+
+def _bar(target: Any, words: str) -> Any:
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn(words))
+    return Progress(*columns, console=target, transient=True)
+
+
+class _Lines:
+    def __init__(self, target: Any) -> None:
+        self._console, self._start, self._last = target, time.perf_counter(), -_QUIET_SECONDS
+
+    def tell(self, status: Status) -> None:
+        now = time.perf_counter()
+        if now - self._last < _QUIET_SECONDS and status.done < status.total:
+            return
+        self._last = now
+        line = f"{now - self._start:6.0f} s  {status.done} of {status.total} scenes  {_words(status)}"
+        self._console.print(line, markup=False)
+
+
+def _words(status: Status) -> str:
+    if status.note:
+        return status.note
+    left = status.left
+    going = "" if left is None else f", {_duration(left)} to go"
+    return f"{status.per_hour:.0f} an hour{going}; {status.rejected} rejected; {status.workers} workers"
+
+
+def _duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s" if minutes else f"{rest} s"

@@ -1,0 +1,316 @@
+"""Attempts at a scene, each laid out with a seed of its own, settled and proved; the best one is optimised if it fails.
+
+Another layout costs one settling and mends what chance broke. An optimisation costs ten or more and mends what every
+layout has in common (weight that is not over its support), so it comes last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from pat3d.check.proof import Proof, broken, prove, relations_at_rest
+from pat3d.errors import LayoutError, Pat3dError, SimulationError
+from pat3d.exporters.mjcf.writer import write_mjcf
+from pat3d.generation.checkpoints import Workspace
+from pat3d.generation.optimize_stage import OPTIMISATION, available, improve, lost
+from pat3d.generation.report import Clock
+from pat3d.generation.request import Ingredient, Order, derived_seed
+from pat3d.generation.settle_stage import Rest, come_to_rest
+from pat3d.progress import Event, Progress
+from pat3d.scene.folder import key_of
+from pat3d.scene.model import GROUND, Pose, Relation, Scene, SceneObject, parent_of
+from pat3d.scene.versions import versions
+from pat3d.sim.compilation import prepare
+
+CLEARANCE = 1e-5
+"""Gap between a fixed object and the ground [m]."""
+STARTS, EPOCHS = 4, 20
+"""Layouts and gradient steps of an optimisation at most; `pat3d optimize` takes more."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Checked:
+    """A settled scene, exported and checked; it may have failed."""
+
+    scene: Scene
+    rest: Rest
+    proof: Proof
+    mjcf: Path
+    """Folder of the export that was checked."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Attempt:
+    """What came of one layout seed."""
+
+    number: int
+    """From 0."""
+    layout_seed: int
+    scene: Scene | None = None
+    """None where no layout was found or it could not be simulated."""
+    rest: Rest | None = None
+    notes: tuple[str, ...] = ()
+    """The layout's."""
+    inputs: Mapping[str, str] = field(default_factory=dict)
+    """Fingerprints of the stages' inputs."""
+    broken: tuple[str, ...] = ()
+    """Support relations that do not hold at rest."""
+    checked: Checked | None = None
+    """None where an earlier fault made the checks pointless."""
+    error: Pat3dError | None = None
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What is wrong with it, a line each."""
+        if self.error is not None:
+            return (str(self.error),)
+        lines = self.checked.proof.failures if self.checked is not None else self.broken
+        if self.rest is not None and not self.rest.at_rest:
+            frames, steps = self.rest.record["frames"], self.rest.record["polish_steps"]
+            still = f"settling did not come to rest in {frames} frames and {steps} steps of polish (unbalanced by "
+            lines = (still + f"{self.rest.record['residual']:.2g} of a weight).", *lines)
+        return lines
+
+    @property
+    def lost(self) -> tuple[Relation, ...]:
+        """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
+        if self.scene is None or self.rest is None:
+            return ()
+        return lost(self.scene, self.checked.proof.relations if self.checked else relations_at_rest(self.scene))
+
+    @property
+    def passed(self) -> bool:
+        """Checked, with nothing wrong."""
+        return self.checked is not None and not self.failures
+
+    @property
+    def rank(self) -> tuple[bool, bool, int, int]:
+        """The least is the best attempt."""
+        restless = self.rest is None or not self.rest.at_rest
+        return self.error is not None, restless, len(self.failures), len(self.lost)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json."""
+        settling = dict(self.rest.record) if self.rest is not None else None
+        return {
+            "attempt": self.number + 1, "layout_seed": self.layout_seed, "passed": self.passed,
+            "checked": self.checked is not None, "failures": list(self.failures), "settling": settling,
+            "optimised": self.rest is not None and self.rest.optimisation is not None,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Delivery:
+    """The attempt that becomes the scene folder."""
+
+    best: Attempt
+    checked: Checked
+    tried: tuple[Attempt, ...]
+    """All attempts, the best among them."""
+    key: str
+    """Fingerprint of the order and the settings."""
+
+
+class Attempts:
+    """Makes attempts at one order."""
+
+    def __init__(
+        self, order: Order, *, seed: int, friction: float, device: str,
+        workspace: Workspace, clock: Clock, progress: Progress, scratch: Path,
+    ) -> None:  # fmt: skip
+        self.order, self.seed, self.friction, self.device = order, seed, friction, device
+        self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
+        self._ingredients: tuple[Ingredient, ...] = ()
+        self._made = False
+        self.key = key_of(versions(), order.fingerprint, seed, friction, device)
+
+    def best_of(self, count: int) -> Delivery:
+        """The first attempt that passes, else the best of `count` with its faults.
+
+        Raises:
+            LayoutError: no attempt found a layout.
+            SimulationError: no attempt could be simulated.
+        """
+        made: list[Attempt] = []
+        known = self.workspace.delivered(self.key)
+        count = count if self.order.adjustable else 1
+        for number in range(count) if known is None else (known,):
+            attempt = self._attempt(number)
+            if not attempt.failures:
+                attempt = self._checked(attempt)
+            made.append(attempt)
+            if attempt.passed:
+                break
+        best = min(made, key=lambda attempt: attempt.rank)
+        if best.error is not None:
+            raise best.error
+        place = made.index(best)
+        made[place] = best = self._checked(self._improved(best))
+        if best.checked is None:
+            raise SimulationError("; ".join(best.failures))
+        return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
+
+    def first(self) -> Attempt:
+        """The first layout, settled, and checked where it came to rest; it may have failed."""
+        attempt = self._attempt(0)
+        return attempt if attempt.failures else self._checked(attempt)
+
+    def begun(self) -> Attempt:
+        """The first layout, not settled yet: its scene, or its error."""
+        return self._begun(0)
+
+    def settled(self, attempt: Attempt, rest: Rest) -> Attempt:
+        """`attempt`, which is `begun`, at rest as somebody else settled it; checked like `first`."""
+        attempt = _rested(attempt, rest)
+        return attempt if attempt.failures else self._checked(attempt)
+
+    def layout(self) -> Scene:
+        """The first layout: objects at poses where nothing touches.
+
+        Raises:
+            LayoutError: there is none.
+        """
+        made_of = key_of(versions(), self.order.fingerprint, self.seed, self.seed)
+        return self._laid_out(0, self.seed, {"layout": made_of})[0]
+
+    def _attempt(self, number: int) -> Attempt:
+        attempt = self._begun(number)
+        if attempt.scene is None:
+            return attempt
+        try:
+            rest = self._settled(number, attempt.scene, attempt.notes, attempt.inputs)
+        except (LayoutError, SimulationError) as error:
+            return replace(attempt, scene=None, error=error)
+        return _rested(attempt, rest)
+
+    def _begun(self, number: int) -> Attempt:
+        layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
+        attempt = Attempt(number=number, layout_seed=layout_seed)
+        made_of = key_of(versions(), self.order.fingerprint, self.seed, layout_seed)
+        inputs = {"layout": made_of, "rest": key_of(made_of, self.friction, self.device)}
+        try:
+            scene, notes = self._laid_out(number, layout_seed, inputs)
+        except (LayoutError, SimulationError) as error:
+            return replace(attempt, error=error)
+        return replace(attempt, scene=scene, notes=notes, inputs=inputs)
+
+    def _laid_out(self, number: int, layout_seed: int, inputs: Mapping[str, str]) -> tuple[Scene, tuple[str, ...]]:
+        """The order's objects at poses where nothing touches, and the layout's notes."""
+        kept = self.workspace.layout(number, inputs["layout"])
+        if kept is not None:
+            scene = kept[0]
+            own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
+            provenance = {**self._provenance(layout_seed), **own}
+            return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
+        from pat3d.layout.layout import arrange
+
+        if not self._made:
+            with self.clock("assets"):
+                self._ingredients, self._made = self.order.gather(self.seed, self.progress), True
+        again = f"attempt {number + 1}" if number else ""
+        with self.clock("layout"):
+            self.progress(Event(stage="arranging", detail=again))
+            layout = arrange(
+                {one.name: one.asset for one in self._ingredients},
+                self.order.relations,
+                seed=layout_seed,
+                fixed_poses={one.name: one.pose for one in self._ingredients if one.pose is not None},
+            )
+        objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
+        scene = Scene(
+            objects=objects, relations=self.order.relations, attachments=layout.attachments,
+            prompt=self.order.prompt, seed=self.seed,
+            settling_friction=self.friction, provenance=self._provenance(layout_seed),
+        )  # fmt: skip
+        notes = (*(one.note for one in self._ingredients if one.note), *layout.notes)
+        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
+        return scene, notes
+
+    def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> Rest:
+        kept = self.workspace.rest(number, inputs["rest"], scene)
+        if kept is not None:
+            return kept
+        with self.clock("kernels"):
+            device = prepare(self.device, self.progress)
+        with self.clock("settling"):
+            rest = come_to_rest(scene, device=device, progress=self.progress)
+        self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
+        return rest
+
+    def _improved(self, attempt: Attempt) -> Attempt:
+        """`attempt` from a better initial layout, where it needs one and there is one."""
+        scene, rest = attempt.scene, attempt.rest
+        if scene is None or rest is None or rest.optimisation is not None or not available():
+            return attempt
+        if not attempt.failures and not attempt.lost:
+            return attempt
+        from pat3d.optimize.optimize import OptimizeOptions
+
+        with self.clock("kernels"):
+            device = prepare(self.device, self.progress)
+        # Other layouts have been tried by the attempts; what they share is left to balancing and gradients.
+        options = OptimizeOptions(
+            epochs=EPOCHS,
+            starts=STARTS,
+            refined=1,
+            relayout=False,
+            steady=True,
+            seed=attempt.layout_seed,
+            device=device,
+        )
+        with self.clock("optimising"):
+            try:
+                done = improve(scene, options=options, at_rest=rest.at_rest, progress=self.progress)
+            except SimulationError:
+                return attempt
+        # Recorded even where it changed nothing, so that it is not repeated when the run is resumed.
+        kept_scene, kept_rest = scene, replace(rest, optimisation=done.record(kept=False))
+        if done.rest is not None:
+            faults = broken(relations_at_rest(done.scene))
+            other = replace(attempt, scene=done.scene, rest=done.rest, broken=faults, checked=None)
+            other = self._checked(other) if not other.failures else other
+            if other.rank < attempt.rank:
+                attempt, kept_scene, kept_rest = other, done.scene, done.rest
+        self.workspace.save_rest(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept_rest)
+        checked = replace(attempt.checked, rest=kept_rest) if attempt.checked is not None else None
+        return replace(attempt, rest=kept_rest, checked=checked)
+
+    def _checked(self, attempt: Attempt) -> Attempt:
+        if attempt.checked is not None or attempt.scene is None or attempt.rest is None:
+            return attempt
+        mjcf = self.scratch / f"mjcf_{attempt.number + 1}{'' if attempt.rest.optimisation is None else '_optimised'}"
+        with self.clock("export"):
+            path = write_mjcf(attempt.scene, mjcf)
+        with self.clock("proof"):
+            proof = prove(attempt.scene, path, self.progress)
+        checked = Checked(scene=attempt.scene, rest=attempt.rest, proof=proof, mjcf=mjcf)
+        return replace(attempt, checked=checked)
+
+    def _provenance(self, layout_seed: int) -> dict[str, Any]:
+        return {
+            **self.order.provenance,
+            "versions": versions(),
+            "settings": {"layout_seed": layout_seed, "friction": self.friction, "device": self.device},
+        }
+
+
+def _rested(attempt: Attempt, rest: Rest) -> Attempt:
+    """An attempt whose layout has come to rest; nothing is checked but its relations."""
+    if attempt.scene is None:
+        return attempt
+    scene = rest.of(attempt.scene)
+    return replace(attempt, scene=scene, rest=rest, broken=broken(relations_at_rest(scene)))
+
+
+def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
+    """An ingredient where the layout put it; fixed ones never fall, so they are set down on the ground."""
+    if one.fixed and one.pose is None and parent_of(one.name, relations) == GROUND:
+        lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
+        x, y, z = pose.position
+        pose = Pose(position=(x, y, z - lowest + CLEARANCE), quat_wxyz=pose.quat_wxyz)
+    return SceneObject(
+        name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed
+    )  # fmt: skip

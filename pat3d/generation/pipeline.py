@@ -1,0 +1,243 @@
+"""The stages in order: a sentence or a specification becomes a proven scene in a folder.
+
+    plan -> assets -> layout -> settling -> proof -> files
+
+A layout that does not settle into a proven scene is tried again with another seed; the best attempt is delivered
+and the report tells of all. A folder is complete when it appears.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pat3d.errors import SpecError
+from pat3d.exporters.formats import chosen, export
+from pat3d.generation.attempts import Attempts
+from pat3d.generation.checkpoints import Workspace
+from pat3d.generation.report import Clock, Report
+from pat3d.generation.request import Order, order_of
+from pat3d.plan.scene_plan import Planner
+from pat3d.progress import Event, Progress, silent
+from pat3d.scene.folder import check_target, replacing, write_json, write_pictures, write_trajectory
+from pat3d.scene.io import save_scene
+from pat3d.scene.model import Scene
+from pat3d.scene.physics import SETTLING_FRICTION
+
+if TYPE_CHECKING:
+    from pat3d.exporters.parity import ParityReport
+
+ATTEMPTS = 3
+"""Layouts tried before the best one is delivered with its faults reported."""
+
+MAX_SEED = 2**32 - 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """How to make a scene, whatever it is a scene of."""
+
+    seed: int = 0
+    friction: float = SETTLING_FRICTION
+    """Coulomb coefficient [-] of every contact while settling."""
+    device: str = "cpu"
+    formats: tuple[str, ...] = ("mjcf",)
+    """Exchange formats to write; MJCF, in which the scene is proven, always is."""
+    resume: bool = False
+    """Keep finished stages beside the folder, and use those whose inputs have not changed."""
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.seed <= MAX_SEED:
+            raise SpecError(f"the seed must be a whole number from 0 to {MAX_SEED}, got {self.seed}.")
+        if not (math.isfinite(self.friction) and 0.0 < self.friction <= 2.0):
+            raise SpecError(f"friction must be more than 0 and at most 2, got {self.friction}.")
+        object.__setattr__(self, "formats", chosen(self.formats))
+        if self.device not in ("cpu", "cuda"):
+            raise SpecError(f'unknown device "{self.device}". Valid: cpu, cuda.')
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
+    """A finished run."""
+
+    scene: Scene
+    report: Report
+    folder: Path
+
+
+def generate(
+    prompt: str,
+    *,
+    out: str | os.PathLike[str],
+    seed: int = 0,
+    friction: float = SETTLING_FRICTION,
+    device: str = "cpu",
+    formats: Sequence[str] = ("mjcf",),
+    resume: bool = False,
+    allow_proxies: bool = False,
+    planner: Planner | None = None,
+    progress: Progress = silent,
+) -> Scene:
+    """Make the scene that `prompt` describes, prove it and write its folder.
+
+    Args:
+        prompt: English, such as "a red mug on a wooden table".
+        out: folder to write; an earlier scene folder there is replaced once the new one is complete.
+        seed: the same seed gives the same scene.
+        friction: Coulomb coefficient [-] of every contact while settling; exports carry the materials' own.
+        device: "cpu" or "cuda".
+        formats: exchange formats to write.
+        resume: keep finished stages beside `out`, and use those whose inputs have not changed.
+        allow_proxies: let a plain box stand in for what the catalogue does not have.
+        planner: reads the prompt; the offline grammar where None.
+        progress: told what is going on.
+
+    Returns:
+        The scene; report.json in `out` says whether every check passed.
+
+    Raises:
+        PromptError: the prompt cannot be planned.
+        LayoutError: something does not fit.
+        SpecError: a setting is out of range, or there is no such device.
+        SimulationError: the layout cannot be simulated.
+        ExportError: `out` cannot be written.
+    """
+    settings = Settings(seed=seed, friction=friction, device=device, formats=tuple(formats), resume=resume)
+    return run_prompt(
+        prompt, out=out, settings=settings, allow_proxies=allow_proxies, planner=planner, progress=progress
+    ).scene
+
+
+def build(
+    spec_path: str | os.PathLike[str],
+    *,
+    out: str | os.PathLike[str],
+    seed: int | None = None,
+    friction: float | None = None,
+    device: str = "cpu",
+    formats: Sequence[str] = ("mjcf",),
+    resume: bool = False,
+    progress: Progress = silent,
+) -> Scene:
+    """Make the scene that a YAML specification describes, prove it and write its folder.
+
+    Args:
+        spec_path: the specification; `pat3d build --schema` prints what may be in it.
+        out: as for `generate`, like the rest.
+        seed: instead of the specification's.
+        friction: instead of the specification's.
+        device: "cpu" or "cuda".
+        formats: exchange formats to write.
+        resume: keep finished stages beside `out`, and use those whose inputs have not changed.
+        progress: told what is going on.
+
+    Returns:
+        The scene; report.json in `out` says whether every check passed.
+
+    Raises:
+        SpecError: the specification is invalid (the message names the line), or there is no such device.
+        AssetError: a mesh cannot be used.
+        LayoutError: something does not fit.
+        SimulationError: the layout cannot be simulated.
+        ExportError: `out` cannot be written.
+    """
+    return run_spec(
+        spec_path, out=out, seed=seed, friction=friction, device=device, formats=formats, resume=resume,
+        progress=progress,
+    ).scene  # fmt: skip
+
+
+def run_prompt(
+    prompt: str,
+    *,
+    out: str | os.PathLike[str],
+    settings: Settings,
+    allow_proxies: bool = False,
+    planner: Planner | None = None,
+    progress: Progress = silent,
+) -> Outcome:
+    """`generate`, with the report."""
+    from pat3d.plan.grammar.planner import GrammarPlanner
+
+    folder, clock = check_target(out), Clock()
+    with clock("planning"):
+        progress(Event(stage="planning"))
+        plan = (planner or GrammarPlanner(allow_proxies)).plan(prompt)
+    return make(order_of(plan, allow_proxies), folder=folder, settings=settings, clock=clock, progress=progress)
+
+
+def run_spec(
+    spec_path: str | os.PathLike[str],
+    *,
+    out: str | os.PathLike[str],
+    seed: int | None = None,
+    friction: float | None = None,
+    device: str = "cpu",
+    formats: Sequence[str] = ("mjcf",),
+    resume: bool = False,
+    progress: Progress = silent,
+) -> Outcome:
+    """`build`, with the report."""
+    from pat3d.generation.spec import load_spec
+
+    folder, clock = check_target(out), Clock()
+    with clock("planning"):
+        progress(Event(stage="reading the specification"))
+        spec = load_spec(spec_path)
+    settings = Settings(
+        seed=spec.seed if seed is None else seed,
+        friction=spec.friction if friction is None else friction,
+        device=device,
+        formats=tuple(formats),
+        resume=resume,
+    )
+    return make(spec.order(), folder=folder, settings=settings, clock=clock, progress=progress)
+
+
+def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progress: Progress) -> Outcome:
+    """The stages after planning, and the folder."""
+    from pat3d.view.preview import save_preview
+
+    workspace = Workspace(folder, keep=settings.resume)
+    with replacing(folder) as fresh:
+        attempts = Attempts(
+            order, seed=settings.seed, friction=settings.friction, device=settings.device,
+            workspace=workspace, clock=clock, progress=progress, scratch=fresh.parent,
+        )  # fmt: skip
+        delivery = attempts.best_of(ATTEMPTS)
+        scene, rest = delivery.checked.scene, delivery.checked.rest
+        with clock("files"):
+            progress(Event(stage="writing the folder"))
+            save_scene(scene, fresh)
+            delivery.checked.mjcf.rename(fresh / "mjcf")
+            names = tuple(obj.name for obj in scene.objects)
+            write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
+            write_pictures(rest.pictures, fresh)
+        with clock("formats"):
+            exports = _exports(scene, settings.formats, fresh, folder, progress)
+        with clock("preview"):
+            progress(Event(stage="drawing the preview"))
+            save_preview(scene, fresh / "preview.png")
+        report = Report(
+            order=order.record, delivery=delivery, reused=tuple(workspace.reused), seconds=clock.seconds,
+            exports=exports,
+        )  # fmt: skip
+        write_json(fresh / "report.json", report.as_dict())
+    workspace.clear()
+    return Outcome(scene=scene, report=report, folder=folder)
+
+
+def _exports(
+    scene: Scene, formats: Sequence[str], fresh: Path, folder: Path, progress: Progress
+) -> dict[str, ParityReport]:
+    """Write the formats beside the MJCF, which is there, into `fresh`, and read all of them back."""
+    from pat3d.exporters.parity import parity
+
+    more = [name for name in formats if name != "mjcf"]
+    paths = {"mjcf": fresh / "mjcf", **(export(scene, more, fresh, progress=progress) if more else {})}
+    progress(Event(stage="reading the formats back"))
+    return {name: parity(scene, path).moved(fresh, folder) for name, path in paths.items()}

@@ -1,0 +1,121 @@
+"""What a run found: report.json, and the summary that a person reads."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pat3d.check.proof import Proof
+    from pat3d.exporters.parity import ParityReport
+    from pat3d.generation.attempts import Delivery
+    from pat3d.generation.settle_stage import Rest
+    from pat3d.scene.model import Scene
+
+FORMAT = "pat3d-report"
+VERSION = 1
+
+
+class Clock:
+    """Wall time of every stage [s]; stages that run several times add up."""
+
+    def __init__(self) -> None:
+        self._start = time.perf_counter()
+        self._stages: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, stage: str) -> Iterator[None]:
+        """Time the block as part of `stage`."""
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.add(stage, time.perf_counter() - start)
+
+    def add(self, stage: str, seconds: float) -> None:
+        """Count time that was measured elsewhere [s] as part of `stage`."""
+        self._stages[stage] = self._stages.get(stage, 0.0) + seconds
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Of every stage so far, in the order they began, and the total since the clock was made."""
+        return {**self._stages, "total": time.perf_counter() - self._start}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Report:
+    """A finished run."""
+
+    order: Mapping[str, Any]
+    """How the prompt or the specification was understood."""
+    delivery: Delivery
+    reused: tuple[str, ...] = ()
+    """Stages taken from an earlier run."""
+    seconds: Mapping[str, float]
+
+    exports: Mapping[str, ParityReport] = field(default_factory=dict)
+    """What was found in every format when it was read back."""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the scene is proven, and every format says the same."""
+        return self.delivery.best.passed and all(report.passed for report in self.exports.values())
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What disproves the scene, a line each."""
+        lines = [line for report in self.exports.values() for line in report.failures]
+        return (*self.delivery.best.failures, *lines)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for report.json."""
+        best, checked = self.delivery.best, self.delivery.checked
+        scene = checked.scene
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "prompt": scene.prompt,
+            "seed": scene.seed,
+            "passed": self.passed,
+            "failures": list(self.failures),
+            "seconds": dict(self.seconds),
+            "versions": scene.provenance.get("versions", {}),
+            **of_scene(scene, checked.rest, checked.proof),
+            "understood": dict(self.order),
+            "layout": {"seed": best.layout_seed, "notes": list(best.notes)},
+            "exports": {name: report.as_dict() for name, report in self.exports.items()},
+            "attempts": [attempt.as_dict() for attempt in self.delivery.tried],
+            "delivered_attempt": best.number + 1,
+            "inputs": {"order": self.delivery.key, **best.inputs},
+            "reused": list(self.reused),
+        }
+
+
+def of_scene(scene: Scene, rest: Rest, proof: Proof) -> dict[str, Any]:
+    """What the report says about a scene at rest, however it came about."""
+    drifts = {obj.name: obj for obj in proof.mujoco.objects}
+    objects = []
+    for obj in scene.objects:
+        drift = drifts.get(obj.name)
+        objects.append(
+            {
+                "name": obj.name,
+                "noun": obj.asset.noun,
+                "fixed": obj.fixed,
+                "mass_kg": obj.asset.mass_properties.mass,
+                "parts": len(obj.asset.parts),
+                "size_m": obj.asset.size.tolist(),
+                "residual": proof.certificate.residuals.get(obj.name),
+                "drift_mm": None if drift is None else max(drift.centre_mm, drift.origin_mm),
+                "drift_degrees": None if drift is None else drift.degrees,
+            }
+        )
+    return {
+        "objects": objects,
+        "settling": {**rest.record, "friction": scene.settling_friction},
+        "optimisation": rest.optimisation,
+        "proof": proof.as_dict(),
+    }

@@ -1,0 +1,129 @@
+"""From planned objects to assets: what an order asks for, made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.progress import Event, Progress
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Pose, Relation
+
+MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
+"""Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ingredient:
+    """One object of a scene before it has a place."""
+
+    name: str
+    asset: Asset
+    phrase: str = ""
+    fixed: bool = False
+    pose: Pose | None = None
+    """Where the user wants it; None where the layout decides."""
+    note: str = ""
+    """What was decided about it where the prompt was silent."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Order:
+    """What to make, whether it came from a sentence or from a specification."""
+
+    prompt: str
+    names: tuple[str, ...]
+    relations: tuple[Relation, ...]
+    fingerprint: Any
+    """JSON data that decides the assets, the relations and the given poses, apart from the seed."""
+    gather: Callable[[int, Progress], tuple[Ingredient, ...]]
+    """Makes the ingredients, in the order of `names`, for a seed."""
+    record: Mapping[str, Any] = field(default_factory=dict)
+    """What the report says about how this was understood; JSON-serialisable."""
+    adjustable: bool = True
+    """Whether another layout seed can make a difference."""
+    provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
+    """Where it came from; JSON-serialisable."""
+
+
+def derived_seed(seed: int, *words: str | int) -> int:
+    """A seed that differs for every `seed` and every choice of `words`."""
+    entropy = [seed]
+    for word in words:
+        entropy += [len(word), *word.encode()] if isinstance(word, str) else [word]
+    return int(np.random.SeedSequence(entropy).generate_state(1)[0])
+
+
+def order_of(plan: ScenePlan, allow_proxies: bool) -> Order:
+    """What `plan` asks for."""
+    objects = [_plain(obj) for obj in plan.objects]
+    return Order(
+        prompt=plan.prompt,
+        names=tuple(obj.name for obj in plan.objects),
+        relations=plan.relations,
+        fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies],
+        gather=lambda seed, progress: gather_plan(plan, seed, progress),
+        record={
+            "objects": objects,
+            "notes": list(plan.notes),
+            "set_aside": list(plan.set_aside),
+            "proxies": [obj.name for obj in plan.objects if obj.proxy],
+        },
+    )
+
+
+def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
+    """An asset from the catalogue for every planned object; equal objects of a set share one."""
+    from pat3d.assets import catalogue
+    from pat3d.generation.sizing import widened
+
+    planned = {obj.name: obj for obj in plan.objects}
+
+    def make(name: str, factor: float = 1.0) -> Asset:
+        obj = planned[name]
+        shape = partial(
+            catalogue.make,
+            obj.noun,
+            colours=obj.colours,
+            material=obj.material,
+            adjectives=obj.adjectives,
+            seed=derived_seed(seed, name),
+        )
+        asked = obj.scale
+        if obj.extent is not None:
+            asked *= obj.extent.factor(shape(scale=asked).size.tolist())
+        return shape(scale=asked * factor)
+
+    made: dict[tuple, Asset] = {}
+    assets: dict[str, Asset] = {}
+    for number, obj in enumerate(plan.objects):
+        progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
+        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
+        entry = catalogue.find(obj.noun)
+        shared = entry is not None and entry.family in MATCHING
+        key = (look, obj.phrase if shared else obj.name)
+        if key not in made:
+            made[key] = make(obj.name)
+        assets[obj.name] = made[key]
+    notes: dict[str, str] = {}
+    for name, (larger, factor) in widened(plan, assets, make).items():
+        assets[name] = larger
+        notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
+    return tuple(
+        Ingredient(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
+        for obj in plan.objects
+    )
+
+
+def _plain(obj: PlannedObject) -> dict[str, Any]:
+    """A planned object as JSON data."""
+    return {
+        "name": obj.name, "noun": obj.noun, "phrase": obj.phrase, "colours": list(obj.colours),
+        "material": obj.material, "scale": obj.scale, "adjectives": list(obj.adjectives), "proxy": obj.proxy,
+        "extent": asdict(obj.extent) if obj.extent else None,
+    }  # fmt: skip

@@ -1,0 +1,250 @@
+"""Scenes from specifications: the user's meshes, sizes and relations instead of a sentence."""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pat3d.errors import AssetError, PromptError, SpecError
+from pat3d.generation.optimize_stage import GIVEN
+from pat3d.generation.request import Ingredient, Order, derived_seed
+from pat3d.generation.spec_schema import BUILD_SCHEMA
+from pat3d.generation.yaml_source import Source, read_yaml
+from pat3d.progress import Event, Progress
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import GROUND, Pose, Relation, check_tree
+
+MESH_KEYS = ("units", "up", "parts", "thickness")
+NOUN_KEYS = ("colour", "colours")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Spec:
+    """A valid specification; its meshes have not been read."""
+
+    source: Source
+    relations: tuple[Relation, ...]
+    poses: Mapping[str, Pose]
+
+    @property
+    def objects(self) -> list[dict[str, Any]]:
+        """As written."""
+        return self.source.document["objects"]
+
+    @property
+    def seed(self) -> int:
+        """Of the scene."""
+        return self.source.document.get("seed", 0)
+
+    @property
+    def friction(self) -> float:
+        """Coulomb coefficient [-] while settling."""
+        return float(self.source.document.get("friction", 0.2))
+
+    def order(self) -> Order:
+        """What to make."""
+        document = self.source.document
+        hashes = [_hash(self._mesh(obj)) if "mesh" in obj else None for obj in self.objects]
+        return Order(
+            prompt="",
+            names=tuple(obj["name"] for obj in self.objects),
+            relations=self.relations,
+            fingerprint=[document["objects"], document.get("relations", []), hashes],
+            gather=self.gather,
+            record={"specification": document},
+            adjustable=len(self.poses) < len(self.objects),
+            provenance={
+                "source": "specification", "file": self.source.path.name,
+                **({GIVEN: sorted(self.poses)} if self.poses else {}),
+            },
+        )  # fmt: skip
+
+    def gather(self, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
+        """The assets, in the order of the specification."""
+        found = []
+        for number, obj in enumerate(self.objects):
+            progress(Event(stage="making assets", detail=obj["name"], step=number, steps=len(self.objects)))
+            try:
+                asset = self._import(obj) if "mesh" in obj else _from_catalogue(obj, derived_seed(seed, obj["name"]))
+            except (AssetError, PromptError) as error:
+                key = "mesh" if "mesh" in obj else "noun"
+                place = ("objects", number, key)
+                raise self.source.error(place, f'"{obj["name"]}": {error}') from error
+            found.append(
+                Ingredient(
+                    name=obj["name"], asset=asset, fixed=obj.get("fixed", False), pose=self.poses.get(obj["name"])
+                )
+            )
+        return tuple(found)
+
+    def _mesh(self, obj: Mapping[str, Any]) -> Path:
+        return self.source.path.parent / os.path.expanduser(obj["mesh"])
+
+    def _import(self, obj: Mapping[str, Any]) -> Asset:
+        from pat3d.assets.mesh.importing import import_mesh
+
+        path = self._mesh(obj)
+        keys = ("units", "scale", "size", "up", "density", "mass", "friction", "parts", "thickness", "material")
+        # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
+        home = self.source.path.parent.resolve()
+        root = home if path.resolve().is_relative_to(home) else None
+        asset = import_mesh(path, texture_root=root, **{key: obj[key] for key in keys if key in obj})
+        record = dict(asset.provenance)
+        # How long it took, and whether it was cached, is no property of the scene.
+        record["parts"] = {key: value for key, value in record["parts"].items() if key not in ("seconds", "cached")}
+        return replace(asset, provenance=record)
+
+
+def load_spec(path: str | os.PathLike[str]) -> Spec:
+    """Read and validate the specification at `path`, without reading its meshes.
+
+    Raises:
+        SpecError: it is invalid; the message names line, column and key, and what would be valid.
+    """
+    source = read_yaml(Path(path))
+    _validate(source)
+    document = source.document
+    _check_objects(source, document["objects"], Path(path).parent)
+    names = [obj["name"] for obj in document["objects"]]
+    relations = []
+    for number, entry in enumerate(document.get("relations", [])):
+        for end in ("child", "parent"):
+            if entry[end] not in names and not (end == "parent" and entry[end] == GROUND):
+                near = _nearest(entry[end], [*names, GROUND])
+                raise source.error(("relations", number, end), f'there is no object "{entry[end]}".{near}')
+        try:
+            relations.append(Relation(**entry))
+            check_tree(names, tuple(relations))
+        except SpecError as error:
+            raise source.error(("relations", number), str(error)) from error
+    poses = {
+        obj["name"]: _pose(source, number, obj["pose"])
+        for number, obj in enumerate(document["objects"])
+        if "pose" in obj
+    }
+    return Spec(source=source, relations=tuple(relations), poses=poses)
+
+
+def _validate(source: Source) -> None:
+    """Raise for the first place where the document does not follow the schema."""
+    import jsonschema
+
+    errors = sorted(
+        jsonschema.Draft202012Validator(BUILD_SCHEMA).iter_errors(source.document),
+        # A misspelt key is told before what it was meant to be is missed.
+        key=lambda error: (
+            source.lines.get(tuple(error.absolute_path), (0, 0)),
+            error.validator != "additionalProperties",
+        ),
+    )
+    if not errors:
+        return
+    error = errors[0]
+    place = tuple(error.absolute_path)
+    if error.validator == "additionalProperties":
+        known = list(error.schema["properties"])
+        key = next(key for key in error.instance if key not in known)
+        raise source.error((*place, key), f'unknown key "{key}".{_nearest(key, known)}')
+    if error.validator == "required":
+        missing = next(key for key in error.validator_value if key not in error.instance)
+        raise source.error(place, f'"{missing}" is missing.')
+    if error.validator == "enum":
+        valid = ", ".join(map(str, error.validator_value))
+        raise source.error(place, f'"{error.instance}" is not valid. Valid: {valid}.')
+    text = error.message if len(error.message) < 160 else f"{error.message[:160]} ..."
+    described = (error.schema.get("description") or "").rstrip(".")
+    raise source.error(place, f"{text}{f' ({described})' if described else ''}.")
+
+
+def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) -> None:
+    """What a schema cannot say."""
+    from pat3d.assets import catalogue
+
+    seen: dict[str, int] = {}
+    for number, obj in enumerate(objects):
+        name, place = obj["name"], ("objects", number)
+        if name in seen:
+            raise source.error((*place, "name"), f'"{name}" is also the name of objects[{seen[name]}].')
+        if name == GROUND:
+            raise source.error((*place, "name"), f'"{GROUND}" is the plane z = 0; choose another name.')
+        seen[name] = number
+        if ("noun" in obj) == ("mesh" in obj):
+            raise source.error(place, f'"{name}" needs either a noun from the catalogue or a mesh file.')
+        for pair in (("mass", "density"), ("size", "scale"), ("size", "units"), ("colour", "colours")):
+            if all(key in obj for key in pair):
+                raise source.error((*place, pair[1]), f'"{name}": give {pair[0]} or {pair[1]}, not both.')
+        wrong = next((key for key in (MESH_KEYS if "noun" in obj else NOUN_KEYS) if key in obj), None)
+        if wrong:
+            other = "meshes" if "noun" in obj else "catalogue nouns"
+            raise source.error((*place, wrong), f'"{wrong}" is for {other} only.')
+        if "noun" in obj:
+            if catalogue.find(obj["noun"]) is None:
+                near = _nearest(obj["noun"], catalogue.nearest(obj["noun"])) or " See pat3d catalogue."
+                raise source.error((*place, "noun"), f'"{obj["noun"]}" is not in the catalogue.{near}')
+            if isinstance(obj.get("size"), list):
+                raise source.error((*place, "size"), "the size of a noun is one length, its longest side [m].")
+        elif not (folder / os.path.expanduser(obj["mesh"])).is_file():
+            raise source.error((*place, "mesh"), f'there is no mesh file "{obj["mesh"]}" in {folder.resolve()}.')
+
+
+def _pose(source: Source, number: int, entry: Mapping[str, Any]) -> Pose:
+    place = ("objects", number, "pose")
+    if "yaw_degrees" in entry and "quat_wxyz" in entry:
+        raise source.error((*place, "quat_wxyz"), "give yaw_degrees or quat_wxyz, not both.")
+    x, y, z = map(float, entry["position"])
+    try:
+        if "quat_wxyz" in entry:
+            return Pose(position=(x, y, z), quat_wxyz=tuple(map(float, entry["quat_wxyz"])))  # type: ignore[arg-type]
+        return Pose.from_yaw(math.radians(entry.get("yaw_degrees", 0.0)), (x, y, z))
+    except SpecError as error:
+        raise source.error(place, str(error)) from error
+
+
+def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
+    """A catalogue asset with the size, mass and friction that `obj` asks for."""
+    from pat3d.assets import catalogue
+
+    def made(scale: float) -> Asset:
+        return catalogue.make(
+            obj["noun"],
+            colours=obj.get("colours", [obj["colour"]] if "colour" in obj else []),
+            material=obj.get("material"),
+            scale=scale,
+            seed=seed,
+        )
+
+    asset = made(float(obj.get("scale", 1.0)))
+    if "size" in obj:
+        asset = made(float(obj["size"]) / float(asset.size.max()))
+    properties, material = asset.mass_properties, asset.material
+    mass = obj.get("mass", obj["density"] * properties.volume if "density" in obj else None)
+    if mass is not None:
+        factor = float(mass) / properties.mass
+        inertia = tuple(tuple(factor * value for value in row) for row in properties.inertia)
+        properties = replace(properties, mass=float(mass), inertia=inertia)
+        material = replace(material, density=float(mass) / properties.volume)
+    if "friction" in obj:
+        material = replace(material, friction=float(obj["friction"]))
+    return replace(asset, mass_properties=properties, material=material)
+
+
+def _nearest(word: str, known: list[str] | tuple[str, ...]) -> str:
+    near = difflib.get_close_matches(word, known, n=3, cutoff=0.4)
+    if near:
+        return f" Nearest: {', '.join(near)}."
+    return f" Valid: {', '.join(known)}." if 0 < len(known) <= 30 else ""
+
+
+def _hash(path: Path) -> str:
+    """SHA-256 of a file."""
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise AssetError(f"{path}: cannot be read ({error.strerror or error}). Nothing was written.") from error

@@ -1,0 +1,91 @@
+"""JSON schema of the specifications that `pat3d build` reads."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
+
+KINDS = sorted(SUPPORT_KINDS | LATERAL_KINDS)
+
+_POSITIVE = {"type": "number", "exclusiveMinimum": 0}
+_NAME = {"type": "string", "minLength": 1, "maxLength": 200}
+_VECTOR = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
+_POSE = {
+    "type": "object",
+    "description": "Where the object starts; settling moves it from there unless it is fixed.",
+    "properties": {
+        "position": {**_VECTOR, "description": "Of the base's centre [m]; z is up."},
+        "yaw_degrees": {"type": "number", "description": "Turn about the vertical, counter-clockwise from above."},
+        "quat_wxyz": {
+            "type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4,
+            "description": "Unit quaternion, scalar first, instead of yaw_degrees.",
+        },
+    },
+    "required": ["position"],
+    "additionalProperties": False,
+}  # fmt: skip
+
+_OBJECT = {
+    "type": "object",
+    "properties": {
+        "name": {**_NAME, "description": "Unique in the scene."},
+        "noun": {**_NAME, "description": "What to take from the catalogue; see pat3d catalogue."},
+        "mesh": {
+            "type": "string", "minLength": 1, "maxLength": 1000,
+            "description": "OBJ, STL, PLY, OFF, GLB or glTF file instead of a noun, relative to this file.",
+        },
+        "colour": {**_NAME, "description": "Main colour of a noun."},
+        "colours": {"type": "array", "items": _NAME, "minItems": 1, "maxItems": 16, "description": "Of a noun."},
+        "material": {**_NAME, "description": "Decides density and friction where they are not given."},
+        "units": {"enum": ["m", "cm", "mm", "in"], "description": "Of the mesh's coordinates."},
+        "up": {"enum": ["x", "-x", "y", "-y", "z", "-z"], "description": "Axis of the mesh that points up."},
+        "scale": {**_POSITIVE, "description": "Factor on the size."},
+        "size": {
+            "description": "Longest side [m]; for a mesh also [x, y, z] with null for sides that follow.",
+            "anyOf": [
+                _POSITIVE,
+                {"type": "array", "items": {"anyOf": [_POSITIVE, {"type": "null"}]}, "minItems": 3, "maxItems": 3},
+            ],
+        },
+        "parts": {"enum": ["coacd", "hull", "box"], "description": "How a mesh becomes convex parts."},
+        "thickness": {**_POSITIVE, "description": "Wall thickness of an open mesh [m]."},
+        "mass": {**_POSITIVE, "description": "[kg]"},
+        "density": {**_POSITIVE, "description": "[kg/m^3] of the closed surface, instead of the mass."},
+        "friction": {"type": "number", "minimum": 0, "description": "Coulomb coefficient that exports carry."},
+        "fixed": {"type": "boolean", "description": "Never moves, neither while settling nor in exports."},
+        "pose": _POSE,
+    },
+    "required": ["name"],
+    "additionalProperties": False,
+}  # fmt: skip
+
+_RELATION = {
+    "type": "object",
+    "properties": {"child": _NAME, "kind": {"enum": KINDS}, "parent": _NAME},
+    "required": ["child", "kind", "parent"],
+    "additionalProperties": False,
+}
+
+BUILD_SCHEMA: dict[str, Any] = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "title": "PAT3D scene specification",
+    "type": "object",
+    "properties": {
+        "seed": {"type": "integer", "minimum": 0, "maximum": 2**32 - 1, "default": 0},
+        "friction": {
+            "type": "number", "exclusiveMinimum": 0, "maximum": 2, "default": 0.2,
+            "description": "Coulomb coefficient of every contact while settling.",
+        },
+        "objects": {"type": "array", "items": _OBJECT, "minItems": 1, "maxItems": 500},
+        "relations": {
+            "type": "array",
+            "items": _RELATION,
+            "maxItems": 5000,
+            "description": "The parent may be ground; what nothing carries stands on the ground.",
+        },
+    },
+    "required": ["objects"],
+    "additionalProperties": False,
+}  # fmt: skip

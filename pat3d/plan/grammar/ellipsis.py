@@ -1,0 +1,206 @@
+"""Nouns left out in a list ("a red, a green and a blue block"), and lists that form one tower."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, is_modifier
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_JOINTS = ("comma", "and")
+TOWER = "tower"
+
+
+def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
+    """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
+    return _towers(_with_nouns(_from_below(_described(chunks)), nouns))
+
+
+def _from_below(chunks: list[Chunk]) -> list[Chunk]:
+    """`chunks` with "red at the bottom, blue in the middle and green on top" as "red, blue and green"."""
+    made: list[Chunk] = []
+    at = 0
+    while at < len(chunks):
+        levels: list[tuple[int, Chunk]] = []
+        after = at
+        while (phrase := chunks[after].phrase) is not None and _colour_alone(phrase):
+            level, size = _level(chunks, after + 1)
+            if not size:
+                break
+            levels.append((level, chunks[after]))
+            after += 1 + size
+            while chunks[after].kind in _JOINTS:
+                after += 1
+        if len(levels) > 1:
+            ordered = [piece.phrase for _, piece in sorted(levels, key=lambda each: each[0]) if piece.phrase]
+            colours = tuple(colour for phrase in ordered for colour in phrase.modifiers.colours)
+            whole = replace(ordered[0], modifiers=replace(ordered[0].modifiers, colours=colours))
+            made.append(Chunk(kind="phrase", text=whole.words, phrase=whole))
+            at = after
+        else:
+            made.append(chunks[at])
+            at += 1
+    return made
+
+
+def _level(chunks: Sequence[Chunk], at: int) -> tuple[int, int]:
+    """How high the place told at chunk `at` is (0, 1 or 2), and its chunks; no chunks where none is told."""
+    piece = chunks[at]
+    if piece.kind == "side" and piece.text == "centre":
+        return 1, 1
+    part = chunks[at + 1].phrase if piece.kind == "link" and at + 1 < len(chunks) else None
+    if part is not None and part.kind == "part" and part.said in ("bottom", "top", "middle"):
+        return {"bottom": 0, "middle": 1, "top": 2}[part.said], 2
+    top = piece.link is not None and piece.link.kind == "on" and piece.text.lower().endswith("top")
+    return (2, 1) if top else (0, 0)
+
+
+def _described(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "two of them red" in one piece."""
+    made: list[Chunk] = []
+    for piece in chunks:
+        phrase, before = piece.phrase, made[-1].phrase if made else None
+        if phrase is not None and before is not None and _bare(before) and _colour_alone(phrase):
+            whole = replace(before, modifiers=phrase.modifiers, words=f"{before.words} {phrase.words}")
+            made[-1] = replace(made[-1], phrase=whole, text=whole.words)
+        else:
+            made.append(piece)
+    return made
+
+
+def _bare(phrase: Phrase) -> bool:
+    headless = phrase.kind == "pieces" and not phrase.said
+    return headless and phrase.count is not None and phrase.modifiers == NO_MODIFIERS
+
+
+def _colour_alone(phrase: Phrase) -> bool:
+    return phrase.kind == "pieces" and not phrase.said and phrase.count is None and not phrase.determined
+
+
+def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
+    for at in range(len(chunks) - 1, -1, -1):
+        phrase = chunks[at].phrase
+        if phrase is None or not _headless(phrase):
+            continue
+        follower = _next_of_list(chunks, at)
+        if follower is not None and _lends(follower, phrase) and not _tells_apart(chunks, at):
+            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, follower, nouns))
+        elif (owner := _before_in_list(chunks, at)) is not None and phrase.modifiers.colours:
+            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, owner, nouns))
+    return chunks
+
+
+def _headless(phrase: Phrase) -> bool:
+    words = phrase.modifiers
+    described = words.colours or words.size_word or words.material
+    return phrase.kind == "pieces" and phrase.said == "" and phrase.determined and bool(described)
+
+
+def _next_of_list(chunks: Sequence[Chunk], at: int) -> Phrase | None:
+    after = at + 1
+    while chunks[after].kind in _JOINTS:
+        after += 1
+    return chunks[after].phrase if after > at + 1 else None
+
+
+def _lends(follower: Phrase, phrase: Phrase) -> bool:
+    """Whether `follower` has a noun for `phrase`: it is described in the same manner."""
+    ours, theirs = phrase.modifiers, follower.modifiers
+    alike = (
+        bool(ours.colours) == bool(theirs.colours)
+        and bool(ours.size_word) == bool(theirs.size_word or set(follower.said.split()) & lexicon.SIZES.keys())
+        and (bool(ours.material) == bool(theirs.material) or bool(ours.colours))
+    )
+    return follower.kind in ("object", "unknown") and follower.determined and alike
+
+
+def _tells_apart(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether the phrase at `at` describes members of a group named before it ("two bars - one white, one beige")."""
+    while at > 0 and (chunks[at - 1].kind in (*_JOINTS, "dash") or _is_list(chunks[at - 1])):
+        at -= 1
+        phrase = chunks[at].phrase
+        if phrase is not None and not _headless(phrase):
+            return phrase.plural
+    return False
+
+
+def _is_list(piece: Chunk) -> bool:
+    manner = piece.link.manner if piece.link else ""
+    return piece.phrase is not None or manner == "include" or (manner == "with" and piece.text == ":")
+
+
+def _before_in_list(chunks: Sequence[Chunk], at: int) -> Phrase | None:
+    """The object of "a red mug and a blue one": named directly before, and single."""
+    before = at - 1
+    while before >= 0 and chunks[before].kind in _JOINTS:
+        before -= 1
+    phrase = chunks[before].phrase if 0 <= before < at - 1 else None
+    phrase_ends_in_one = chunks[at].text.lower().split()[-1] in ("one", "ones")
+    if phrase is None or phrase.kind != "object" or phrase.plural or not phrase_ends_in_one:
+        return None
+    return phrase if phrase.modifiers.colours else None
+
+
+def _with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:
+    words = owner.said.split()
+    while len(words) > 1 and is_modifier(words[0]) and nouns.match(words[1:]):
+        words = words[1:]
+    found = nouns.match(words) if words != owner.said.split() else None
+    noun, said = (found.noun, found.said) if found else (owner.noun, owner.said)
+    plural = phrase.count is not None and phrase.count > 1
+    return replace(phrase, kind=owner.kind, noun=noun, said=said, head=owner.head, cycle=owner.cycle, plural=plural)
+
+
+def _towers(chunks: list[Chunk]) -> list[Chunk]:
+    """Every "a stack of A, B and C" as "A, B and C" and the word that makes a tower of the three."""
+    made: list[Chunk] = []
+    at = 0
+    while at < len(chunks):
+        listed = _list_of_stack(chunks, at)
+        if listed > 1:
+            end = _end_of_list(chunks, at + 2, listed)
+            made += [*chunks[at + 2 : end], Chunk(kind="arrange", text=TOWER, size=listed)]
+            at = end
+        else:
+            made.append(chunks[at])
+            at += 1
+    return made
+
+
+def _list_of_stack(chunks: Sequence[Chunk], at: int) -> int:
+    """Number of phrases in the list after "a stack of" at chunk `at`; 0 where no such list begins there."""
+    stack = chunks[at].phrase
+    joint = chunks[at + 1].link if at + 1 < len(chunks) else None
+    if stack is None or stack.kind != "pieces" or stack.said != "stack" or joint is None or joint.manner != "of":
+        return 0
+    return _count(chunks, at + 2)
+
+
+def _count(chunks: Sequence[Chunk], at: int) -> int:
+    count = 0
+    while (phrase := chunks[at].phrase) is not None and phrase.kind in ("object", "unknown") and phrase.determined:
+        count += 1
+        joint = at + 1
+        while chunks[joint].kind in _JOINTS:
+            joint += 1
+        closed = any(piece.kind == "and" for piece in chunks[at + 1 : joint])
+        if joint == at + 1:
+            break
+        at = joint
+        if closed:
+            following = chunks[at].phrase
+            return count + (following is not None and following.kind in ("object", "unknown"))
+    return count
+
+
+def _end_of_list(chunks: Sequence[Chunk], at: int, listed: int) -> int:
+    """The chunk after the `listed`-th phrase from chunk `at` on."""
+    seen = 0
+    while seen < listed:
+        seen += chunks[at].phrase is not None
+        at += 1
+    return at

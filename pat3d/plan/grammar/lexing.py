@@ -1,0 +1,93 @@
+"""Words and punctuation of a prompt."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from pat3d.plan.grammar import measures, postures
+
+_TOKEN = re.compile(
+    rf"(?P<measure>\b(?:{measures.LENGTH}|{measures.AMOUNT}))|(?P<posture>\b(?:{postures.POSTURE})(?![\w-]))"
+    r"|(?P<number>\d+[.]\d+)|(?P<word>[^\W_]+(?:[-'][^\W_]+)*)|(?P<dash>\u2014|\u2013|--+|(?<=\s)-(?=\s))"
+    r"|(?P<stop>[.!?;\n]+)|(?P<comma>[,()\[\]])|(?P<colon>:)",
+    re.IGNORECASE,
+)
+_IRREGULAR = {
+    "mice": "mouse", "knives": "knife", "loaves": "loaf", "leaves": "leaf", "shelves": "shelf", "halves": "half",
+    "scarves": "scarf", "wolves": "wolf", "geese": "goose", "feet": "foot", "teeth": "tooth", "children": "child",
+    "men": "man", "women": "woman", "people": "person", "dice": "die", "cacti": "cactus", "wives": "wife",
+    "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Token:
+    """One word or mark."""
+
+    text: str
+    """Lower case; ",", ".", ":", "-" (a dash) or "'s" for marks; a measure or a posture begins with "_"."""
+    start: int
+    end: int
+    """Span in the normalised prompt [characters]."""
+    number: int
+    """1 for the first word of the prompt; a mark has the number of the word before it."""
+    mark: bool = False
+
+
+def normalise(prompt: str) -> str:
+    """`prompt` with one kind of quote, one kind of blank, decimal fractions and compatibility characters resolved."""
+    prompt = re.sub(r"(\d{0,6})([\u00bc-\u00be\u2150-\u215e])", _decimal, prompt)
+    text = re.sub(r"(?<=\s)[&+](?=\s)", "and", unicodedata.normalize("NFKC", prompt))
+    text = re.sub(r"(?<![\d/.])(\d{1,3})/([1-9]\d?)(?=[ -]?(?:mm|cm|m|in|inch|inches|feet|foot|ft)\b)", _quotient, text)
+    return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
+
+
+def _decimal(found: re.Match[str]) -> str:
+    return f"{int(found[1] or 0) + unicodedata.numeric(found[2]):.4g}"
+
+
+def _quotient(found: re.Match[str]) -> str:
+    return f"{int(found[1]) / int(found[2]):.4g}"
+
+
+def tokenise(text: str) -> list[Token]:
+    """The words and marks of normalised `text`, ending in a full stop."""
+    tokens: list[Token] = []
+    words = 0
+    for found in _TOKEN.finditer(text):
+        start, end = found.span()
+        if found.lastgroup in ("word", "number"):
+            words += 1
+            word = found.group().lower()
+            if word.endswith("'s") and len(word) > 2:
+                tokens.append(Token(text=word[:-2], start=start, end=end - 2, number=words))
+                tokens.append(Token(text="'s", start=end - 2, end=end, number=words))
+            else:
+                tokens.append(Token(text=word, start=start, end=end, number=words))
+        elif found.lastgroup in ("measure", "posture"):
+            words += len(found.group().split())
+            name = (measures if found.lastgroup == "measure" else postures).token_text(found.group())
+            tokens.append(Token(text=name, start=start, end=end, number=words))
+        else:
+            mark = {"dash": "-", "stop": ".", "comma": ",", "colon": ":"}[str(found.lastgroup)]
+            tokens.append(Token(text=mark, start=start, end=end, number=words, mark=True))
+    tokens.append(Token(text=".", start=len(text), end=len(text), number=words, mark=True))
+    return tokens
+
+
+def singulars(word: str) -> tuple[str, ...]:
+    """What `word` may be the plural of, likeliest first; empty where it does not look like a plural."""
+    if word in _IRREGULAR:
+        return (_IRREGULAR[word],)
+    if len(word) < 4 or not word.endswith("s") or word.endswith("ss"):
+        return ()
+    guesses = [word[:-1]]
+    if word.endswith("ies"):
+        guesses.insert(0, word[:-3] + "y")
+    elif word.endswith("ves"):
+        guesses += [word[:-3] + "f", word[:-3] + "fe"]
+    elif word.endswith("es"):
+        guesses.append(word[:-2])
+    return tuple(guesses)

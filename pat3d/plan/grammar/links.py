@@ -1,0 +1,187 @@
+"""The words between objects, and what they say about who carries, holds or stands beside whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from pat3d.scene.model import RelationKind
+
+Manner = Literal[
+    "place",
+    "with",
+    "hold",
+    "flank",
+    "surround",
+    "between",
+    "sides",
+    "gaze",
+    "include",
+    "under",
+    "of",
+    "half",
+    "edge",
+]
+
+Side = Literal["left", "right", "centre"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Link:
+    """One relation word or phrase."""
+
+    manner: Manner = "place"
+    """place: child LINK parent. with, hold, include, of: parent LINK child. The others are named for their words."""
+    kind: RelationKind | None = None
+    """None where the nouns decide ("with", "holding")."""
+    finite: bool = False
+    """A verb of the clause: its subject is the clause's."""
+    filling: bool = False
+    """"filled with": a bare plural means many."""
+    side: Side | None = None
+    """For manner "half": which part of the parent."""
+    instead: str = ""
+    """What the words say and no relation does ("leaning against"): `kind` stands in, and a note says so."""
+
+    @property
+    def inverse(self) -> bool:
+        """Whether the objects that follow are the children."""
+        return self.manner in ("with", "hold", "include", "of", "flank", "surround")
+
+
+def _table() -> dict[tuple[str, ...], Link]:
+    links: dict[tuple[str, ...], Link] = {}
+
+    def add(link: Link, *phrases: str) -> None:
+        for phrase in phrases:
+            links[tuple(phrase.split())] = link
+
+    add(
+        Link(kind="on"),
+        "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "up on",
+    )  # fmt: skip
+    add(Link(kind="on", instead="above"), "above")
+    add(Link(kind="in"), "in", "inside", "inside of", "into", "within", "amid")
+    add(
+        Link(kind="next_to"),
+        "beside", "besides", "next to", "near", "near to", "nearby", "nearby to", "by", "close to", "alongside",
+        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
+        "off to the side of", "close by", "with its side to", "across from", "along",
+        "opposite", "opposite to", "among", "amongst",
+    )  # fmt: skip
+    leaning = ("leaning", "leaned", "leant", "propped", "propped up", "resting", "standing")
+    add(Link(kind="next_to", instead="leaning against"), *(f"{word} against" for word in leaning), "leaning on",
+        "leaning up against")  # fmt: skip
+    add(Link(kind="next_to", instead="leaning against", finite=True), "leans against", "lean against", "leans on",
+        "lean on", "rests against", "rest against")  # fmt: skip
+    add(Link(kind="on", instead="bridging"), "across", "bridging", "spanning", "straddling", "laid across",
+        "lying across", "placed across", "resting across")  # fmt: skip
+    add(Link(kind="on", instead="bridging", finite=True), "bridges", "spans", "straddles", "lies across",
+        "rests across")  # fmt: skip
+    sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
+    for side, kind in sides:
+        add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",
+            f"to the immediate {side} of", f"just to the {side} of")  # fmt: skip
+        half = Link(manner="half", side=side, kind=kind)
+        add(
+            half,
+            *(
+                f"{word} the {where} of"
+                for word in ("on", "at")
+                for where in (side, f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
+            ),
+        )
+        add(half, f"to the {side} side of", f"on {side} of")
+    centre = Link(manner="half", side="centre", kind="on")
+    add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
+    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "facing", "in the front of",
+        "ahead of")  # fmt: skip
+    add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
+    add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
+    for near in ("at", "on", "near", "in", "by"):
+        for part in ("edge", "corner", "end"):
+            place = f"{near} the {part} of"
+            add(Link(manner="edge", kind="on", instead=place), place)
+    add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
+        "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
+    add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
+    add(Link(manner="between", kind="right_of"), "between", "in between")
+    add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
+        "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
+        "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
+    add(Link(manner="under"), "under", "beneath", "below", "underneath")
+    add(
+        Link(manner="gaze"),
+        "gazing into", "gazing at", "looking at", "looking into", "looking toward", "looking towards", "watching",
+        "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
+        "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
+    )  # fmt: skip
+    add(Link(manner="gaze", finite=True), "gazes into", "gazes at", "looks at", "stares at", "watches", "faces")
+    add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
+    add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",
+        "displays", "showcases", "depicts")  # fmt: skip
+    add(Link(manner="with", kind="on"), "decorated with", "adorned with", "topped with", "topped by", "covered with",
+        "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
+        "stacked with", "dotted with")  # fmt: skip
+    add(Link(manner="with", kind="on", finite=True), "wears")
+    add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
+        "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
+    add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
+        "bears", "houses", "support", "hosts")  # fmt: skip
+    add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
+        "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",
+        "overflowing with")  # fmt: skip
+    add(Link(manner="include"), "including", "such as", "namely", "for example", "e.g", "consisting of", "composed of",
+        "comprising", "like")  # fmt: skip
+    add(Link(manner="flank"), "flanked by", "flanked with", "bordered by", "framed by", "sandwiched between",
+        "framed between")  # fmt: skip
+    add(Link(manner="surround", kind="around"), "surrounded by", "surrounded with", "encircled by", "ringed by")
+    add(Link(manner="of"), "of")
+    return links
+
+
+LINKS = _table()
+LONGEST_LINK = max(map(len, LINKS))
+
+SIDES: dict[tuple[str, ...], str] = {}
+for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
+    for _side in ("left", "right"):
+        for _tail in ("", " side", " hand side"):
+            SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
+            SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
+        SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+for _word in ("on", "at", "to"):
+    for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
+        SIDES[tuple(f"{_word} {_both}".split())] = "both"
+for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
+    SIDES[tuple(_phrase.split())] = "centre"
+for _phrase in ("on one side", "to one side", "at one side", "on one"):
+    SIDES[tuple(_phrase.split())] = "one"
+for _phrase in ("on the other side", "to the other side", "at the other side", "on the other", "on the opposite side"):
+    SIDES[tuple(_phrase.split())] = "other"
+"""Places without a landmark ("on the left side"), which only relate objects to each other."""
+
+EACH_OTHER: dict[tuple[str, ...], str] = {
+    tuple(words.split()): how
+    for how, phrases in {
+        "stack": (
+            "on top of each other", "on each other", "atop each other", "one on top of the other", "one on another",
+            "one on top of another", "on top of one another", "one atop the other", "one atop another", "stacked up",
+            "stacked", "piled", "piled up", "in a stack", "in a pile", "in a tower", "in a column", "into a stack",
+            "into a tower", "into a pile", "in one stack", "on top of one other", "one above the other",
+            "on one another",
+        ),
+        "row": (
+            "in a row", "in a line", "lined up", "in one row", "in a single row", "in a straight line", "into a row",
+            "in a single line", "in a horizontal line", "in line", "in one line",
+        ),
+        "beside": (
+            "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
+            "next to one another", "close together", "face to face",
+        ),
+        "order": ("from left to right", "left to right", "ordered from left to right"),
+        "reverse": ("from right to left", "right to left"),
+    }.items()
+    for words in phrases
+}  # fmt: skip
+"""Words that arrange the members of one group, or of one list."""

@@ -1,0 +1,155 @@
+"""The words before a head noun: colours, materials, sizes and the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from pat3d.assets.colours import MIXED, find_colour
+from pat3d.assets.materials import find_material
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.measures import Measure, is_measure, read_measure
+from pat3d.plan.grammar.postures import is_posture, read_posture
+
+_COLOURED = frozenset({"colored", "coloured", "color", "colour", "hued"})
+_MANY = frozenset(
+    {"different", "differently", "multi", "various", "brightly", "bright", "assorted", "mixed", "vibrant"}
+)
+_MIXED = {**MIXED, "multicoloured": MIXED["multicolored"], "multi-colored": MIXED["multicolored"],
+          "multi-coloured": MIXED["multicolored"], "rainbow-colored": MIXED["rainbow"]}  # fmt: skip
+_NO_ADJECTIVE = frozenset({"fruit", "cake", "food", "soap", "electronics", "foliage", "bread", "upholstery"})
+"""Materials whose name before a noun means a purpose ("fruit bowl", "soap dish")."""
+_COLOUR_FIRST = frozenset({"golden", "bronze", "copper", "gold", "silver"})
+_ADJECTIVES = frozenset({
+    "soft", "simple", "bright", "modern", "old", "new", "cute", "round", "square", "tall", "short", "long", "wide",
+    "thin", "thick", "plain", "clean", "open", "closed", "smooth", "rough", "fresh", "ripe", "vintage", "antique",
+    "ancient", "elegant", "warm", "cool", "light", "dark", "calm", "sleek", "quiet", "empty", "full", "heavy", "flat",
+    "minimalist", "fluffy", "cozy", "striped", "curved", "sturdy", "rustic", "neat", "tidy", "happy", "sweet",
+})  # fmt: skip
+_ENDINGS = ("ful", "ish", "ous", "al", "ic", "able", "ible", "less", "ive", "ed", "ing", "ny", "zy", "fy", "ty", "ky")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Modifiers:
+    """What the words before a head noun say."""
+
+    colours: tuple[str, ...] = ()
+    palette: tuple[str, ...] = ()
+    """Colours that the objects of a group take in turn."""
+    palette_word: str = ""
+    material: str | None = None
+    material_word: str = ""
+    scale: float = 1.0
+    size_word: str = ""
+    adjectives: tuple[str, ...] = ()
+    stacked: bool = False
+    measures: tuple[Measure, ...] = ()
+    postures: tuple[str, ...] = ()
+
+    def under(self, outer: Modifiers) -> Modifiers:
+        """These, with what `outer` adds ("a colourful stack of books")."""
+        return replace(
+            self,
+            colours=self.colours or outer.colours,
+            palette=self.palette or outer.palette,
+            palette_word=self.palette_word or outer.palette_word,
+            material=self.material or outer.material,
+            material_word=self.material_word or outer.material_word,
+            measures=(*self.measures, *outer.measures),
+            postures=(*self.postures, *outer.postures),
+        )
+
+    def marked_as(self, other: Modifiers) -> Modifiers:
+        """These, with the measures and postures of `other`."""
+        return replace(self, measures=(*self.measures, *other.measures), postures=(*self.postures, *other.postures))
+
+
+NO_MODIFIERS = Modifiers()
+
+
+def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifiers:
+    """Sort modifier `words`; `hidden` are words of the noun's own name, read for colour and material only."""
+    colours: list[str] = []
+    adjectives: list[str] = []
+    palette_word = material_word = size_word = ""
+    material: str | None = None
+    scale, stacked = 1.0, False
+    measures = tuple(read_measure(word) for word in words if is_measure(word))
+    postures = tuple(read_posture(word) for word in words if is_posture(word))
+    spread = _spread([word for word in words if not is_marked(word)])
+    for index, word in enumerate(spread):
+        follower = spread[index + 1] if index + 1 < len(spread) else ""
+        before = spread[index - 1] if index else ""
+        if word in _COLOURED:
+            if not find_colour(before) and not palette_word:
+                palette_word = "colorful"
+        elif word in _MIXED:
+            palette_word = word
+        elif word in ("stacked", "piled"):
+            stacked = True
+        elif word in lexicon.SHADE_WORDS and (find_colour(follower) or _material(follower)):
+            adjectives.append(word)
+        elif word in lexicon.SIZES:
+            scale *= lexicon.SIZES[word]
+            size_word = size_word or word
+        elif (found := _material(word)) and word not in _COLOUR_FIRST:
+            material, material_word = found, word
+        elif colour := find_colour(word):
+            colours.append(lexicon.SHADES.get((before, word), colour))
+        else:
+            adjectives.append(word)
+    for word in hidden:
+        if (found := _material(word)) and not material:
+            material = found
+        elif (colour := find_colour(word)) and not colours:
+            colours.append(colour)
+    return Modifiers(
+        colours=tuple(dict.fromkeys(colours)), palette=_MIXED.get(palette_word, ()), palette_word=palette_word,
+        material=material, material_word=material_word, scale=min(max(scale, 0.1), 10.0), size_word=size_word,
+        adjectives=tuple(adjectives), stacked=stacked, measures=measures, postures=postures,
+    )  # fmt: skip
+
+
+def _spread(words: Sequence[str]) -> list[str]:
+    """`words` with hyphenated colours taken apart: "blue-handled" is "blue", "red-and-white" two colours."""
+    spread: list[str] = []
+    for word in words:
+        parts = word.split("-")
+        if word in _MIXED or word in lexicon.SIZES or len(parts) == 1:
+            spread.append(word)
+        elif parts[-1] in _COLOURED:
+            spread += ["colorful"] if parts[0] in _MANY else parts
+        elif any(find_colour(part) for part in parts):
+            spread += [part for part in parts if find_colour(part) or part in lexicon.SHADE_WORDS]
+        elif _material(parts[0]) and parts[-1].endswith("ed"):
+            spread.append(word)
+        else:
+            spread.append(word)
+    return spread
+
+
+def _material(word: str) -> str | None:
+    return None if word in _NO_ADJECTIVE else find_material(word)
+
+
+def is_colour_word(word: str) -> bool:
+    """Whether `word` is a colour, alone or in a hyphenated word."""
+    return bool(find_colour(word)) or ("-" in word and any(find_colour(part) for part in word.split("-")))
+
+
+def is_marked(word: str) -> bool:
+    """Whether `word` is the text of a token that measures or turns an object."""
+    return is_measure(word) or is_posture(word)
+
+
+def is_modifier(word: str) -> bool:
+    """Whether `word` is known to describe rather than name."""
+    return (
+        is_colour_word(word) or word in _MIXED or word in _COLOURED or word in lexicon.SIZES or word in _ADJECTIVES
+        or _material(word) is not None or word in lexicon.SHADE_WORDS or is_marked(word)
+    )  # fmt: skip
+
+
+def looks_like_adjective(word: str) -> bool:
+    """Whether `word` has an adjective's ending."""
+    return word.endswith(_ENDINGS) and word not in lexicon.NOT_VERBS

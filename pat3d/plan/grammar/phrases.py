@@ -1,0 +1,300 @@
+"""Noun phrases: determiner, count, modifiers, head ("two large red-handled wooden brushes")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from pat3d.assets.materials import find_material
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.arrangements import RINGS, grid_size, refuse, shape_said
+from pat3d.plan.grammar.boundaries import Boundaries
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
+from pat3d.plan.grammar.vocabulary import Nouns
+
+PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
+_ORDINALS = frozenset({"first", "second", "third", "last"})
+"""Members of a group named by their place alone: "a ball in the first"."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Phrase:
+    """What one noun phrase says."""
+
+    kind: PhraseKind
+    words: str = ""
+    """As written in the prompt."""
+    head: str = ""
+    number: int = 0
+    """Position of the head in the prompt [words, from 1]."""
+    noun: str = ""
+    said: str = ""
+    count: int | None = None
+    """None where the prompt gives none."""
+    vague: bool = False
+    plural: bool = False
+    determined: bool = False
+    """Opens with a determiner or a number."""
+    definite: bool = False
+    each: bool = False
+    one_of: bool = False
+    """"one of two boxes"."""
+    possessive: bool = False
+    cycle: tuple[str, ...] = ()
+    """Nouns standing in turn for a generic ("fruit")."""
+    modifiers: Modifiers = NO_MODIFIERS
+    height: int | None = None
+    """Objects in one stack; 0 for a stack of unstated height."""
+    chains: int = 1
+    """Number of stacks."""
+    heap: bool = False
+    """Lies in a heap that is no stack: "a pile of toys"."""
+    rows: int = 0
+    """Rows that they stand in; 0 where nothing is said."""
+    part: str = ""
+    """The part of it that is spoken of: "drawer" for "the top drawer of a desk"."""
+    left_out: str = ""
+    """What stands after "of" and means nothing here."""
+    substance: str = ""
+    """Content that is no rigid body ("tea")."""
+
+
+class PhraseReader:
+    """Reads noun phrases from the tokens of one prompt."""
+
+    def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns) -> None:
+        self._text = text
+        self._tokens = tokens
+        self._nouns = nouns
+        self._bounds = Boundaries(tokens, nouns)
+
+    def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
+        """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
+        at, count, flags = self._opening(start)
+        run, after = self._bounds.run(at)
+        tokens = self._tokens
+        if not run:
+            if after == start:
+                return None
+            rest = tokens[after - 1].text == "other"
+            phrase = Phrase(kind="pieces" if count is not None or rest else "pronoun", head=tokens[after - 1].text)
+            if tokens[after].text == "of" and tokens[after + 1].text in (*lexicon.PRONOUNS, "these", "those"):
+                after += 2
+            if (
+                count is not None
+                and tokens[after].text == "of"
+                and depth < 3
+                and (inner := self.read(after + 1, depth + 1))
+            ):
+                single = flags.get("one", False)
+                phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
+                if single and (phrase.count or 1) > 1:
+                    phrase, count = replace(phrase, one_of=True), phrase.count
+        elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
+            phrase, after = joined
+            count = phrase.count
+        elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
+            phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
+        else:
+            if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
+            if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
+                told = Modifiers(adjectives=(run[0].text,))
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
+                              determined=True, definite=True, modifiers=told), after  # fmt: skip
+            if run[-1].text == "one" and flags.get("determined"):
+                count = count or 1
+            phrase = self._simple(run, count)
+        flags.pop("one", None)
+        words = self._text[tokens[start].start : tokens[after - 1].end]
+        number = phrase.number or tokens[after - 1].number
+        merged = {key: value or getattr(phrase, key) for key, value in flags.items()}
+        return replace(
+            phrase, words=words, count=count if count is not None else phrase.count, number=number, **merged
+        ), after
+
+    def _opening(self, at: int) -> tuple[int, int | None, dict[str, bool]]:
+        """Determiners and numbers from token `at`: the token after them, the count and the flags of Phrase."""
+        count: int | None = None
+        flags: dict[str, bool] = {}
+        while not (token := self._tokens[at]).mark:
+            word = token.text
+            follower = self._tokens[at + 1].text
+            if word == "each" and follower == "of":
+                flags["each"] = flags["determined"] = True
+                at += 1
+            elif word in lexicon.POSSESSIVES:
+                flags["possessive"] = flags["definite"] = True
+            elif word == "half" and follower in ("a", "dozen"):
+                count, at = 6, at + (2 if follower == "a" else 1)
+                flags["determined"] = True
+            elif word in ("dozen", "couple", "pair", "trio", "set") and follower == "of":
+                break
+            elif word in ("dozen", "hundred", "thousand") and (count is not None or flags.get("determined")):
+                count = (count or 1) * lexicon.NUMBERS[word]
+            elif word in lexicon.NUMBERS and word not in ("couple", "dozen", "trio", "single"):
+                count = lexicon.NUMBERS[word]
+                flags["determined"] = True
+                flags["one"] = word == "one"
+                if word == "both":
+                    flags["definite"] = True
+            elif word.isascii() and word.isdecimal():
+                count = int(word[:9])
+                flags["determined"] = True
+            elif word in lexicon.VAGUE and word != "couple":
+                count = lexicon.VAGUE[word]
+                flags["determined"] = flags["vague"] = True
+            elif word in ("couple", "dozen") and not self._tokens[at + 1].mark:
+                count = lexicon.NUMBERS[word]
+            elif word in lexicon.DETERMINERS:
+                flags["determined"] = True
+                if word in lexicon.DEFINITE:
+                    flags["definite"] = True
+                if word in ("each", "every"):
+                    flags["each"] = True
+            elif word in ("other", "same", "single") and flags.get("determined"):
+                pass
+            else:
+                break
+            at += 1
+        return at, count, flags
+
+    def _simple(self, run: list[Token], count: int | None) -> Phrase:
+        """The phrase of a run without "of"."""
+        words = [token.text for token in run]
+        head, number = words[-1], run[-1].number
+        base = Phrase(kind="unknown", head=head, number=number, count=count, modifiers=read_modifiers(words[:-1]))
+        singular = (head, *singulars(head))
+        for size in (2, 1):
+            ends = [" ".join([*words[-size:-1], word]) for word in singular]
+            generic = next((end for end in ends if len(words) >= size and end in lexicon.GENERICS), None)
+            plural = head not in lexicon.GENERICS and head == words[-1] and len(singular) > 1
+            longer = self._nouns.longest(words) if size == 1 else None
+            if (
+                generic
+                and not (longer and len(longer[1]) > 1)
+                and (plural or generic in lexicon.MASS_GENERICS or size == 2 or not self._nouns.match([head]))
+            ):
+                cycle = self._known(lexicon.GENERICS[generic])
+                if cycle:
+                    return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
+                                   modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
+        found = self._nouns.longest(words)
+        if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):
+            match, used = found
+            if match.said == "glasses" and (count or 0) > 1 and (drinking := self._nouns.match(["glass"])):
+                match = replace(drinking, plural=True)
+            rest = [word for index, word in enumerate(words) if index not in used]
+            hidden = [word for word in match.said.split()[:-1] if word not in match.noun.split()]
+            plural = match.plural and match.said not in lexicon.PLURAL_ONLY
+            own = read_modifiers(rest, hidden)
+            return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
+        two = " ".join(words[-2:])
+        if any(word in lexicon.STACK_NOUNS for word in singular):
+            return replace(base, kind="pieces", said="stack")
+        if any(word in lexicon.PIECES for word in singular):
+            return replace(base, kind="pieces")
+        if head in lexicon.ITEMS:
+            return replace(base, kind="items")
+        if head in lexicon.BACKGROUND or two in lexicon.BACKGROUND:
+            return replace(base, kind="background")
+        if any(word in lexicon.SUBSTANCES for word in singular):
+            return replace(base, kind="background", substance=head)
+        if any(word in lexicon.PARTS for word in singular):
+            return replace(base, kind="part", said=singular[-1])
+        if all(is_modifier(word) for word in words):
+            return replace(base, kind="pieces", modifiers=read_modifiers(words))
+        return base
+
+    def _of(self, run: list[Token], at: int, count: int | None, depth: int) -> tuple[Phrase, int] | None:
+        """The phrase of a run before the "of" at token `at`; None where "of" is a relation between two phrases."""
+        words = [token.text for token in run]
+        head, plural = words[-1], bool(singulars(words[-1]))
+        singular = (head, *singulars(head))
+        read = self.read(at + 1, depth + 1)
+        if read is None:
+            return None
+        inner, after = read
+        if inner.head in lexicon.SUBSTANCES and not inner.determined:
+            inner = replace(inner, kind="background", substance=inner.head)
+        if any(word in lexicon.STACK_NOUNS for word in singular):
+            single = inner.determined and not inner.plural and inner.count in (None, 1) and not inner.cycle
+            if inner.kind not in ("object", "unknown") or single:
+                return None
+            chains = count if count is not None else (2 if plural else 1)
+            stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
+            own = read_modifiers(words[:-1])
+            rolls = inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)
+            if lexicon.HEAPS & set(singular) or ("pile" in singular and rolls):
+                amount = inner.count or lexicon.STACK_HEIGHT
+                return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
+                               modifiers=inner.modifiers.under(own)), after  # fmt: skip
+            return replace(inner, height=stated, chains=chains, count=None if not stated else chains * stated,
+                           modifiers=inner.modifiers.under(own)), after  # fmt: skip
+        if (sides := grid_size(words)) and inner.kind in ("object", "unknown"):
+            return replace(inner, count=sides[0] * sides[1], rows=sides[0], vague=False), after
+        if RINGS & set(singular) and self._tokens[after].text in ("around", "surrounding") and inner.kind == "object":
+            return inner, after
+        if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
+            raise refuse(head, run[-1].number)
+        if head in lexicon.PICTURES:
+            return None
+        rows = any(word in lexicon.ROWS for word in singular)
+        if rows and plural and head != "series":
+            number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
+            return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
+                           modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
+        if rows or head in lexicon.COLLECTIVES:
+            taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
+            taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
+            taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
+            if head in ("few", "handful", "lot", "lots", "plenty", "number"):
+                taken = 5 if head in ("lot", "lots", "plenty") else 3
+            if inner.kind == "background":
+                return inner, after
+            amount = inner.count if taken is None else taken
+            return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
+                           modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
+        known = self._nouns.longest(words)
+        part = any(word in lexicon.PARTS for word in singular)
+        if known is None:
+            part = part and (inner.definite or not plural)
+        else:
+            # "one of the shelves of a bookcase", but not "a shelf of books".
+            part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
+        if part and inner.kind in ("object", "pronoun", "background", "pieces", "items"):
+            return replace(inner, count=inner.count if inner.kind == "object" else None, part=head), after
+        if inner.kind == "background" and inner.substance:
+            whole = self._simple(run, count)
+            compound = self._nouns.match([inner.head, singular[-1]])
+            if compound:
+                return replace(
+                    whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count
+                ), after
+            return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
+        holds = known is not None and any(
+            self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
+        )
+        portion = any(word in lexicon.PORTIONS for word in singular)
+        shape = any(word in lexicon.SHAPES for word in singular)
+        if inner.kind in ("object", "unknown", "pieces") and (portion or shape):
+            stem = (inner.said or inner.head).split()
+            compound = None if holds and inner.kind == "object" else self._nouns.match([*stem, singular[-1]])
+            rest = read_modifiers(words[:-1])
+            if compound:
+                return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
+                               cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
+            if portion and not holds and inner.kind == "pieces":
+                return replace(inner, kind="unknown"), after
+            if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
+                amount = inner.count if count is None and plural else count
+                return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
+        if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
+            left_out = inner.words if inner.kind in ("unknown", "object") and not find_material(inner.head) else ""
+            return replace(self._simple(run, count), left_out=left_out), after
+        return None
+
+    def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(name for name in names if self._nouns.resolve(name))

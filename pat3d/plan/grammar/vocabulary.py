@@ -1,0 +1,129 @@
+"""What the planner asks of the catalogue: which words name something that can be made."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.modifiers import is_modifier
+
+
+class Known(Protocol):
+    """One kind of object; the catalogue's Entry is one."""
+
+    @property
+    def noun(self) -> str:
+        """Catalogue noun."""
+        ...
+
+    @property
+    def plurals(self) -> tuple[str, ...]:
+        """Irregular plurals."""
+        ...
+
+
+class Vocabulary(Protocol):
+    """The nouns that can be made; the catalogue's registry is one."""
+
+    def find(self, name: str, /) -> Known | None:
+        """What is called `name`, or None."""
+        ...
+
+    def names(self) -> tuple[str, ...]:
+        """All nouns and synonyms."""
+        ...
+
+    def nearest(self, name: str, count: int = 3) -> tuple[str, ...]:
+        """The known names most like `name`."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Match:
+    """A known noun found in the prompt."""
+
+    noun: str
+    """Catalogue noun."""
+    said: str
+    """The prompt's own name for it, in the singular."""
+    plural: bool
+
+
+class Nouns:
+    """Looks words up in a vocabulary, plural or singular."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._classes: dict[Any, frozenset[str]] = {}
+        self.joined = frozenset(
+            tuple(name.split()) for name in vocabulary.names() if {"of", "and", "in", "on", "with"} & set(name.split())
+        )
+        """Names with a function word inside ("slice of cake"), as tuples of words."""
+
+    def match(self, words: Sequence[str]) -> Match | None:
+        """The known noun that `words` are exactly, or None."""
+        if not words:
+            return None
+        spelled = " ".join(words)
+        known = self._vocabulary.find(spelled)
+        for name in self._singular(words):
+            single = self._vocabulary.find(name)
+            if single is not None and (known is None or known.noun == single.noun):
+                # A plural that is itself a synonym ("shelves" for a shelving unit) names one object.
+                whole = known is not None and spelled not in known.plurals
+                return Match(noun=single.noun, said=spelled if whole else name, plural=not whole)
+        if known is None and "-" in spelled:
+            return self.match(spelled.replace("-", " ").split())
+        return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
+
+    def _singular(self, words: Sequence[str]) -> Iterable[str]:
+        for guess in singulars(words[-1]):
+            yield " ".join([*words[:-1], guess])
+        if "of" in words:
+            for guess in singulars(words[0]):
+                yield " ".join([guess, *words[1:]])
+
+    def longest(self, words: Sequence[str]) -> tuple[Match, frozenset[int]] | None:
+        """The known noun at the end of `words` and the positions of its words.
+
+        The longest ending wins; a modifier and the head with other words between them ("potted green plants") beat the
+        head alone.
+        """
+        last = len(words) - 1
+        for size in range(min(4, len(words)), 1, -1):
+            if found := self.match(words[-size:]):
+                # "small dog" is a dog that is small even where the vocabulary lists it as a name.
+                while size > 1 and is_modifier(words[-size]) and (plain := self.match(words[1 - size :])):
+                    if plain.noun != found.noun:
+                        break
+                    found, size = plain, size - 1
+                return found, frozenset(range(len(words) - size, len(words)))
+        for position in range(last - 1):
+            if found := self.match([words[position], words[-1]]):
+                return found, frozenset({position, last})
+        found = self.match(words[-1:])
+        return None if found is None else (found, frozenset({last}))
+
+    def of_class(self, noun: str, table: tuple[str, ...]) -> bool:
+        """Whether catalogue noun `noun` is what one of the names in `table` means."""
+        if table not in self._classes:
+            found = (self._vocabulary.find(name) for name in table)
+            self._classes[table] = frozenset(known.noun for known in found if known) | frozenset(table)
+        return noun in self._classes[table]
+
+    def resolve(self, name: str) -> str | None:
+        """Catalogue noun that `name` means, or None."""
+        known = self._vocabulary.find(name)
+        return None if known is None else known.noun
+
+    def nearest(self, word: str) -> tuple[str, ...]:
+        """Known names most like `word`."""
+        return tuple(self._vocabulary.nearest(word))
+
+    def resembles_noun(self, word: str) -> bool:
+        """Whether `word` is probably a misspelled noun."""
+        near = self.nearest(word)
+        return bool(near) and difflib.SequenceMatcher(None, word, near[0]).ratio() >= 0.8

@@ -1,0 +1,258 @@
+"""What users hold: a scene of objects at rest.
+
+Everything here is frozen, keyword-only and valid once constructed. Z is up; metres, kilograms,
+seconds, radians; quaternions are (w, x, y, z). The viewer stands at -y and looks along +y, so left
+is -x, right is +x, in front is -y and behind is +y.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import SpecError
+from pat3d.scene.asset import Asset
+from pat3d.scene.physics import SETTLING_FRICTION
+
+GROUND = "ground"
+"""Name of the root of every scene tree: the plane z = 0."""
+
+SupportKind = Literal["on", "in", "hangs_from"]
+"""Edges of the scene tree: the parent carries the child's weight."""
+
+LateralKind = Literal["left_of", "right_of", "in_front_of", "behind", "next_to", "around"]
+"""Where the child stands relative to the parent, without weight passing between them."""
+
+RelationKind = Literal[SupportKind, LateralKind]
+SUPPORT_KINDS: frozenset[str] = frozenset(get_args(SupportKind))
+LATERAL_KINDS: frozenset[str] = frozenset(get_args(LateralKind))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Relation:
+    """`child` stands in relation `kind` to `parent` (for "on": child rests on parent)."""
+
+    child: str
+    kind: RelationKind
+    parent: str
+
+    def __post_init__(self) -> None:
+        kinds = sorted(SUPPORT_KINDS | LATERAL_KINDS)
+        if self.kind not in kinds:
+            raise SpecError(f'unknown relation "{self.kind}" of "{self.child}". Valid: {", ".join(kinds)}.')
+        if self.child == self.parent:
+            raise SpecError(f'"{self.child}" cannot stand in relation "{self.kind}" to itself.')
+        if self.child == GROUND:
+            raise SpecError("the ground is the root of the scene tree and is never a child.")
+
+    @property
+    def supports(self) -> bool:
+        """Whether this relation is an edge of the scene tree."""
+        return self.kind in SUPPORT_KINDS
+
+    def __str__(self) -> str:
+        return f"{self.child} {self.kind} {self.parent}"
+
+
+Point = tuple[float, float, float]
+"""[m]"""
+
+MAX_ANCHORS = 64
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attachment:
+    """`child` hangs from `parent` by points that stay together while both may turn: ropes, hooks, strings.
+
+    One pair of points is a ball joint, two are a hinge. Both objects still collide, with each other too, so anchors
+    belong where the surfaces are a little apart.
+    """
+
+    child: str
+    parent: str
+    anchors: tuple[tuple[Point, Point], ...]
+    """Pairs of a point of the child and a point of the parent, each in its own asset frame [m]."""
+
+    def __post_init__(self) -> None:
+        if self.child == self.parent:
+            raise SpecError(f'"{self.child}" cannot be attached to itself.')
+        if GROUND in (self.child, self.parent):
+            raise SpecError(f'"{self.child}" and "{self.parent}": attachments join two objects, never the ground.')
+        points = np.array(self.anchors, dtype=np.float64) if _are_pairs_of_points(self.anchors) else None
+        if points is None or not np.isfinite(points).all():
+            raise SpecError(
+                f'the attachment of "{self.child}" needs 1 to {MAX_ANCHORS} pairs of points, each of 3 finite numbers.'
+            )
+        anchors = tuple((tuple(map(float, first)), tuple(map(float, second))) for first, second in points)
+        object.__setattr__(self, "anchors", anchors)
+
+    def ends(self, child: Pose, parent: Pose) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the anchors are in the world [m], on the child at pose `child` and on the parent, shape (n, 3) each."""
+        points = np.array(self.anchors)
+        return child.apply(points[:, 0]), parent.apply(points[:, 1])
+
+
+def _are_pairs_of_points(anchors: object) -> bool:
+    try:
+        shape = np.shape(np.array(anchors, dtype=np.float64))
+    except (TypeError, ValueError):
+        return False
+    return len(shape) == 3 and 1 <= shape[0] <= MAX_ANCHORS and shape[1:] == (2, 3)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pose:
+    """A rigid placement: x_world = R(quat_wxyz) x_local + position."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """[m]"""
+    quat_wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    """Unit quaternion, scalar first."""
+
+    def __post_init__(self) -> None:
+        position = tuple(float(value) for value in self.position)
+        quat = tuple(float(value) for value in self.quat_wxyz)
+        if len(position) != 3 or len(quat) != 4 or not all(map(math.isfinite, position + quat)):
+            raise SpecError(f"a pose needs 3 finite positions and 4 finite quaternion values, got {position}, {quat}.")
+        norm = math.sqrt(sum(value * value for value in quat))
+        if abs(norm - 1.0) > 1e-6:
+            raise SpecError(f"quat_wxyz {quat} has norm {norm:.6g}; a rotation needs norm 1.")
+        object.__setattr__(self, "position", position)
+        object.__setattr__(
+            self, "quat_wxyz", tuple(value / norm for value in quat) if abs(norm - 1.0) > 1e-15 else quat
+        )
+
+    @staticmethod
+    def from_matrix(rotation: NDArray[np.float64], position: NDArray[np.float64]) -> Pose:
+        """The pose with rotation matrix `rotation`, shape (3, 3), and `position` [m], shape (3,)."""
+        from scipy.spatial.transform import Rotation
+
+        quat = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
+        return Pose(position=tuple(map(float, position)), quat_wxyz=tuple(map(float, quat)))  # type: ignore[arg-type]
+
+    @staticmethod
+    def from_yaw(yaw: float, position: tuple[float, float, float]) -> Pose:
+        """The pose turned by `yaw` [rad] about the vertical through its origin."""
+        return Pose(position=position, quat_wxyz=(math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Rotation matrix, shape (3, 3)."""
+        w, x, y, z = self.quat_wxyz
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+
+    def apply(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Local points [m], shape (n, 3), in the world frame."""
+        return np.asarray(points, dtype=np.float64) @ self.rotation.T + np.array(self.position)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SceneObject:
+    """One object of a scene: an asset at a pose."""
+
+    name: str
+    """Unique in the scene, readable: "red mug", "black pen 2"."""
+    phrase: str = ""
+    """The words that asked for it."""
+    asset: Asset
+    pose: Pose
+    """Equilibrium pose of the asset frame."""
+    initial_pose: Pose
+    """Pose in the intersection-free layout, before settling."""
+    fixed: bool = False
+    """Fixed objects have no degrees of freedom and are static in every export."""
+
+    def __post_init__(self) -> None:
+        if not self.name or self.name == GROUND:
+            raise SpecError(f'"{self.name}" is not a valid object name.')
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """Objects at rest, what relates them, and where they came from."""
+
+    objects: tuple[SceneObject, ...]
+    relations: tuple[Relation, ...] = ()
+    """The scene tree (support relations) and the lateral relations of the plan."""
+    attachments: tuple[Attachment, ...] = ()
+    """What hangs by points, rather than rests on surfaces; at most one for every pair of objects."""
+    prompt: str = ""
+    seed: int = 0
+    settling_friction: float = SETTLING_FRICTION
+    """Friction coefficient [-] of every contact while settling; exports carry each material's own."""
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+    """Versions, settings and inputs; JSON-serialisable."""
+
+    def __post_init__(self) -> None:
+        if not self.objects:
+            raise SpecError("a scene needs at least one object.")
+        names = [obj.name for obj in self.objects]
+        repeated = sorted({name for name in names if names.count(name) > 1})
+        if repeated:
+            raise SpecError(f"object names must be unique; repeated: {', '.join(repeated)}.")
+        check_tree(names, self.relations)
+        self._check_attachments(names)
+
+    def _check_attachments(self, names: list[str]) -> None:
+        pairs = set()
+        for attachment in self.attachments:
+            pair = frozenset((attachment.child, attachment.parent))
+            for end in pair.difference(names):
+                raise SpecError(f'an attachment names "{end}", which is not in the scene. Objects: {", ".join(names)}.')
+            if pair in pairs:
+                raise SpecError(f'"{attachment.child}" and "{attachment.parent}" are attached twice; use more anchors.')
+            pairs.add(pair)
+
+    def __getitem__(self, name: str) -> SceneObject:
+        for obj in self.objects:
+            if obj.name == name:
+                return obj
+        raise KeyError(f'no object "{name}"; the scene has: {", ".join(obj.name for obj in self.objects)}.')
+
+    def parent(self, name: str) -> str:
+        """Name of what supports object `name`: another object or the ground."""
+        return parent_of(name, self.relations)
+
+
+def parent_of(name: str, relations: tuple[Relation, ...]) -> str:
+    """Parent of object `name` in the scene tree; the ground where no relation says otherwise."""
+    return next((rel.parent for rel in relations if rel.supports and rel.child == name), GROUND)
+
+
+def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
+    """Raise SpecError unless the support relations form a tree over `names` rooted at the ground."""
+    known = {*names, GROUND}
+    for relation in relations:
+        for end in (relation.child, relation.parent):
+            if end not in known:
+                raise SpecError(
+                    f'relation "{relation}" names "{end}", which is not in the scene. Objects: {", ".join(names)}.'
+                )
+    parents: dict[str, str] = {}
+    for relation in relations:
+        if not relation.supports:
+            continue
+        if relation.child in parents:
+            raise SpecError(
+                f'"{relation.child}" has two supports, "{parents[relation.child]}" and "{relation.parent}".'
+            )
+        parents[relation.child] = relation.parent
+    for name in names:
+        path = [name]
+        while (above := parents.get(path[-1], GROUND)) != GROUND:
+            path.append(above)
+            if above == name:
+                raise SpecError(f"the support relations form a cycle: {' -> '.join(path)}.")
+            if len(path) > len(names):
+                break

@@ -1,0 +1,20 @@
+"""Constants of the physics that every stage and every export share."""
+
+from __future__ import annotations
+
+GRAVITY = 9.81
+"""Along -z [m/s^2]."""
+
+SETTLING_FRICTION = 0.2
+"""Coulomb coefficient [-] of every contact while settling, unless a scene says otherwise (paper, Section 5)."""
+
+GROUND_FRICTION = 0.4
+"""Coulomb coefficient [-] of the ground in exports, at least; with MuJoCo's rule, the least of anything on it."""
+
+STILL_SECONDS = 5.0
+"""Simulated time that a scene has to keep still in another engine [s]."""
+
+
+def ground_friction(settling_friction: float) -> float:
+    """Coulomb coefficient [-] of the ground under a scene that settled with `settling_friction`."""
+    return max(GROUND_FRICTION, settling_friction)

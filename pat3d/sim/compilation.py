@@ -1,0 +1,112 @@
+"""Warp, quiet and compiled before it is needed, so that a watcher sees why the first run takes longer."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from pat3d.errors import SpecError
+from pat3d.progress import Event, Progress, silent
+
+MODULES = (
+    "pat3d.sim.terms.inertia",
+    "pat3d.sim.terms.orthogonality",
+    "pat3d.sim.solvers.linear",
+    "pat3d.sim.solvers.line_search",
+    "pat3d.sim.potential",
+    "pat3d.sim.measures",
+    "pat3d.sim.worlds",
+    "pat3d.sim.contact.intersection",
+    "pat3d.sim.contact.boxes",
+    "pat3d.sim.contact.broad_phase",
+    "pat3d.sim.contact.ccd",
+    "pat3d.sim.terms.contact",
+    "pat3d.sim.terms.friction",
+)
+"""Modules with kernels, quick ones first."""
+
+
+def prepare(device: str, progress: Progress = silent, *, deterministic: bool = False) -> str:
+    """Load every kernel for `device` ("cpu" or "cuda"), compiling what no earlier run has compiled.
+
+    Args:
+        device: Warp's name of the device, or "cuda" for the first GPU.
+        progress: called before every module.
+        deterministic: whether all later runs of this process on a GPU give the same bits every time, for more time and
+            memory (`pat3d.sim.determinism`); those on a CPU do anyway.
+
+    Returns:
+        Warp's name of the device.
+
+    Raises:
+        SpecError: there is no such device here.
+    """
+    wp, name = quiet_warp(), device_name(device)
+    if deterministic and wp.get_device(name).is_cuda:
+        import_module("pat3d.sim.determinism").enable()
+    detail = "" if is_warm() else "compiling kernels, once, up to a minute"
+    for number, module in enumerate(MODULES):
+        progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))
+        wp.load_module(import_module(module), device=name)
+    return name
+
+
+def device_name(device: str) -> str:
+    """Warp's name of `device` ("cpu", or "cuda" for the first GPU).
+
+    Raises:
+        SpecError: there is no such device here.
+    """
+    known = [str(found.alias) for found in quiet_warp().get_devices()]
+    name = next((alias for alias in known if alias == device or (device == "cuda" and alias.startswith("cuda"))), None)
+    if name is None:
+        raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
+    return name
+
+
+def quiet_warp() -> Any:
+    """The initialised `warp` module, without its banner."""
+    import warp as wp
+
+    wp.config.log_level = max(wp.config.log_level, wp.LOG_WARNING)
+    with _no_gpu_notice():
+        wp.init()
+    return wp
+
+
+@contextmanager
+def _no_gpu_notice() -> Iterator[None]:
+    """Keep back what Warp's library prints where there is no GPU; it writes past Python, to the descriptor."""
+    sys.stderr.flush()
+    with tempfile.TemporaryFile() as caught:
+        terminal = os.dup(2)
+        os.dup2(caught.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(terminal, 2)
+            os.close(terminal)
+            caught.seek(0)
+            rest = b"".join(line for line in caught if b"NVIDIA CUDA driver" not in line)
+            if rest:
+                os.write(2, rest)
+
+
+def cache_folder() -> Path:
+    """Where Warp keeps compiled kernels; it need not exist."""
+    return Path(quiet_warp().config.kernel_cache_dir)
+
+
+def is_warm() -> bool:
+    """Whether every module was compiled by an earlier run (of any version of its kernels)."""
+    try:
+        compiled = [entry.name for entry in cache_folder().iterdir()]
+    except OSError:
+        return False
+    return all(any(name.startswith(f"wp_{module}_") for name in compiled) for module in MODULES)

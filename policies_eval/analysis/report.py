@@ -1,0 +1,251 @@
+"""report.html: one page that explains an evaluation, with everything it shows inside the file."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Sequence
+from html import escape
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from pat3d.policies_eval.analysis.charts import OUTCOME_COLOURS, interval_bar, outcome_bar
+from pat3d.policies_eval.analysis.strip import moments_of
+from pat3d.policies_eval.analysis.summary import Summary
+from pat3d.policies_eval.datasets.video import can_write_mp4, write_video
+from pat3d.policies_eval.run.failures import OUTCOMES
+from pat3d.policies_eval.run.records import Evaluation, write_text
+from pat3d.policies_eval.run.replay import FILM_RATE, Replayer
+from pat3d.policies_eval.run.rollout import Result
+
+MAX_ROWS = 500
+"""Episodes in the page's table; all are in episodes.parquet."""
+
+MOMENTS = 5
+"""Pictures of an episode."""
+
+MEANINGS = {
+    "success": "The task was done.",
+    "missed": "The fingers never closed on the object.",
+    "slipped": "It was held, and lost within 2 cm of its place.",
+    "dropped": "It was lost in the air, or fell from the surface.",
+    "toppled": "Something else was knocked over or off.",
+    "collided": "It was never held, and something was pushed by more than 2 cm.",
+    "timed_out": "It was held or moved, but the task was not done in time.",
+    "policy_error": "The policy failed: an invalid action, an exception, a hang or a lost connection.",
+    "simulation_error": "The simulation failed.",
+}
+
+STYLE = """
+:root { color-scheme: light; --ink: #1c2430; --soft: #667085; --line: #e4e7ec; --paper: #fff; --back: #f6f7f9; }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--back); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; }
+main { max-width: 1080px; margin: 0 auto; padding: 32px 20px 64px; }
+h1 { font-size: 24px; margin: 0 0 4px; } h2 { font-size: 17px; margin: 0 0 12px; }
+section { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 20px; }
+section { margin-top: 16px; }
+.big { font-size: 46px; font-weight: 650; letter-spacing: -0.02em; line-height: 1.1; }
+.soft { color: var(--soft); } .warn { background: #fff4e5; border-color: #f5c27a; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th { text-align: left; font-weight: 600; color: var(--soft); font-size: 13px; }
+th, td { padding: 5px 10px 5px 0; border-bottom: 1px solid var(--line); vertical-align: middle; }
+.num { text-align: right; white-space: nowrap; }
+.strip { display: flex; gap: 4px; flex-wrap: wrap; margin: 6px 0 18px; }
+.strip img { width: calc(20% - 4px); min-width: 130px; border-radius: 4px; }
+.chip { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 7px; }
+video { max-width: 100%; border-radius: 6px; } details summary { cursor: pointer; color: var(--soft); }
+code { background: var(--back); padding: 1px 5px; border-radius: 4px; font-size: 13px; overflow-wrap: anywhere; }
+.scroll { overflow-x: auto; }
+"""
+
+
+def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, pictures: bool = True) -> Path:
+    """Write report.html into the evaluation's folder.
+
+    Args:
+        evaluation: the records.
+        summary: of them.
+        videos: films to show, one of every outcome first.
+        pictures: whether to show moments of one episode of every outcome.
+    """
+    examples = _examples(evaluation.results)
+    replayer = Replayer(evaluation) if pictures or videos else None
+    try:
+        strips = [_strip(replayer, one) for one in examples] if replayer and pictures else []
+        films = [_film(replayer, one, evaluation.folder) for one in _films(evaluation, videos)] if replayer else []
+    finally:
+        if replayer is not None:
+            replayer.close()
+    parts = [
+        _head(evaluation, summary), _failures(summary), _tables(summary),
+        _section("What it looked like", "".join([*films, *strips])) if films or strips else "",
+        _episodes(evaluation.results), _made_with(evaluation, summary),
+    ]  # fmt: skip
+    page = (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{escape(summary.policy)}: PAT3D evaluation</title><style>{STYLE}</style></head>"
+        f"<body><main>{''.join(parts)}</main></body></html>\n"
+    )
+    file = evaluation.folder / "report.html"
+    write_text(file, page)
+    return file
+
+
+def _head(evaluation: Evaluation, summary: Summary) -> str:
+    rate = summary.rate
+    if not rate.episodes:
+        return f"<h1>{escape(summary.policy)}</h1><p>No episode has been done.</p>"
+    tasks = sorted({one.episode.task for one in evaluation.results})
+    about = f"{len(tasks)} tasks" if len(tasks) > 1 else escape(tasks[0])
+    unfinished = ""
+    if rate.episodes < summary.wanted:
+        unfinished = f" This run is unfinished: {rate.episodes} of {summary.wanted} episodes."
+    errors = summary.outcomes.get("policy_error", 0)
+    warning = ""
+    if errors:
+        rows = "".join(f"<li>{count} × {escape(reason)}</li>" for reason, count in summary.reasons.items())
+        warning = (
+            f'<section class="warn"><h2>{errors} of {rate.episodes} episodes ended with a policy error</h2>'
+            f"<p>They count as failures.</p><ul>{rows}</ul></section>"
+        )
+    return (
+        f"<h1>{escape(summary.policy)}</h1>"
+        f'<div class="soft">{rate.episodes} episodes, {about}.{unfinished}</div>{warning}'
+        f'<section><div class="big">{100 * rate.value:.1f} %</div>'
+        f"<p>of the episodes were successful. With 95 % confidence the true rate is between "
+        f"<b>{100 * rate.low:.1f} %</b> and <b>{100 * rate.high:.1f} %</b> "
+        f'<span class="soft">({escape(summary.interval)} interval, {rate.successes} of {rate.episodes}).</span></p>'
+        f"{interval_bar(rate, 640)}</section>"
+    )
+
+
+def _failures(summary: Summary) -> str:
+    total = max(summary.rate.episodes, 1)
+    rows = "".join(
+        f'<tr><td><span class="chip" style="background:{OUTCOME_COLOURS[name]}"></span>{name.replace("_", " ")}</td>'
+        f'<td class="num">{count}</td><td class="num">{100 * count / total:.1f} %</td><td>{MEANINGS[name]}</td></tr>'
+        for name, count in summary.outcomes.items()
+    )
+    events = ", ".join(f"{name} in {count}" for name, count in summary.events.items() if count)
+    return _section(
+        "How the episodes ended",
+        f"{outcome_bar(summary.outcomes, 1000)}<table><tr><th>outcome</th><th class='num'>episodes</th>"
+        f"<th class='num'>share</th><th>meaning</th></tr>{rows}</table>"
+        f'<p class="soft">Counted from the state of the simulation. Whatever the outcome: {events or "nothing"}.</p>',
+    )
+
+
+def _tables(summary: Summary) -> str:
+    shown = []
+    for name, table in summary.tables.items():
+        if len(table) < 2:
+            continue
+        rows = "".join(
+            f'<tr><td>{escape(key)}</td><td class="num">{rate.successes}/{rate.episodes}</td>'
+            f'<td class="num">{100 * rate.value:.1f} %</td><td>{interval_bar(rate, 320)}</td></tr>'
+            for key, rate in table.items()
+        )
+        shown.append(
+            _section(
+                f"By {name}",
+                f"<table><tr><th>{escape(name)}</th><th class='num'>successes</th><th class='num'>rate</th>"
+                f"<th>95 % interval, 0 to 100 %</th></tr>{rows}</table>",
+            )
+        )
+    return "".join(shown)
+
+
+def _episodes(results: Sequence[Result]) -> str:
+    rows = "".join(
+        f'<tr><td class="num">{one.episode.index}</td><td>{escape(one.episode.task)}</td>'
+        f"<td>{escape(Path(one.episode.scene).name)}</td>"
+        f'<td><span class="chip" style="background:{OUTCOME_COLOURS[one.outcome]}"></span>'
+        f"{one.outcome.replace('_', ' ')}</td>"
+        f'<td class="num">{one.steps}</td><td class="num">{one.progress:.2f}</td>'
+        f"<td>{escape(one.reason or _happened(one))}</td></tr>"
+        for one in results[:MAX_ROWS]
+    )
+    more = f"<p class='soft'>The first {MAX_ROWS}; all are in episodes.parquet.</p>" if len(results) > MAX_ROWS else ""
+    return _section(
+        "Episodes",
+        f'<details><summary>{len(results)} episodes</summary><div class="scroll"><table><tr><th class="num">no.</th>'
+        f"<th>task</th><th>scene</th><th>outcome</th><th class='num'>steps</th><th class='num'>progress</th>"
+        f"<th>what happened</th></tr>{rows}</table></div>{more}</details>",
+    )
+
+
+def _happened(result: Result) -> str:
+    events = result.events
+    found = [name for name in ("grasped", "lifted", "slipped", "dropped") if getattr(events, name)]
+    found += [f"toppled {name}" for name in events.toppled] + [f"pushed {name}" for name in events.collided]
+    if not events.grasped and events.closest >= 0.0:
+        found.append(f"came within {100 * events.closest:.1f} cm")
+    return ", ".join(found)
+
+
+def _made_with(evaluation: Evaluation, summary: Summary) -> str:
+    total = max(sum(summary.seconds.values()), 1e-9)
+    times = ", ".join(f"{name} {value:.1f} s ({100 * value / total:.1f} %)" for name, value in summary.seconds.items())
+    settings = ", ".join(f"{name} {value}" for name, value in sorted(evaluation.manifest["settings"].items()))
+    source = ", ".join(f"{name} {value}" for name, value in sorted(evaluation.manifest["source"].items()))
+    versions = ", ".join(f"{name} {value}" for name, value in sorted(summary.engine.items()))
+    folder = escape(str(evaluation.folder))
+    return _section(
+        "Made with",
+        f"<p><b>Engine</b> {escape(versions)}</p><p><b>Episodes</b> {escape(source)}</p>"
+        f"<p><b>Settings</b> {escape(settings)}</p><p><b>Time</b> {times}</p>"
+        f"<p>Any episode, again, bit for bit: <code>pat3d replay {folder} --episode N --video out.mp4</code>. "
+        f"Another policy on the same episodes: <code>pat3d compare {folder} OTHER</code>.</p>",
+    )
+
+
+def _examples(results: Sequence[Result]) -> list[Result]:
+    """The first episode of every outcome that has pictures."""
+    found = {}
+    for one in results:
+        if one.state_hash and one.steps:
+            found.setdefault(one.outcome, one)
+    return [found[name] for name in OUTCOMES if name in found]
+
+
+def _films(evaluation: Evaluation, count: int) -> list[Result]:
+    chosen = _examples(evaluation.results)
+    chosen += [one for one in evaluation.results if one.state_hash and one not in chosen]
+    return chosen[: max(count, 0)]
+
+
+def _caption(result: Result) -> str:
+    what = _happened(result) if result.outcome != "success" else f"{result.steps} steps"
+    return (
+        f'<div><span class="chip" style="background:{OUTCOME_COLOURS[result.outcome]}"></span>'
+        f"<b>{result.outcome.replace('_', ' ')}</b>, episode {result.episode.index}: "
+        f'{escape(result.instruction)} <span class="soft">({escape(what)})</span></div>'
+    )
+
+
+def _strip(replayer: Replayer, result: Result) -> str:
+    frames = replayer.moments(result, moments_of(result.steps, MOMENTS))
+    pictures = "".join(f'<img alt="" src="data:image/jpeg;base64,{_jpeg(frame)}">' for frame in frames)
+    return f'{_caption(result)}<div class="strip">{pictures}</div>'
+
+
+def _film(replayer: Replayer, result: Result, folder: Path) -> str:
+    _, frames = replayer.film(result)
+    kind = "mp4" if can_write_mp4() else "gif"
+    file = write_video(frames, folder / "media" / f"episode_{result.episode.index:05d}.{kind}", FILM_RATE)
+    data = base64.b64encode(file.read_bytes()).decode()
+    if kind == "gif":
+        return f'{_caption(result)}<img alt="" src="data:image/gif;base64,{data}">'
+    return f'{_caption(result)}<video controls muted loop src="data:video/mp4;base64,{data}"></video>'
+
+
+def _jpeg(frame: Any) -> str:
+    buffer = io.BytesIO()
+    import_module("PIL.Image").fromarray(frame).save(buffer, format="JPEG", quality=85)
+    return base64.b64encode(buffer.getvalue()).decode()
+
+
+def _section(title: str, content: str) -> str:
+    return f"<section><h2>{escape(title)}</h2>{content}</section>"

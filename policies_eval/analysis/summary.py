@@ -1,0 +1,98 @@
+"""The figures of one evaluation: rates with intervals, in all and by task, object and axis, and failures counted."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from pat3d.envs.tasks.task import split
+from pat3d.policies_eval.analysis.statistics import INTERVALS, Rate
+from pat3d.policies_eval.run.failures import OUTCOMES
+from pat3d.policies_eval.run.records import Evaluation
+from pat3d.policies_eval.run.rollout import Result
+
+MAX_REASONS = 10
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """What an evaluation found."""
+
+    policy: str
+    rate: Rate
+    """Policy errors count as failures."""
+    wanted: int
+    """Episodes that were asked for."""
+    tables: dict[str, dict[str, Rate]]
+    """By task, object, scene, every difficulty axis, and perturbation."""
+    outcomes: dict[str, int]
+    """Episodes by outcome, those that happened."""
+    events: dict[str, int]
+    """Episodes in which something happened, whatever the outcome."""
+    reasons: dict[str, int]
+    """Of policy and simulation errors, the most frequent ones."""
+    seconds: dict[str, float]
+    """Of all episodes together: policy, physics and overhead [s]."""
+    engine: dict[str, str]
+    interval: str
+
+
+def summarise(evaluation: Evaluation, interval: str = "wilson") -> Summary:
+    """Count an evaluation."""
+    results, rate_of = evaluation.results, INTERVALS[interval]
+
+    def rates(key: Callable[[Result], Iterable[str]]) -> dict[str, Rate]:
+        done: Counter[str] = Counter()
+        good: Counter[str] = Counter()
+        for result in results:
+            for name in key(result):
+                done[name] += 1
+                good[name] += result.success
+        return {name: rate_of(good[name], done[name]) for name in sorted(done)}
+
+    tables = {
+        "task": rates(lambda one: [split(one.episode.task)[0]]),
+        "object": rates(lambda one: split(one.episode.task)[1][:1]),
+        "scene": rates(lambda one: [one.episode.scene.rsplit("/", 1)[-1] or "shipped scene"]),
+        "perturbation": rates(lambda one: one.episode.perturbation.active or ["none"]),
+    }
+    for axis in sorted({name for one in results for name, _ in one.episode.axes}):
+        tables[axis] = rates(lambda one, axis=axis: [dict(one.episode.axes).get(axis, "unknown")])
+    counted = Counter(one.outcome for one in results)
+    events = {
+        name: sum(bool(getattr(one.events, name)) for one in results)
+        for name in ("grasped", "lifted", "slipped", "dropped", "toppled", "collided")
+    }
+    policy, physics = sum(one.policy_seconds for one in results), sum(one.physics_seconds for one in results)
+    wall = sum(one.wall_seconds for one in results)
+    return Summary(
+        policy=evaluation.manifest["policy"],
+        rate=rate_of(sum(one.success for one in results), len(results)),
+        wanted=int(evaluation.manifest["episodes"]),
+        tables={name: table for name, table in tables.items() if table},
+        outcomes={name: counted[name] for name in OUTCOMES if counted[name]},
+        events=events,
+        reasons=dict(Counter(one.reason for one in results if one.reason).most_common(MAX_REASONS)),
+        seconds={"policy": policy, "physics": physics, "overhead": max(wall - policy - physics, 0.0)},
+        engine={name: str(value) for name, value in evaluation.manifest["engine"].items()},
+        interval=interval,
+    )
+
+
+def show_summary(target: Any, summary: Summary) -> None:
+    """Print the figures."""
+    target.print(f"{summary.policy}: success {summary.rate}", markup=False, highlight=False)
+    failures = [f"{name} {count}" for name, count in summary.outcomes.items() if name != "success"]
+    if failures:
+        target.print("failures: " + ", ".join(failures), markup=False, highlight=False)
+    errors = summary.outcomes.get("policy_error", 0)
+    if errors:
+        target.print(f"policy errors: {errors} of {summary.rate.episodes}, counted as failures", highlight=False)
+    for reason, count in summary.reasons.items():
+        target.print(f"  {count} x {reason}", markup=False, highlight=False, soft_wrap=True)
+    for name, table in summary.tables.items():
+        if len(table) > 1 and name != "scene":
+            for key, rate in table.items():
+                target.print(f"  {name} {key}: {rate}", markup=False, highlight=False)

@@ -1,0 +1,113 @@
+"""Demonstrations of the scripted policy.
+
+While it demonstrates, the hand is pushed about by noise, and what is kept is the answer to it: a policy that has only
+seen perfect motions does not know how to get back to them (Laskey et al. 2017, DART).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import EvaluationError
+from pat3d.policies_eval.policies.policy import EpisodeStart
+from pat3d.policies_eval.policies.scripted import ScriptedPolicy
+from pat3d.policies_eval.run.episodes import Episode
+from pat3d.policies_eval.run.rollout import Runner
+from pat3d.policies_eval.run.settings import RolloutSettings
+
+SHARE_NOISY = 0.7
+"""Of the demonstrations; the rest are as good as the scripted policy is."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Demonstration:
+    """One successful episode."""
+
+    episode: Episode
+    instruction: str
+    observations: dict[str, NDArray[Any]]
+    """What was seen before every action, shape (steps, ...)."""
+    actions: NDArray[np.float32]
+    """What the scripted policy answered, shape (steps, action size)."""
+    done: NDArray[np.float32]
+    """What was done: the same with noise."""
+
+
+class Demonstrator:
+    """The scripted policy with an unsteady hand."""
+
+    privileged = True
+
+    def __init__(self, noise: float) -> None:
+        self._policy, self._noise = ScriptedPolicy(), noise
+        self.seen: list[dict[str, Any]] = []
+        self.answers: list[NDArray[np.float32]] = []
+
+    def reset(self, episode: EpisodeStart) -> None:
+        """Start a new record."""
+        self._policy.reset(episode)
+        self._random = np.random.default_rng([episode.seed, 0x64656D6F])
+        self._strength = self._noise if self._random.uniform() < SHARE_NOISY else 0.0
+        self._push = np.zeros(episode.action_size - 1)
+        self.seen, self.answers = [], []
+
+    def act(self, observation: Mapping[str, Any]) -> NDArray[np.float32]:
+        """The scripted action, which is kept, plus a push that lasts a few steps."""
+        answer = self._policy.act(observation)
+        self.seen.append({name: np.array(value) for name, value in observation.items()})
+        self.answers.append(answer)
+        self._push = 0.8 * self._push + 0.6 * self._strength * self._random.standard_normal(len(self._push))
+        done = answer.copy()
+        done[:-1] = np.clip(done[:-1] + self._push, -1.0, 1.0)
+        return done
+
+
+def demonstrate(
+    episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
+) -> list[Demonstration]:
+    """Successful demonstrations of `episodes`; see `demonstrations`."""
+    return list(demonstrations(episodes, noise=noise, settings=settings, target=target))
+
+
+def demonstrations(
+    episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
+) -> Iterator[Demonstration]:
+    """Successful demonstrations of `episodes`, one after the other.
+
+    Args:
+        episodes: to do.
+        noise: of the hand, in actions.
+        settings: of the environment.
+        target: a console for the progress.
+
+    Raises:
+        EvaluationError: the scripted policy never succeeded.
+    """
+    if not 0.0 <= noise <= 1.0:
+        raise EvaluationError(f"noise is 0 to 1, not {noise}.")
+    runner, policy = Runner(settings or RolloutSettings()), Demonstrator(noise)
+    succeeded = 0
+    try:
+        for episode in episodes:
+            result = runner.run(episode, policy)
+            if target is not None:
+                target.print(f"demonstration {episode.index + 1}/{len(episodes)}: {result.outcome}", highlight=False)
+            if not result.success:
+                continue
+            succeeded += 1
+            yield Demonstration(
+                episode=episode,
+                instruction=result.instruction,
+                observations={name: np.stack([seen[name] for seen in policy.seen]) for name in policy.seen[0]},
+                actions=np.stack(policy.answers),
+                done=result.actions,
+            )
+    finally:
+        runner.close()
+    if not succeeded:
+        raise EvaluationError(f"none of {len(episodes)} demonstrations succeeded; choose another scene or task.")

@@ -1,0 +1,177 @@
+"""A small policy that imitates demonstrations: state observations in, one action out.
+
+What it sees is written in the frames that matter for a grasp: the hand relative to the object, in the object's frame
+and in the world's, so that a few dozen demonstrations are enough for new places of the object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import EvaluationError
+from pat3d.policies_eval.policies.policy import EpisodeStart
+
+FORMAT = 1
+KIND = "pat3d cloned policy"
+MAX_CHECKPOINT = 256 * 2**20
+WIDTHS = (16, 4096)
+LAYERS = (1, 12)
+
+INSTALL_HINT = "cloned policies need torch: pip install 'pat3d[torch]'."
+
+
+def features(observation: Mapping[str, Any]) -> NDArray[np.float32]:
+    """What the network sees of a state observation, shape (FEATURES,).
+
+    Raises:
+        EvaluationError: not a state observation.
+    """
+    missing = {"eef_pos", "eef_quat", "gripper_pos", "target"} - observation.keys()
+    if missing:
+        raise EvaluationError(f'a cloned policy needs obs="state"; {", ".join(sorted(missing))} are missing.')
+    target = np.asarray(observation["target"], dtype=np.float64)
+    hand = np.asarray(observation["eef_pos"], dtype=np.float64)
+    hand_rotation, rotation = _matrix(observation["eef_quat"]), _matrix(target[3:7])
+    away, goal = target[:3] - hand, target[7:10] - target[:3]
+    fingers = np.asarray(observation["gripper_pos"], dtype=np.float64)[:2]
+    return np.concatenate([
+        away, rotation.T @ away, hand_rotation.T @ away, goal, [hand[2]], fingers, hand_rotation[:, :2].ravel(),
+        (rotation.T @ hand_rotation)[:, :2].ravel(), rotation[:, :2].ravel(),
+    ]).astype(np.float32)  # fmt: skip
+
+
+FEATURES = 33
+
+
+class ClonedPolicy:
+    """A checkpoint of `pat3d train`.
+
+    Raises:
+        EvaluationError: no checkpoint of ours; it is read with weights only, so that nothing in it is executed.
+    """
+
+    def __init__(self, file: str | Path) -> None:
+        self._network = load(file)
+        self._torch = _torch()
+        # One small network for one observation: threads would only wait for one another.
+        self._torch.set_num_threads(1)
+
+    def reset(self, episode: EpisodeStart) -> None:
+        """Nothing is remembered."""
+        if episode.action_size != self._network.action_size:
+            raise EvaluationError(
+                f"the checkpoint gives {self._network.action_size} values an action, the robot takes "
+                f"{episode.action_size}."
+            )
+
+    def act(self, observation: Mapping[str, Any]) -> NDArray[np.float32]:
+        """The action for an observation."""
+        torch = self._torch
+        with torch.no_grad():
+            action = self._network(torch.from_numpy(features(observation))[None])[0].numpy()
+        # Demonstrations only ever open or close the fingers.
+        action[-1] = 1.0 if action[-1] > 0.0 else -1.0
+        return action
+
+
+def make_network(action_size: int = 7, width: int = 256, layers: int = 3) -> Any:
+    """A multilayer perceptron that knows mean and deviation of its inputs."""
+    torch: Any = _torch()
+
+    class Network(torch.nn.Module):
+        def __init__(self) -> None:
+            super().__init__()
+            self.action_size, self.config = action_size, {"action_size": action_size, "width": width, "layers": layers}
+            self.register_buffer("mean", torch.zeros(FEATURES))
+            self.register_buffer("deviation", torch.ones(FEATURES))
+            sizes = [FEATURES, *[width] * layers]
+            steps: list[Any] = []
+            for before, after in zip(sizes, sizes[1:], strict=False):
+                steps += [torch.nn.Linear(before, after), torch.nn.ReLU()]
+            self.body = torch.nn.Sequential(*steps, torch.nn.Linear(width, action_size), torch.nn.Tanh())
+
+        def forward(self, seen: Any) -> Any:
+            return self.body(((seen - self.mean) / self.deviation).clamp(-10.0, 10.0))
+
+    return Network()
+
+
+def save(network: Any, file: str | Path, notes: Mapping[str, Any]) -> None:
+    """Write a checkpoint atomically."""
+    import os
+
+    torch: Any = _torch()
+    path = Path(file)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_suffix(f".{os.getpid()}.part")
+    content = {
+        "kind": KIND, "format": FORMAT, "config": network.config, "weights": network.state_dict(), "notes": dict(notes)
+    }  # fmt: skip
+    try:
+        torch.save(content, temporary)
+        os.replace(temporary, path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def load(file: str | Path) -> Any:
+    """The network in a checkpoint.
+
+    Raises:
+        EvaluationError: no checkpoint of ours.
+    """
+    path = Path(file)
+    if not path.is_file():
+        raise EvaluationError(f"{path}: no such checkpoint; pat3d train writes one.")
+    if path.stat().st_size > MAX_CHECKPOINT:
+        raise EvaluationError(f"{path}: larger than {MAX_CHECKPOINT} bytes.")
+    torch: Any = _torch()
+    try:
+        content = torch.load(path, map_location="cpu", weights_only=True)
+    except Exception as error:
+        # Whatever a file that is none makes torch raise.
+        raise EvaluationError(f"{path}: no checkpoint that can be read safely: {type(error).__name__}") from error
+    if not isinstance(content, dict) or content.get("kind") != KIND:
+        raise EvaluationError(f"{path}: not written by pat3d train.")
+    if content.get("format") != FORMAT:
+        raise EvaluationError(f"{path}: format {content.get('format')}, this version reads {FORMAT}.")
+    config = content.get("config")
+    if not isinstance(config, dict):
+        raise EvaluationError(f"{path}: it says nothing of its network.")
+    limits = {"action_size": (1, 64), "width": WIDTHS, "layers": LAYERS}
+    for name, (low, high) in limits.items():
+        value = config.get(name)
+        if not isinstance(value, int) or not low <= value <= high:
+            raise EvaluationError(f"{path}: {name} is {value}; valid are {low} to {high}.")
+    network = make_network(**{name: config[name] for name in limits})
+    try:
+        network.load_state_dict(content["weights"])
+    except (KeyError, RuntimeError, TypeError, AttributeError) as error:
+        raise EvaluationError(f"{path}: weights that do not fit: {error}") from error
+    if not all(bool(torch.isfinite(value).all()) for value in network.state_dict().values()):
+        raise EvaluationError(f"{path}: weights that are not finite.")
+    return network.eval()
+
+
+def _matrix(quat_wxyz: Any) -> NDArray[np.float64]:
+    w, x, y, z = (float(value) for value in quat_wxyz)
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
+
+
+def _torch() -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module("torch")
+    except ImportError as error:
+        raise EvaluationError(INSTALL_HINT) from error

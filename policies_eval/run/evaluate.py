@@ -1,0 +1,296 @@
+"""An evaluation: episodes, worker processes that do them, and what the parent does when one of them dies."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import multiprocessing
+import os
+import shutil
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+from typing import Any
+
+from pat3d.errors import EvaluationError, Pat3dError
+from pat3d.policies_eval.policies.policy import Policy
+from pat3d.policies_eval.policies.registry import identity, make_policy, require_known
+from pat3d.policies_eval.run.episodes import Episode, checksum
+from pat3d.policies_eval.run.manifest import make_manifest, require_same
+from pat3d.policies_eval.run.records import Evaluation, RecordFolder, read_manifest, write_text
+from pat3d.policies_eval.run.rollout import Result, Runner
+from pat3d.policies_eval.run.settings import RolloutSettings
+
+GRACE_SECONDS = 5.0
+"""A policy that hangs where no signal reaches it is ended this much after its time."""
+
+POLL_SECONDS = 0.5
+
+MAX_WORKERS = 512
+
+LOOK_AHEAD = 20_000
+"""Episodes among which a worker looks for one in the world that it has compiled."""
+
+THREADS = tuple(f"{name}_NUM_THREADS" for name in ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA"))
+"""Variables that say how many threads a process's numerical libraries start."""
+
+Report = Callable[[Result, int, int], None]
+"""Called with every new result, the number done and the number wanted."""
+
+
+def evaluate(
+    policy: str | Policy,
+    episodes: Sequence[Episode],
+    out: str | os.PathLike[str],
+    *,
+    settings: RolloutSettings | None = None,
+    source: dict[str, Any] | None = None,
+    workers: int = 1,
+    overwrite: bool = False,
+    report: Report | None = None,
+) -> Evaluation:
+    """Do the episodes that `out` does not hold yet.
+
+    Args:
+        policy: a specification for `make_policy`, or a policy itself, which runs in this process.
+        episodes: what to do; those of an earlier run of the same evaluation in `out` are not done again.
+        out: folder of the records.
+        settings: of the environment.
+        source: where the episodes come from, for the manifest.
+        workers: processes; 0 runs in this one, where a policy that hangs outside Python cannot be ended.
+        overwrite: throw away what `out` holds.
+        report: is told of every result.
+
+    Raises:
+        EvaluationError: `out` holds another evaluation, or the policy cannot be made.
+        Pat3dError: an episode that cannot be set up.
+    """
+    settings, folder = settings or RolloutSettings(), Path(out)
+    name = policy if isinstance(policy, str) else f"{type(policy).__module__}:{type(policy).__qualname__}"
+    if not isinstance(policy, str) and workers:
+        raise EvaluationError("a policy object runs in this process: workers=0; give worker processes its name.")
+    if not 0 <= workers <= MAX_WORKERS:
+        raise EvaluationError(f"0 to {MAX_WORKERS} workers, not {workers}.")
+    if isinstance(policy, str):
+        require_known(policy)
+    details = identity(policy) if isinstance(policy, str) else {}
+    known = source or {"episodes": checksum(episodes)}
+    manifest = make_manifest(name, details, settings, known, len(episodes))
+    records = _prepare(folder, manifest, overwrite=overwrite)
+    done = {one.episode.index: one for one in records.read()}
+    for episode in episodes:
+        kept = done.get(episode.index)
+        if kept is not None and kept.episode != episode:
+            raise EvaluationError(f"{folder}: episode {episode.index} there is another one; choose another --out.")
+    todo = [episode for episode in episodes if episode.index not in done]
+    finished = len(episodes) - len(todo)
+
+    def keep(result: Result) -> None:
+        nonlocal finished
+        records.add(result)
+        done[result.episode.index] = result
+        finished += 1
+        if report is not None:
+            report(result, finished, len(episodes))
+
+    try:
+        if todo and workers == 0:
+            _here(policy if not isinstance(policy, str) else make_policy(policy), todo, settings, keep)
+        elif todo:
+            _Pool(name, settings, min(workers, len(todo))).run(todo, keep)
+    except BaseException:
+        records.flush()
+        raise
+    return Evaluation(
+        folder=folder,
+        manifest=read_manifest(folder),
+        results=records.merge(tuple(done[index] for index in sorted(done))),
+    )
+
+
+def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> RecordFolder:
+    records = RecordFolder(folder)
+    file = folder / "manifest.json"
+    if file.exists() and not overwrite:
+        old = read_manifest(folder)
+        require_same(old, manifest, folder)
+        manifest = manifest | {"episodes": max(old["episodes"], manifest["episodes"])}
+    elif folder.exists() and not folder.is_dir():
+        raise EvaluationError(f"{folder} is no folder.")
+    elif folder.exists() and any(folder.iterdir()) and not file.exists():
+        raise EvaluationError(f"{folder} holds something else; choose another --out.")
+    elif file.exists():
+        for name in ("episodes.parquet", "report.html"):
+            (folder / name).unlink(missing_ok=True)
+        for name in ("parts", "media"):
+            shutil.rmtree(folder / name, ignore_errors=True)
+    write_text(file, json.dumps(manifest, indent=2, sort_keys=True) + "\n")
+    return records
+
+
+def _here(policy: Policy, todo: Sequence[Episode], settings: RolloutSettings, keep: Callable[[Result], None]) -> None:
+    runner, queue, about = Runner(settings), deque(todo), ("", "")
+    try:
+        while queue:
+            episode = next_episode(queue, about)
+            about = (episode.scene, episode.task)
+            keep(runner.run(episode, policy))
+    finally:
+        runner.close()
+
+
+@dataclass(eq=False)
+class _Worker:
+    """One process, and what it is doing."""
+
+    process: Any
+    pipe: Connection
+    deadline: Any
+    """Time by which the policy has to answer, 0 while it is not asked; written by the worker."""
+    episode: Episode | None = None
+    about: tuple[str, str] = ("", "")
+    """Scene and task of its last episode, whose world it has compiled."""
+    begun: float = field(default_factory=time.monotonic)
+
+
+def next_episode(queue: deque[Episode], about: tuple[str, str]) -> Episode:
+    """Take the first episode of `queue` with the scene and the task in `about` if there is one, else the first."""
+    for number, episode in enumerate(islice(queue, LOOK_AHEAD)):
+        if (episode.scene, episode.task) == about:
+            del queue[number]
+            return episode
+    return queue.popleft()
+
+
+class _Pool:
+    """Hands episodes to worker processes, each of which has an environment and a policy of its own."""
+
+    def __init__(self, policy: str, settings: RolloutSettings, count: int) -> None:
+        self._policy, self._settings, self._count = policy, settings, count
+        # Spawned ones share no threads, locks or graphics contexts with this process.
+        self._context = multiprocessing.get_context("spawn")
+
+    def run(self, todo: Sequence[Episode], keep: Callable[[Result], None]) -> None:
+        queue = deque(todo)
+        workers = [self._start() for _ in range(self._count)]
+        try:
+            while queue or any(worker.episode for worker in workers):
+                for worker in workers:
+                    if worker.episode is None and queue:
+                        self._give(worker, queue)
+                ready = wait([worker.pipe for worker in workers if worker.episode], timeout=POLL_SECONDS)
+                for number, worker in enumerate(workers):
+                    if worker.episode is None:
+                        continue
+                    result = self._received(worker) if worker.pipe in ready else self._overdue(worker)
+                    if result is not None:
+                        keep(result)
+                        worker.episode = None
+                        if not worker.process.is_alive():
+                            worker.pipe.close()
+                            workers[number] = self._start()
+        finally:
+            for worker in workers:
+                self._end(worker)
+
+    def _start(self) -> _Worker:
+        here, there = self._context.Pipe()
+        deadline = self._context.Value("d", 0.0, lock=False)
+        process = self._context.Process(
+            target=_work, args=(there, self._policy, self._settings, deadline), daemon=True, name="pat3d-evaluate"
+        )
+        with _threads(max(1, _cores() // self._count)):
+            process.start()
+        there.close()
+        return _Worker(process=process, pipe=here, deadline=deadline)
+
+    def _give(self, worker: _Worker, queue: deque[Episode]) -> None:
+        worker.episode = next_episode(queue, worker.about)
+        worker.about = (worker.episode.scene, worker.episode.task)
+        worker.begun = time.monotonic()
+        try:
+            worker.pipe.send(worker.episode)
+        except OSError:
+            # It died while idle; `_received` sees the closed pipe.
+            return
+
+    def _received(self, worker: _Worker) -> Result | None:
+        try:
+            kind, content = worker.pipe.recv()
+        except (EOFError, OSError):
+            worker.process.join(GRACE_SECONDS)
+            return self._dead(worker, f"the process ended with exit code {worker.process.exitcode}")
+        if kind == "error":
+            raise EvaluationError(f"episode {worker.episode.index if worker.episode else ''}: {content}")
+        return content
+
+    def _overdue(self, worker: _Worker) -> Result | None:
+        limit = float(worker.deadline.value)
+        if not limit or time.monotonic() < limit + GRACE_SECONDS:
+            return None
+        self._end(worker)
+        return self._dead(worker, f"hang: no answer within {self._settings.act_seconds:g} s, its process was ended")
+
+    def _dead(self, worker: _Worker, reason: str) -> Result:
+        if worker.episode is None:
+            raise EvaluationError(f"a worker ended before its first episode: {reason}.")
+        asked = float(worker.deadline.value) != 0.0
+        return Result(
+            episode=worker.episode,
+            outcome="policy_error" if asked else "simulation_error",
+            success=False,
+            steps=0,
+            reason=reason,
+            wall_seconds=time.monotonic() - worker.begun,
+        )
+
+    def _end(self, worker: _Worker) -> None:
+        worker.pipe.close()
+        if worker.process.is_alive():
+            # A worker between episodes ends by itself once its pipe is closed.
+            worker.process.join(0.0 if worker.episode else 2.0)
+        if worker.process.is_alive():
+            worker.process.kill()
+        worker.process.join(GRACE_SECONDS)
+
+
+@contextlib.contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Numerical libraries of the processes that are started here use `count` threads, where nobody said otherwise."""
+    own = {name: str(count) for name in THREADS if name not in os.environ}
+    os.environ.update(own)
+    try:
+        yield
+    finally:
+        for name in own:
+            del os.environ[name]
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _work(pipe: Connection, policy: str, settings: RolloutSettings, deadline: Any) -> None:
+    """What a worker process does."""
+    import signal
+
+    # Ctrl-C is the parent's to handle.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    runner, made = Runner(settings, deadline=deadline), None
+    while True:
+        try:
+            episode = pipe.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            made = made or make_policy(policy)
+            pipe.send(("result", runner.run(episode, made)))
+        except Pat3dError as error:
+            pipe.send(("error", f"{type(error).__name__}: {error}"))
+            return
+        except OSError:
+            return

@@ -1,0 +1,268 @@
+"""Perturbations of an episode, each off by default and drawn from the episode's seed alone.
+
+Every axis has its own stream of random numbers, so that switching one on leaves the others as they were.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.physics.world import FLOOR, SUPPORT
+from pat3d.errors import EvaluationError
+from pat3d.scene.model import GROUND
+
+Array = NDArray[np.float64]
+
+TRIES = 60
+"""Poses that are drawn before an object is left where it was."""
+
+DEEPEST = 2e-4
+"""A moved object may touch its support this deeply [m], and nothing else at all."""
+
+SETTLE_STEPS = 4
+"""Control steps without an action after an object was moved."""
+
+TEMPLATES = (
+    "{}",
+    "please {}",
+    "could you {}?",
+    "robot, {}",
+    "your task: {}",
+    "i need you to {}",
+)
+"""Wordings of an instruction."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Perturbation:
+    """Strength of every axis; 0 is off."""
+
+    pose: float = 0.0
+    """Objects of the task that carry nothing are moved by up to this in x and in y [m], and turned by up to this as a
+    share of half a turn for every 0.1 m; a pose that meets something else is drawn again."""
+    friction: float = 0.0
+    """Sliding friction of every object is multiplied by a factor between 1 / (1 + this) and 1 + this."""
+    mass: float = 0.0
+    """Mass and inertia of every object are multiplied by a factor between 1 / (1 + this) and 1 + this."""
+    camera: float = 0.0
+    """Fixed cameras are moved by up to this along every axis [m] and turned by up to this [rad]."""
+    light: float = 0.0
+    """Brightness of every light is multiplied by a factor between 1 - this and 1 + this; its place moves by up to this
+    [m]."""
+    words: float = 0.0
+    """Probability that the instruction is put in other words."""
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in LIMITS.items():
+            value = getattr(self, name)
+            if not (isinstance(value, int | float) and math.isfinite(value) and low <= value <= high):
+                raise EvaluationError(f"perturbation {name} is {low:g} to {high:g}, not {value}.")
+
+    @property
+    def active(self) -> tuple[str, ...]:
+        """Axes that are on."""
+        return tuple(one.name for one in fields(self) if getattr(self, one.name))
+
+    def to_json(self) -> dict[str, float]:
+        """As plain JSON data."""
+        return asdict(self)
+
+
+LIMITS: Mapping[str, tuple[float, float]] = {
+    "pose": (0.0, 0.3),
+    "friction": (0.0, 4.0),
+    "mass": (0.0, 4.0),
+    "camera": (0.0, 0.3),
+    "light": (0.0, 1.0),
+    "words": (0.0, 1.0),
+}
+
+
+def parse(texts: list[str]) -> Perturbation:
+    """The perturbation that `--perturb pose=0.03 friction=0.3` means.
+
+    Raises:
+        EvaluationError: an unknown axis or a strength that is not valid.
+    """
+    values: dict[str, float] = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        if name not in LIMITS:
+            raise EvaluationError(f'no perturbation "{name}". Axes: {", ".join(LIMITS)}; as in pose=0.03.')
+        try:
+            values[name] = float(value)
+        except ValueError:
+            raise EvaluationError(f'"{text}" is no strength; as in {name}=0.03.') from None
+    return Perturbation(**values)
+
+
+class Perturber:
+    """Changes an environment after its reset, and changes it back."""
+
+    def __init__(self, env: Any) -> None:
+        self._env = env
+        self._kept: tuple[Any, dict[str, Array], dict[str, Any]] | None = None
+
+    def apply(self, perturbation: Perturbation, seed: int) -> dict[str, Any]:
+        """Perturb the episode that was just reset; returns what was drawn, as plain JSON data."""
+        drawn: dict[str, Any] = {}
+        for name in perturbation.active:
+            strength = float(getattr(perturbation, name))
+            random = np.random.default_rng([seed, list(LIMITS).index(name)])
+            if name == "words":
+                continue
+            if name != "pose":
+                self._keep()
+            drawn[name] = getattr(self, f"_{name}")(strength, random)
+        if drawn:
+            self._env.restart()
+        return drawn
+
+    def undo(self) -> None:
+        """Give the model its own values back; call it before the next reset."""
+        if self._kept is None:
+            return
+        model, values, statistics = self._kept
+        for name, value in values.items():
+            getattr(model, name)[...] = value
+        for name, value in statistics.items():
+            setattr(model.stat, name, value)
+        self._kept = None
+
+    def _keep(self) -> None:
+        model = self._env.simulation.model
+        if self._kept is None:
+            # Derived constants change with the masses, so everything that is real is kept.
+            self._kept = (model, {name: value.copy() for name, value in _real_arrays(model)}, _statistics(model))
+
+    def _friction(self, strength: float, random: np.random.Generator) -> dict[str, float]:
+        simulation, drawn = self._env.simulation, {}
+        for number, obj in enumerate(simulation.world.scene.objects):
+            drawn[obj.name] = _factor(strength, random)
+            simulation.model.geom_friction[simulation.world.owner == number, 0] *= drawn[obj.name]
+        return drawn
+
+    def _mass(self, strength: float, random: np.random.Generator) -> dict[str, float]:
+        mujoco: Any = import_module("mujoco")
+        world, model, drawn = self._env.simulation.world, self._env.simulation.model, {}
+        for name in world.objects:
+            drawn[name] = _factor(strength, random)
+            model.body_mass[world.bodies[name]] *= drawn[name]
+            model.body_inertia[world.bodies[name]] *= drawn[name]
+        # Derived constants in a scratch state: the running one stays as it is.
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+        return drawn
+
+    def _camera(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
+        mujoco: Any = import_module("mujoco")
+        model, drawn = self._env.simulation.model, {}
+        for number in np.flatnonzero(model.cam_bodyid == 0).tolist():
+            shift, axis = random.uniform(-strength, strength, 3), random.standard_normal(3)
+            angle = float(random.uniform(-strength, strength))
+            model.cam_pos[number] += shift
+            turn, turned = np.zeros(4), np.zeros(4)
+            mujoco.mju_axisAngle2Quat(turn, axis / np.linalg.norm(axis), angle)
+            mujoco.mju_mulQuat(turned, turn, model.cam_quat[number])
+            model.cam_quat[number] = turned
+            drawn[model.camera(number).name] = [*shift.tolist(), angle]
+        return drawn
+
+    def _light(self, strength: float, random: np.random.Generator) -> list[float]:
+        model, drawn = self._env.simulation.model, []
+        for number in range(model.nlight):
+            factor = float(random.uniform(1.0 - strength, 1.0 + strength))
+            model.light_diffuse[number] *= factor
+            model.light_ambient[number] *= factor
+            model.light_pos[number] += random.uniform(-strength, strength, 3)
+            drawn.append(factor)
+        return drawn
+
+    def _pose(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
+        """Move the task's objects; every one is settled for a moment and put back where that fails."""
+        simulation, drawn = self._env.simulation, {}
+        for name in self._env.task.needs(self._env.scene).grasp:
+            if any(self._env.scene.parent(obj.name) == name for obj in self._env.scene.objects):
+                continue
+            for _ in range(TRIES):
+                x, y = random.uniform(-strength, strength, 2)
+                yaw = float(random.uniform(-1.0, 1.0) * math.pi * min(1.0, 10.0 * strength))
+                if _moved(simulation, self._env.scene, name, float(x), float(y), yaw):
+                    drawn[name] = [float(x), float(y), yaw]
+                    break
+        return drawn
+
+
+def reworded(instruction: str, perturbation: Perturbation, seed: int) -> str:
+    """The instruction, perhaps in other words."""
+    random = np.random.default_rng([seed, list(LIMITS).index("words")])
+    if random.uniform() >= perturbation.words:
+        return instruction
+    return TEMPLATES[int(random.integers(1, len(TEMPLATES)))].format(instruction)
+
+
+def _real_arrays(model: Any) -> list[tuple[str, Any]]:
+    """Every array of the model that physics or cameras may depend on."""
+    found = []
+    for name in dir(model):
+        value = getattr(model, name) if not name.startswith("_") else None
+        drawn = name.startswith(("cam_", "light_"))
+        if isinstance(value, np.ndarray) and value.size and (value.dtype == np.float64 or drawn):
+            found.append((name, value))
+    return found
+
+
+def _statistics(model: Any) -> dict[str, Any]:
+    return {name: np.copy(getattr(model.stat, name)) for name in ("meaninertia", "meanmass", "meansize", "extent")}
+
+
+def _factor(strength: float, random: np.random.Generator) -> float:
+    return float(math.exp(random.uniform(-1.0, 1.0) * math.log1p(strength)))
+
+
+def _moved(simulation: Any, scene: Any, name: str, x: float, y: float, yaw: float) -> bool:
+    """Move one object by (x, y) [m] and turn it by `yaw` [rad] about its centre; False where it does not fit there."""
+    mujoco: Any = import_module("mujoco")
+    world, model, data, state = simulation.world, simulation.model, simulation.data, simulation.state
+    before = np.zeros(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
+    mujoco.mj_getState(model, data, before, mujoco.mjtState.mjSTATE_INTEGRATION)
+    first = int(world.positions[world.objects.index(name)])
+    centre, place = state.centre(name).copy(), data.qpos[first : first + 3].copy()
+    turn, turned, offset = np.array([math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)]), np.zeros(4), np.zeros(3)
+    mujoco.mju_mulQuat(turned, turn, data.qpos[first + 3 : first + 7])
+    mujoco.mju_rotVecQuat(offset, place - centre, turn)
+    data.qpos[first : first + 3] = centre + offset + [x, y, 0.0]
+    data.qpos[first + 3 : first + 7] = turned
+    mujoco.mj_forward(model, data)
+    number = [obj.name for obj in scene.objects].index(name)
+    if _fits(scene, world, data, name, number):
+        height = float(state.centre(name)[2])
+        for _ in range(SETTLE_STEPS):
+            simulation.step(np.zeros(simulation.controller.size))
+        fell = height - float(state.centre(name)[2])
+        if abs(fell) < 1e-3 and state.still(name):
+            return True
+    mujoco.mj_setState(model, data, before, mujoco.mjtState.mjSTATE_INTEGRATION)
+    mujoco.mj_forward(model, data)
+    return False
+
+
+def _fits(scene: Any, world: Any, data: Any, name: str, number: int) -> bool:
+    """Whether an object touches its support, not deeply, and nothing else."""
+    parent = scene.parent(name)
+    supports = {SUPPORT, FLOOR} if parent == GROUND else {[obj.name for obj in scene.objects].index(parent)}
+    carried = False
+    for contact, owners in enumerate(world.owner[data.contact.geom].tolist() if data.ncon else []):
+        if number not in owners or owners[0] == owners[1]:
+            continue
+        other = owners[0] if owners[1] == number else owners[1]
+        if other not in supports or data.contact.dist[contact] < -DEEPEST:
+            return False
+        carried = True
+    return carried

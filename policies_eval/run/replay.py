@@ -1,0 +1,148 @@
+"""Recorded episodes done again: every state compared, and filmed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.physics.world import CAMERAS
+from pat3d.errors import EvaluationError
+from pat3d.policies_eval.analysis.strip import moments_of, write_strip
+from pat3d.policies_eval.datasets.video import write_video
+from pat3d.policies_eval.run.manifest import engine
+from pat3d.policies_eval.run.records import Evaluation
+from pat3d.policies_eval.run.rollout import Result, Runner
+from pat3d.policies_eval.run.settings import RolloutSettings
+
+MOMENTS = 4
+"""Of an episode in a picture."""
+
+FILM_RATE = 10.0
+"""Pictures a second."""
+
+
+class Replayer:
+    """Does episodes of an evaluation again."""
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        # Pictures of the observations are not needed, and change nothing in the simulation.
+        known: dict[str, Any] = {
+            name: value
+            for name, value in evaluation.manifest["settings"].items()
+            if name in RolloutSettings.__dataclass_fields__
+        }
+        try:
+            known["obs"] = "state"
+            settings = RolloutSettings(**known)
+        except TypeError as error:
+            raise EvaluationError(f"{evaluation.folder}: settings that are none: {error}") from error
+        self._runner = Runner(settings)
+        self._rate = settings.control_freq
+
+    def same(self, result: Result) -> bool:
+        """Whether the episode goes as it was recorded, bit for bit."""
+        return self._runner.replay(result.episode, result.actions) == result.state_hash
+
+    def film(
+        self, result: Result, camera: str = "agentview", size: tuple[int, int] = (320, 240)
+    ) -> tuple[bool, list[NDArray[np.uint8]]]:
+        """The same, with pictures at FILM_RATE, shape (height, width, 3)."""
+        if camera not in CAMERAS:
+            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(CAMERAS)}.')
+        every = max(1, round(self._rate / FILM_RATE))
+        frames: list[NDArray[np.uint8]] = []
+        step = 0
+
+        def watch(env: Any) -> None:
+            nonlocal step
+            if step % every == 0 or step == result.steps:
+                frames.append(env.pictures.take(camera, size[1], size[0]).image)
+            step += 1
+
+        digest = self._runner.replay(result.episode, result.actions, watch)
+        return digest == result.state_hash, frames
+
+    def moments(
+        self, result: Result, steps: Sequence[int], camera: str = "agentview", size: tuple[int, int] = (240, 180)
+    ) -> list[NDArray[np.uint8]]:
+        """Pictures after chosen steps."""
+        if camera not in CAMERAS:
+            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(CAMERAS)}.')
+        frames: list[NDArray[np.uint8]] = []
+        step = 0
+
+        def watch(env: Any) -> None:
+            nonlocal step
+            if step in steps:
+                frames.append(env.pictures.take(camera, size[1], size[0]).image)
+            step += 1
+
+        self._runner.replay(result.episode, result.actions, watch)
+        return frames
+
+    def close(self) -> None:
+        """Free the environment."""
+        self._runner.close()
+
+
+def replay_episodes(
+    evaluation: Evaluation,
+    episodes: list[int] | None,
+    *,
+    video: str | None,
+    picture: str | None = None,
+    camera: str,
+    size: tuple[int, int],
+    target: Any,
+) -> int:
+    """Replay and report; returns 1 where an episode goes otherwise than it was recorded.
+
+    Args:
+        evaluation: the records.
+        episodes: indexes; None for all.
+        video: where to put a film of the one episode.
+        picture: where to put a picture of moments of the one episode.
+        camera: of film and picture.
+        size: width and height of the film, and of each moment [pixel].
+        target: a console.
+
+    Raises:
+        EvaluationError: no such episode, or a film or picture of several.
+    """
+
+    def line(text: str) -> None:
+        target.print(text, markup=False, highlight=False, soft_wrap=True)
+
+    chosen = list(evaluation.results) if not episodes else [evaluation.result(index) for index in episodes]
+    if (video is not None or picture is not None) and len(chosen) != 1:
+        raise EvaluationError("a film or a picture shows one episode: --episode N.")
+    now, then = engine(), evaluation.manifest["engine"]
+    changed = [f"{name} {then.get(name)} then, {now[name]} now" for name in now if now[name] != then.get(name)]
+    if changed:
+        line("note: recorded with another engine: " + "; ".join(changed))
+    replayer, different = Replayer(evaluation), []
+    try:
+        for result in chosen:
+            if not result.state_hash:
+                line(f"episode {result.episode.index}: nothing was recorded ({result.reason})")
+                continue
+            if picture is not None:
+                frames = replayer.moments(result, moments_of(result.steps, MOMENTS), camera, size)
+                caption = f"{result.instruction}: {result.outcome.replace('_', ' ')}"
+                line(f"wrote {write_strip([(caption, frames)], picture)}")
+            if video is not None:
+                same, frames = replayer.film(result, camera, size)
+                line(f"wrote {write_video(frames, Path(video), FILM_RATE)}, {len(frames)} frames")
+            else:
+                same = replayer.same(result)
+            if not same:
+                different.append(result.episode.index)
+                line(f"episode {result.episode.index}: the states differ from the recorded ones")
+    finally:
+        replayer.close()
+    line(f"{len(chosen) - len(different)} of {len(chosen)} episodes went as recorded, bit for bit")
+    return 1 if different else 0

@@ -1,0 +1,35 @@
+from dataclasses import replace
+
+import pytest
+
+from pat3d.generation.request import gather_plan
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.progress import silent
+
+CROWDED = "A tray with a teapot, two cups and a plate."
+
+
+def tray_of(plan):
+    return next(one for one in gather_plan(plan, 0, silent) if one.name.endswith("tray"))
+
+
+def test_a_tray_that_is_too_small_for_what_is_on_it_is_made_larger_and_says_so():
+    usual = tray_of(GrammarPlanner().plan("A tray with a cup."))
+    tray = tray_of(GrammarPlanner().plan(CROWDED))
+    factor = tray.asset.size[0] / usual.asset.size[0]
+    assert factor > 1.1
+    assert f"{factor:.3g} times its usual size" in tray.note
+    assert not usual.note
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["A small tray with a teapot, two cups and a plate.", "A 35 cm tray with a teapot, two cups and a plate.",
+     "A tray with two cups."],
+)  # fmt: skip
+def test_a_tray_of_a_given_size_or_with_room_keeps_its_size(prompt):
+    plan = GrammarPlanner().plan(prompt)
+    tray = tray_of(plan)
+    alone = replace(plan, relations=tuple(rel for rel in plan.relations if not rel.parent.endswith("tray")))
+    assert tray.asset.size == pytest.approx(tray_of(alone).asset.size)
+    assert not tray.note
