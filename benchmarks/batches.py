@@ -34,9 +34,8 @@ def laid_out(place: int) -> Scene | None:
     from pat3d.errors import LayoutError
     from pat3d.generation.attempts import Attempts
     from pat3d.generation.checkpoints import Workspace
-    from pat3d.generation.report import Clock
     from pat3d.generation.request import order_of
-    from pat3d.progress import silent
+    from pat3d.progress import Clock, silent
 
     made = draft(Request(scenes=10_000, seed=0, objects=(6, 6)), place, 0)
     with tempfile.TemporaryDirectory() as folder:

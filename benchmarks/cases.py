@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from pat3d.envs.grasping.grasp import find_grasps
 from pat3d.envs.tasks.moves import Move, Planner
 from pat3d.generation.pipeline import generate
-from pat3d.policies_eval.analysis.strip import write_strip
 from pat3d.policies_eval.policies.scripted import EXACT, ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Setting, episodes_of
 from pat3d.policies_eval.run.evaluate import evaluate
 from pat3d.policies_eval.run.replay import Replayer
 from pat3d.policies_eval.run.settings import RolloutSettings
+from pat3d.policies_eval.strip import write_strip
 
 PROMPT = "A small wooden tray with a red mug, two beer bottles, a pepper mill, a shampoo and a candlestick on it."
 TASK = "pick:red mug"

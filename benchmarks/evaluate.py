@@ -35,16 +35,16 @@ if __name__ in ("__main__", "__mp_main__"):
 
 from evaluate_scenes import demonstrated, replayed, single, spread
 
-from pat3d.assets.catalogue.registry import entries
+from pat3d.assets.catalogue.lookup import entries
 from pat3d.policies_eval.analysis.statistics import wilson
 from pat3d.policies_eval.analysis.summary import summarise
-from pat3d.policies_eval.policies.train import fit
 from pat3d.policies_eval.run.episodes import Episode, Setting, episodes_of
 from pat3d.policies_eval.run.evaluate import evaluate
 from pat3d.policies_eval.run.perturb import Perturbation
 from pat3d.policies_eval.run.records import Evaluation, read_evaluation
 from pat3d.policies_eval.run.rollout import Result
 from pat3d.policies_eval.run.suites import suite_settings
+from pat3d.policies_eval.train import fit
 
 PARTS = ("objects", "clutter", "tasks", "random", "clone", "replay", "overhead", "workers")
 
@@ -275,7 +275,7 @@ class Clock:
 
         from pat3d.envs.env import TabletopEnv
         from pat3d.envs.physics.simulation import Simulation
-        from pat3d.envs.pictures import Pictures
+        from pat3d.envs.rendering.pictures import Pictures
         from pat3d.policies_eval.policies.scripted import ScriptedPolicy
         from pat3d.policies_eval.run.settings import RolloutSettings
 

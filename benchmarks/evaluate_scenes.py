@@ -50,11 +50,12 @@ def single(folder: Path, nouns: Sequence[str], layouts: int, workers: int) -> tu
 
 def alone(folder: str, noun: str, layout: int) -> Setting | str:
     """One object alone, turned by an angle that its name and `layout` decide; or why it cannot be picked."""
-    from pat3d.assets.catalogue.registry import make
+    from pat3d.assets.catalogue.lookup import make
     from pat3d.envs.env import choose
     from pat3d.envs.physics.loading import load
+    from pat3d.geometry.pose import Pose
     from pat3d.scene.io import save_scene
-    from pat3d.scene.model import Pose, Scene, SceneObject
+    from pat3d.scene.model import Scene, SceneObject
 
     place, task = Path(folder) / f"{noun.replace(' ', '_')}_{layout}", f"pick:{noun}"
     if (place / REFUSED).is_file():

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import ModelBuilder
 
 

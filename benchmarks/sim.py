@@ -23,7 +23,8 @@ from scaling_plot import save_scaling
 from sim_scenes import DENSITY, Pile, blobs, pile, tower
 
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.settling import Run, SettleOptions, settle
+from pat3d.sim.run import Run, SettleOptions
+from pat3d.sim.settling import settle
 
 TIME_STEP, FRICTION = 0.03, 0.2
 FRAMES = 60

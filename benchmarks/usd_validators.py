@@ -59,7 +59,7 @@ def openusd(path: Path) -> list[str]:
 
 def ours(path: Path) -> list[str]:
     """Findings of our lint."""
-    from pat3d.exporters.usd.lint.rules import lint_usd
+    from pat3d.check.usd_lint.rules import lint_usd
 
     return [str(finding) for finding in lint_usd(path)]
 

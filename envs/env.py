@@ -16,7 +16,7 @@ from pat3d.envs.observations import Observation, ObservationSpec, Observer, pict
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import CAMERAS, compose
-from pat3d.envs.pictures import Pictures
+from pat3d.envs.rendering.pictures import Pictures
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
@@ -37,9 +37,9 @@ _KEPT_WORLDS = 4
 class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     """A robot arm in front of a proven scene, with a task.
 
-    Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the time
-    limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the task's
-    progress in [0, 1], see the judge of each task.
+    Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the
+    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the
+    task's progress in [0, 1], see the judge of each task.
 
     Args:
         scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.

@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.compiled import compiled
+from pat3d.envs.compiled import compiled
 from pat3d.envs.physics.state import States
 from pat3d.envs.physics.world import PREFIX, World
 from pat3d.envs.tasks.task import Verdicts
@@ -177,7 +177,7 @@ def pictured(spec: ObservationSpec, pictures: Any) -> Observation:
 
     Args:
         spec: which.
-        pictures: a `pat3d.envs.pictures.Pictures`.
+        pictures: a `pat3d.envs.rendering.picture.Pictures`.
     """
     seen: Observation = {}
     for camera in spec.cameras:

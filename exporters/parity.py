@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import ExportError, Pat3dError
-from pat3d.exporters.objects import body_names
-from pat3d.exporters.read_files import convex_volume
-from pat3d.exporters.readback import BodyReadback
+from pat3d.exporters.common.objects import body_names
+from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.common.xml_files import convex_volume
 from pat3d.scene.model import Scene, SceneObject
 
 TOLERANCE = 1e-6
@@ -294,7 +294,7 @@ def _mjcf_readers(path: Path) -> tuple[_Reader, ...]:
 
 
 def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
-    from pat3d.exporters.read_engines import read_with_drake, read_with_pybullet, read_with_yourdfpy
+    from pat3d.exporters.engines import read_with_drake, read_with_pybullet, read_with_yourdfpy
     from pat3d.exporters.urdf.reader import read_directives, read_urdf
 
     return (
@@ -309,7 +309,7 @@ def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
 
 
 def _sdf_readers(path: Path) -> tuple[_Reader, ...]:
-    from pat3d.exporters.read_engines import read_with_drake
+    from pat3d.exporters.engines import read_with_drake
     from pat3d.exporters.sdf.reader import hangs, read_sdf
 
     ours = _Reader(name="world", package=None, read=read_sdf)

@@ -12,11 +12,13 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pat3d.scene.versions import VERSION as __version__
+from pat3d.scene import versions
 
 if TYPE_CHECKING:
     from pat3d.generation.pipeline import build, generate
     from pat3d.scene.io import load_scene, save_scene
+
+__version__ = versions.VERSION
 
 __all__ = ["__version__", "build", "generate", "load_scene", "save_scene"]
 

@@ -9,8 +9,9 @@ import numpy as np
 from pat3d.assets.shapes import Shape, box
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import mass_properties
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset, Material, Region, VisualMesh
-from pat3d.scene.model import Pose, Scene, SceneObject
+from pat3d.scene.model import Scene, SceneObject
 
 WOOD = Material(name="wood", density=650.0, friction=0.5)
 GAP = 2.0e-5

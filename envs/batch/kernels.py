@@ -1,6 +1,7 @@
 """The kernels of a batch: goals and torques of robosuite's controllers, and what has to be noted of every world.
 
-They compute what `pat3d.envs.robots.controllers.RobotController` does, in double precision from MuJoCo Warp's single one.
+They compute what `pat3d.envs.robots.controllers.RobotController` does, in double precision from MuJoCo Warp's single
+one.
 """
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false, reportReturnType=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAttributeAccessIssue=false

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.tasks.room import overhang_room
+from pat3d.envs.grasping.room import overhang_room
 from pat3d.scene.asset import Region
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.compiled import compiled
+from pat3d.envs.compiled import compiled
 from pat3d.envs.physics.predicates import OWNERS
 from pat3d.envs.physics.snapshot import Mask, Snapshot
 from pat3d.envs.physics.state import TOUCH, States

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from pat3d.envs.physics.compiled import compiled
+from pat3d.envs.compiled import compiled
 from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot
 from pat3d.envs.physics.world import FLOOR, ROBOT
 

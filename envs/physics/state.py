@@ -14,8 +14,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.compiled import as_written
 from pat3d.envs.physics import predicates
-from pat3d.envs.physics.compiled import as_written
 from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors
 from pat3d.envs.physics.world import World
 from pat3d.scene.model import Scene

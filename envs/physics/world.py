@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from pat3d.envs.grasping.placement import Placement
 from pat3d.envs.robots.arms import Robot
 from pat3d.errors import EnvironmentSetupError
-from pat3d.exporters.objects import GROUND_HALF_THICKNESS, body_names
-from pat3d.scene.model import Pose, Scene
+from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Scene
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.compiled import compiled
+from pat3d.envs.compiled import compiled
 
 Array = NDArray[np.float64]
 

@@ -41,7 +41,7 @@ from pathlib import Path
 
 def make_env(n_envs=1, use_async_envs=False, cfg=None):
     """Vector environments by kind of task: {"pick": {0: env}, ...}."""
-    from pat3d.envs.suites.lerobot import make_env as make
+    from pat3d.envs.lerobot import make_env as make
 
     return make(Path(__file__).resolve().parent, n_envs=n_envs, use_async_envs=use_async_envs)
 '''

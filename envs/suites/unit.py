@@ -16,9 +16,8 @@ from pat3d.envs.suites.request import Request
 from pat3d.errors import LayoutError, TaskError
 from pat3d.generation.attempts import Attempt, Attempts
 from pat3d.generation.checkpoints import Workspace
-from pat3d.generation.report import Clock
 from pat3d.generation.request import order_of
-from pat3d.progress import silent
+from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import GROUND, Scene
 from pat3d.scene.physics import SETTLING_FRICTION
@@ -48,7 +47,8 @@ class Making:
         self._draft, self.clock = draft(request, place, candidate), Clock()
         self._scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
         self.attempts = Attempts(
-            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=SETTLING_FRICTION, device=request.device,
+            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=SETTLING_FRICTION,
+            device=request.device,
             workspace=Workspace(self._scratch / "none", keep=False), clock=self.clock, progress=silent,
             scratch=self._scratch,
         )  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 
 from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
-from pat3d.envs.tasks.room import has_room, overhang_room
+from pat3d.envs.grasping.room import has_room, overhang_room
 from pat3d.envs.tasks.task import Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene

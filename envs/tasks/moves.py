@@ -17,15 +17,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasping.clearance import Clearance
 from pat3d.envs.grasping.grasp import STEADY, Grasp, find_grasps, torque
 from pat3d.envs.grasping.hand import hand_pose
 from pat3d.envs.grasping.leaning import LEANING_HOVER, LEANING_PAYLOAD, find_leaning_grasps
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.grasping.spots import free_spots, spots_over
+from pat3d.envs.physics.clearance import Clearance
 from pat3d.envs.robots.arms import measure_gripper
 from pat3d.envs.robots.kinematics import PlacedArm
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 
 Array = NDArray[np.float64]
 

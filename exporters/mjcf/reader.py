@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import CheckError
-from pat3d.exporters.read_files import common, convex_volume, in_body_axes
-from pat3d.exporters.readback import BodyReadback
-from pat3d.scene.model import Pose
+from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.common.xml_files import common, convex_volume, in_body_axes
+from pat3d.geometry.pose import Pose
 
 
 def read_mjcf(path: str | Path) -> tuple[BodyReadback, ...]:

@@ -36,13 +36,15 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.exporters.folder import export_folder
-from pat3d.exporters.frames import text
-from pat3d.exporters.margins import contact_margins, flush_boxes, largest_margins
-from pat3d.exporters.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
+from pat3d.exporters.common.folder import export_folder
+from pat3d.exporters.common.frames import text
+from pat3d.exporters.common.margins import contact_margins, flush_boxes, largest_margins
+from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
 from pat3d.geometry.contacts import find_contacts
-from pat3d.scene.asset import Asset, MassProperties
-from pat3d.scene.model import Pose, Scene
+from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import hull_obj, part_file, visual_obj, write_texture
 from pat3d.scene.physics import ground_friction
 
@@ -85,7 +87,7 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
     folder = Path(folder)
     with export_folder(folder, marker=SCENE, what="MJCF") as fresh:
         (fresh / "objects").mkdir()
-        contacts = find_contacts(scene, CONTACT_GAP)
+        contacts = find_contacts(scene.objects, CONTACT_GAP)
         stored = _write_assets(scene, fresh)
         margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
         _save(_document(scene, stored, margins, flush), fresh / SCENE)

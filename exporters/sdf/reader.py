@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from pat3d.errors import ExportError, SpecError
-from pat3d.exporters.read_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
-from pat3d.exporters.readback import BodyReadback
-from pat3d.scene.model import Pose
+from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
+from pat3d.geometry.pose import Pose
 
 
 def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:

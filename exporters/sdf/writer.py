@@ -20,12 +20,14 @@ from pathlib import Path
 import numpy as np
 
 from pat3d.errors import ExportError
-from pat3d.exporters.folder import export_folder
-from pat3d.exporters.frames import principal_axes, text
-from pat3d.exporters.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
+from pat3d.exporters.common.folder import export_folder
+from pat3d.exporters.common.frames import principal_axes, text
+from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
 from pat3d.exporters.urdf.writer import HYDROELASTIC_MODULUS
-from pat3d.scene.asset import Asset, ConvexPart
-from pat3d.scene.model import Attachment, Pose, Scene
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Attachment, Scene
 from pat3d.scene.obj_files import part_file
 from pat3d.scene.physics import ground_friction
 

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import ExportError, SpecError
-from pat3d.exporters.frames import rotation_of
-from pat3d.exporters.read_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
-from pat3d.exporters.readback import BodyReadback
+from pat3d.exporters.common.frames import rotation_of
+from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
 from pat3d.exporters.urdf.writer import FORMAT, PACKAGE, VERSION
+from pat3d.geometry.pose import Pose
 from pat3d.scene.folder import read_json
-from pat3d.scene.model import Pose
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:

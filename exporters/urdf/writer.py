@@ -26,12 +26,13 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.exporters.folder import export_folder
-from pat3d.exporters.frames import principal_axes, rpy_of, text
-from pat3d.exporters.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
+from pat3d.exporters.common.folder import export_folder
+from pat3d.exporters.common.frames import principal_axes, rpy_of, text
+from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 from pat3d.scene.folder import write_json
-from pat3d.scene.model import Pose, Scene
+from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import part_file
 from pat3d.scene.physics import GRAVITY, ground_friction
 

@@ -34,7 +34,9 @@ from pat3d.exporters.usd.openusd import (
     UsdShade,
     Vt,
 )
-from pat3d.scene.asset import Asset, ConvexPart, MassProperties, VisualMesh
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.mass import MassProperties
+from pat3d.scene.asset import Asset, VisualMesh
 from pat3d.scene.obj_files import corner_normals, write_texture
 
 GUIDE_COLOUR = (0.4, 0.6, 0.9)

@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from pat3d.errors import ExportError
-from pat3d.exporters.readback import BodyReadback
+from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.usd.openusd import Prim, UsdGeom, UsdPhysics
 from pat3d.exporters.usd.stage import (
     Body,
@@ -24,7 +24,7 @@ from pat3d.exporters.usd.stage import (
     transformed,
     without_scale,
 )
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 
 
 def read_usd(path: str | Path) -> tuple[BodyReadback, ...]:

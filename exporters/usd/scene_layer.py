@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.exporters.margins import contact_margins, flush_boxes
-from pat3d.exporters.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
+from pat3d.exporters.common.margins import contact_margins, flush_boxes
+from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
 from pat3d.exporters.usd.asset_layer import (
     bind_physics,
     define_box,
@@ -33,7 +33,8 @@ from pat3d.exporters.usd.asset_layer import (
 from pat3d.exporters.usd.engine_schemas import extend_joint, extend_margin, extend_scene, shorten_body
 from pat3d.exporters.usd.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 from pat3d.geometry.contacts import find_contacts
-from pat3d.scene.model import Attachment, Pose, Scene
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Attachment, Scene
 from pat3d.scene.physics import GRAVITY, ground_friction
 
 _SAME_POINT = 1e-6
@@ -47,7 +48,7 @@ def prim_name(slug: str) -> str:
 
 def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
     """Write `scene` and its assets as layers with the file name suffix "usdc" or "usda" into the empty `folder`."""
-    contacts = find_contacts(scene, CONTACT_GAP)
+    contacts = find_contacts(scene.objects, CONTACT_GAP)
     margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
     path = folder / f"scene.{suffix}"
     stage = Usd.Stage.CreateNew(str(path))

@@ -52,7 +52,7 @@ class Balance:
 
     def __init__(self, scene: Scene, activation: float) -> None:
         """Find the contacts of `scene` within `activation` [m]."""
-        contacts = find_contacts(scene, activation)
+        contacts = find_contacts(scene.objects, activation)
         self.found = len(contacts)
         contacts, anchors = merged(contacts), _anchors(scene)
         free = [k for k, obj in enumerate(scene.objects) if not obj.fixed]
@@ -62,7 +62,9 @@ class Balance:
                              for obj, mass in zip(scene.objects, masses, strict=True)]),
             weight=np.array([mass.mass * GRAVITY for mass in masses]),
             size=np.array([float(obj.asset.size.max()) for obj in scene.objects]),
-            friction=np.array([*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene.settling_friction)]),
+            friction=np.array(
+                [*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene.settling_friction)]
+            ),
         )  # fmt: skip
         self.groups = [
             Group(

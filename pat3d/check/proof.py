@@ -8,8 +8,8 @@ from typing import Any
 
 from pat3d.check.certificate import LEAST_PUSH, LEAST_TILT, Certificate, certify
 from pat3d.check.metrics import displacement, share_still
+from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
-from pat3d.geometry.penetration import PenetrationReport, penetration
 from pat3d.layout.predicates import RelationResult, check_relations
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.model import Scene

@@ -179,7 +179,7 @@ def replay(options: argparse.Namespace) -> int:
 
 def train(options: argparse.Namespace) -> int:
     """`pat3d train`."""
-    from pat3d.policies_eval.policies.train import train as run
+    from pat3d.policies_eval.train import train as run
 
     episodes, _ = episodes_from(options)
     run(episodes, options.out, epochs=options.epochs, seed=options.seed, noise=options.noise,

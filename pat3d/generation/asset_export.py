@@ -15,11 +15,12 @@ from pat3d.check.drop import DropReport, ground_drop
 from pat3d.errors import AssetError
 from pat3d.exporters.formats import chosen, export
 from pat3d.exporters.parity import ParityReport, parity
+from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.asset import Asset, VisualMesh
 from pat3d.scene.folder import check_target, replacing, write_json
 from pat3d.scene.io import save_scene
-from pat3d.scene.model import Pose, Scene, SceneObject
+from pat3d.scene.model import Scene, SceneObject
 from pat3d.scene.naming import slug, unique_slugs
 from pat3d.scene.versions import versions
 

@@ -16,12 +16,12 @@ from pat3d.errors import LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf.writer import write_mjcf
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.optimize_stage import OPTIMISATION, available, improve, lost
-from pat3d.generation.report import Clock
 from pat3d.generation.request import Ingredient, Order, derived_seed
 from pat3d.generation.settle_stage import Rest, come_to_rest
-from pat3d.progress import Event, Progress
+from pat3d.geometry.pose import Pose
+from pat3d.progress import Clock, Event, Progress
 from pat3d.scene.folder import key_of
-from pat3d.scene.model import GROUND, Pose, Relation, Scene, SceneObject, parent_of
+from pat3d.scene.model import GROUND, Relation, Scene, SceneObject, parent_of
 from pat3d.scene.versions import versions
 from pat3d.sim.compilation import prepare
 

@@ -18,10 +18,10 @@ from pat3d.errors import SpecError
 from pat3d.exporters.formats import export, exported
 from pat3d.exporters.parity import ParityReport, parity
 from pat3d.generation.optimize_stage import Improved, improve
-from pat3d.generation.report import FORMAT, VERSION, Clock, of_scene
+from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import Rest
 from pat3d.optimize.optimize import OptimizeOptions
-from pat3d.progress import Event, Progress, silent
+from pat3d.progress import Clock, Event, Progress, silent
 from pat3d.scene.folder import (
     OWN,
     check_target,

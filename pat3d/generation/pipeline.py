@@ -19,10 +19,10 @@ from pat3d.errors import SpecError
 from pat3d.exporters.formats import chosen, export
 from pat3d.generation.attempts import Attempts
 from pat3d.generation.checkpoints import Workspace
-from pat3d.generation.report import Clock, Report
+from pat3d.generation.report import Report
 from pat3d.generation.request import Order, order_of
 from pat3d.plan.scene_plan import Planner
-from pat3d.progress import Event, Progress, silent
+from pat3d.progress import Clock, Event, Progress, silent
 from pat3d.scene.folder import check_target, replacing, write_json, write_pictures, write_trajectory
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Scene

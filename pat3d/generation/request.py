@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from pat3d.geometry.pose import Pose
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.progress import Event, Progress
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 
 MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 """Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""

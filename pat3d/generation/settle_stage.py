@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import SimulationError
+from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
-from pat3d.scene.model import Pose, Scene
+from pat3d.scene.model import Scene
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -60,7 +61,8 @@ def come_to_rest_together(
         SimulationError: as `come_to_rest`, of any of the scenes; or they ask for different settling friction.
     """
     from pat3d.sim.model import ModelBuilder, poses_from_states
-    from pat3d.sim.settling import SettleOptions, settle
+    from pat3d.sim.run import SettleOptions
+    from pat3d.sim.settling import settle
 
     if len({scene.settling_friction for scene in scenes}) != 1:
         raise SimulationError("scenes that settle together need one settling friction.")

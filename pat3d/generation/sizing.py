@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import place
 from pat3d.layout.flat import Item
 from pat3d.layout.frames import flat_regions
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose
 
 WIDENED = frozenset({"tray", "cutting board"})
 """Nouns of things that are made in many sizes, to carry other things."""

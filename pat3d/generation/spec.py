@@ -16,9 +16,10 @@ from pat3d.generation.optimize_stage import GIVEN
 from pat3d.generation.request import Ingredient, Order, derived_seed
 from pat3d.generation.spec_schema import BUILD_SCHEMA
 from pat3d.generation.yaml_source import Source, read_yaml
+from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import GROUND, Pose, Relation, check_tree
+from pat3d.scene.model import GROUND, Relation, check_tree
 
 MESH_KEYS = ("units", "up", "parts", "thickness")
 NOUN_KEYS = ("colour", "colours")

@@ -1,4 +1,4 @@
-"""Where the bodies of a scene touch: contact points between convex parts, and with the ground.
+"""Where bodies touch: contact points between convex parts, and with the ground.
 
 Two convex polyhedra that nearly touch do so at vertices of one near the surface of the other, and where two
 edges cross; for two faces these are the corners of their overlap. Bodies of a settled scene rest 1e-5 to
@@ -7,14 +7,16 @@ edges cross; for two faces these are the corners of their overlap. Bodies of a s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import Pose, Scene
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.pose import Pose
 
 GROUND_INDEX = -1
 """Body index of the ground in `Contacts.bodies`."""
@@ -31,10 +33,10 @@ _RISE = 0.05
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contacts:
-    """Contact points of a scene."""
+    """Contact points between bodies."""
 
     bodies: NDArray[np.int64]
-    """Indices into scene.objects of the first and the second body, -1 for the ground; shape (contacts, 2)."""
+    """Indices of the first and the second body, -1 for the ground; shape (contacts, 2)."""
     parts: NDArray[np.int64]
     """Which convex part of each body, -1 for the ground; shape (contacts, 2)."""
     points: NDArray[np.float64]
@@ -97,24 +99,43 @@ class WorldPart:
         return surface, unit, np.where(inside, depth, distance)
 
 
-def find_contacts(scene: Scene, activation: float = 2e-4) -> Contacts:
+class Body(Protocol):
+    """What can touch: convex parts at a pose."""
+
+    @property
+    def parts(self) -> Sequence[ConvexPart]:
+        """In the body's frame."""
+        ...
+
+    @property
+    def pose(self) -> Pose:
+        """Of the body's frame in the world."""
+        ...
+
+    @property
+    def fixed(self) -> bool:
+        """Whether it never moves."""
+        ...
+
+
+def find_contacts(objects: Sequence[Body], activation: float = 2e-4) -> Contacts:
     """Every contact between different objects, and between objects and the ground.
 
     Args:
-        scene: objects at their poses.
+        objects: at their poses; two fixed ones are not tested against one another.
         activation: surfaces closer than this touch [m].
     """
-    placed = [[WorldPart(part, obj.pose) for part in obj.asset.parts] for obj in scene.objects]
+    placed = [[WorldPart(part, obj.pose) for part in obj.parts] for obj in objects]
     low = np.array([np.min([part.low for part in parts], axis=0) for parts in placed])
     high = np.array([np.max([part.high for part in parts], axis=0) for parts in placed])
     rows: list[tuple] = []
     for i, parts in enumerate(placed):
-        if not scene.objects[i].fixed:
+        if not objects[i].fixed:
             for p, part in enumerate(parts):
                 rows += _ground_rows(i, p, part, activation)
         for j in range(i):
             apart = np.any(low[i] - activation > high[j]) or np.any(low[j] - activation > high[i])
-            if apart or (scene.objects[i].fixed and scene.objects[j].fixed):
+            if apart or (objects[i].fixed and objects[j].fixed):
                 continue
             rows += _pair_rows(i, parts, j, placed[j], activation)
     if not rows:

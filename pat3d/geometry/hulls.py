@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,23 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import AssetError
-from pat3d.scene.asset import ConvexPart
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ConvexPart:
+    """A convex polyhedron: what is simulated, certified and exported for contact."""
+
+    vertices: NDArray[np.float64]
+    """Extreme points [m], shape (vertices, 3), in the asset frame."""
+    faces: NDArray[np.int32]
+    """Triangulated surface, counter-clockwise seen from outside, shape (faces, 3)."""
+    box: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float, float]] | None = None
+    """(centre [m], half sizes [m], quat_wxyz) where the part is exactly a box."""
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lower and upper corner of the bounding box [m], shape (2, 3)."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
 
 def convex_part(points: NDArray[np.float64]) -> ConvexPart:

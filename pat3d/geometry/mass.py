@@ -6,11 +6,32 @@ triangle spans with the origin.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import AssetError
-from pat3d.scene.asset import MassProperties
+
+
+@dataclass(frozen=True, kw_only=True)
+class MassProperties:
+    """Mass and its first two moments, in the asset frame."""
+
+    mass: float
+    """[kg]"""
+    volume: float
+    """[m^3]"""
+    centre_of_mass: tuple[float, float, float]
+    """[m]"""
+    inertia: tuple[tuple[float, float, float], ...]
+    """Inertia tensor [kg m^2] about the centre of mass, 3 x 3."""
+
+    @property
+    def second_moment(self) -> NDArray[np.float64]:
+        """Integral of rho x x^T about the centre of mass [kg m^2], shape (3, 3): tr(I)/2 E - I."""
+        inertia = np.array(self.inertia)
+        return 0.5 * np.trace(inertia) * np.eye(3) - inertia
 
 
 def mass_properties(

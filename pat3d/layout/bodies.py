@@ -15,8 +15,8 @@ import fcl
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose
 
 Array = NDArray[np.float64]
 

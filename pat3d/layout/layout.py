@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Body
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
@@ -23,7 +24,7 @@ from pat3d.layout.proof import Proof, prove
 from pat3d.layout.surfaces import arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import GROUND, Attachment, Pose, Relation, check_tree, parent_of
+from pat3d.scene.model import GROUND, Attachment, Relation, check_tree, parent_of
 
 _SEATS = frozenset({"chair", "armchair", "stool", "bench"})
 """Nouns that turn towards what they stand around."""

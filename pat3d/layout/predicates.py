@@ -35,10 +35,11 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Array, Placed, distance, place_all
 from pat3d.layout.frames import column_of
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import GROUND, Attachment, Pose, Relation
+from pat3d.scene.model import GROUND, Attachment, Relation
 
 TOUCH = 1.0e-3
 """Parts at most this far apart [m] touch."""

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Placed, box_gap, distance, place_all
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import GROUND, Pose
+from pat3d.scene.model import GROUND
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pat3d.errors import SimulationError, SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import check_relations
 from pat3d.optimize.loss import SemanticLoss, states
 from pat3d.optimize.placement import Placement
@@ -27,9 +28,10 @@ from pat3d.optimize.starts import Start, make_starts
 from pat3d.optimize.steady import recentred
 from pat3d.optimize.trial import Optimized, Trial
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Attachment, Pose, Relation, Scene, check_tree
+from pat3d.scene.model import Attachment, Relation, Scene, check_tree
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settling import SettleOptions, settle
+from pat3d.sim.run import SettleOptions
+from pat3d.sim.settling import settle
 
 STEADYING = 4
 """Times that loads are centred at most."""

@@ -14,13 +14,14 @@ import numpy as np
 import torch
 
 from pat3d.errors import LayoutError, SimulationError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import check_relations
 from pat3d.optimize.loss import SemanticLoss
 from pat3d.optimize.placement import Placement
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 from pat3d.sim.model import Model, ModelBuilder, poses_from_states
 from pat3d.sim.rollouts import rollout
-from pat3d.sim.settling import SettleOptions
+from pat3d.sim.run import SettleOptions
 
 HALVINGS = 5
 """How often a step that cannot be made is halved."""

@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.balance import support_margin
 from pat3d.layout.containers import lower
 from pat3d.layout.group import Group
 from pat3d.layout.layout import arrange
 from pat3d.optimize.placement import GAP, Placement
-from pat3d.scene.model import GROUND, Attachment, Pose, Relation
+from pat3d.scene.model import GROUND, Attachment, Relation
 
 ENOUGH = 0.1
 """Support margin, as a share of an object's width, beyond which more is not better."""

@@ -18,8 +18,9 @@ from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.contacts import find_contacts
+from pat3d.geometry.pose import Pose
 from pat3d.optimize.placement import Placement
-from pat3d.scene.model import GROUND, Pose, Scene
+from pat3d.scene.model import GROUND, Scene
 
 ENOUGH = 8.0
 """Tilt [degrees] that an object endures without being moved."""
@@ -35,7 +36,7 @@ def recentred(placement: Placement, scene: Scene) -> dict[str, Pose] | None:
     Returns:
         Intersection-free poses; None where nothing can be moved for the better.
     """
-    contacts = find_contacts(scene)
+    contacts = find_contacts(scene.objects)
     index = {obj.name: k for k, obj in enumerate(scene.objects)}
     centre = np.array(
         [obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0] for obj in scene.objects]

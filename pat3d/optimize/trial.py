@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import RelationResult
 from pat3d.optimize.refine import Epoch
-from pat3d.scene.model import Attachment, Pose
+from pat3d.scene.model import Attachment
 
 STEADY = 2.0
 """Tilt of the ground [degrees] that a scene should endure, several times what its proof asks for."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Literal, Protocol
 
 from pat3d.errors import PromptError
-from pat3d.plan.grammar.measures import Axis
 from pat3d.scene.model import Relation, check_tree, parent_of
+
+Axis = Literal["height", "width", "depth", "length", "thickness"]
 
 
 @dataclass(frozen=True, kw_only=True)

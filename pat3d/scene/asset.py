@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import AssetError
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.mass import MassProperties
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,26 +34,6 @@ class Material:
             raise AssetError(f'material "{self.name}": density must be positive, got {self.density}.')
         if not (np.isfinite(self.friction) and self.friction >= 0):
             raise AssetError(f'material "{self.name}": friction must not be negative, got {self.friction}.')
-
-
-@dataclass(frozen=True, kw_only=True)
-class MassProperties:
-    """Mass and its first two moments, in the asset frame."""
-
-    mass: float
-    """[kg]"""
-    volume: float
-    """[m^3]"""
-    centre_of_mass: tuple[float, float, float]
-    """[m]"""
-    inertia: tuple[tuple[float, float, float], ...]
-    """Inertia tensor [kg m^2] about the centre of mass, 3 x 3."""
-
-    @property
-    def second_moment(self) -> NDArray[np.float64]:
-        """Integral of rho x x^T about the centre of mass [kg m^2], shape (3, 3): tr(I)/2 E - I."""
-        inertia = np.array(self.inertia)
-        return 0.5 * np.trace(inertia) * np.eye(3) - inertia
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,23 +71,6 @@ class VisualMesh:
             uv=np.repeat(centre[:, None, :], 3, axis=1),
             texture=texture,
         )
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Lower and upper corner of the bounding box [m], shape (2, 3)."""
-        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ConvexPart:
-    """A convex polyhedron: what is simulated, certified and exported for contact."""
-
-    vertices: NDArray[np.float64]
-    """Extreme points [m], shape (vertices, 3), in the asset frame."""
-    faces: NDArray[np.int32]
-    """Triangulated surface, counter-clockwise seen from outside, shape (faces, 3)."""
-    box: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float, float]] | None = None
-    """(centre [m], half sizes [m], quat_wxyz) where the part is exactly a box."""
 
     @property
     def bounds(self) -> NDArray[np.float64]:

@@ -21,8 +21,11 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import AssetError, ExportError, SpecError
-from pat3d.scene.asset import Asset, ConvexPart, MassProperties, Material, Region, VisualMesh
-from pat3d.scene.model import Attachment, Pose, Relation, Scene, SceneObject
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset, Material, Region, VisualMesh
+from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
 from pat3d.scene.schema import SCENE_SCHEMA

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from pat3d.sim.failure import Status
     from pat3d.sim.model import Model, ModelBuilder, poses_from_states
     from pat3d.sim.rollouts import Rollout, rollout
-    from pat3d.sim.settling import Settled, SettleOptions, UnsettledError, settle
+    from pat3d.sim.run import SettleOptions
+    from pat3d.sim.settling import Settled, UnsettledError, settle
 
 __all__ = [
     "Model",
@@ -40,7 +41,7 @@ _HOMES = {
     "Model": "pat3d.sim.model",
     "ModelBuilder": "pat3d.sim.model",
     "Rollout": "pat3d.sim.rollouts",
-    "SettleOptions": "pat3d.sim.settling",
+    "SettleOptions": "pat3d.sim.run",
     "Settled": "pat3d.sim.settling",
     "Status": "pat3d.sim.failure",
     "UnsettledError": "pat3d.sim.settling",

@@ -22,13 +22,13 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.scene.physics import GRAVITY
-from pat3d.sim.potential import SKIN
 from pat3d.sim.program import Mirror, Program
 from pat3d.sim.recording import Recording, Replay
-from pat3d.sim.settling import StepRecord
+from pat3d.sim.tape import StepRecord
 from pat3d.sim.terms.contact_reach import pull_back_reach
 from pat3d.sim.terms.friction_lag import pull_back_lag
 from pat3d.sim.terms.inertia import mass_matrix
+from pat3d.sim.terms.potential import SKIN
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 

@@ -19,7 +19,7 @@ MODULES = (
     "pat3d.sim.terms.orthogonality",
     "pat3d.sim.solvers.linear",
     "pat3d.sim.solvers.line_search",
-    "pat3d.sim.potential",
+    "pat3d.sim.terms.potential",
     "pat3d.sim.measures",
     "pat3d.sim.worlds",
     "pat3d.sim.contact.intersection",

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import fractions
 from pat3d.sim.model import Model
-from pat3d.sim.potential import SKIN
 from pat3d.sim.solvers.line_search import LONGEST_STEP
 from pat3d.sim.solvers.newton import Newton, NewtonResult
+from pat3d.sim.terms.potential import SKIN
 
 NO_MOTION = 1.0e-12
 """A step that moves no vertex further is none [m]; it is four digits above the rounding of a position."""

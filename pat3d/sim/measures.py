@@ -10,8 +10,8 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from pat3d.sim.potential import Potential
 from pat3d.sim.program import Mirror, Program
+from pat3d.sim.terms.potential import Potential
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})
 

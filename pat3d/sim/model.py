@@ -17,10 +17,12 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.errors import SimulationError
-from pat3d.scene.asset import Asset, ConvexPart
-from pat3d.scene.model import Pose, Scene
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset
+from pat3d.scene.model import Scene
 from pat3d.scene.physics import GRAVITY
-from pat3d.sim.contact.clusters import ClusteredPart, cluster
+from pat3d.sim.clusters import ClusteredPart, cluster
 
 ATTACHMENT_STRETCH = 5.0e-7
 """How far an anchor gives way under the weight of the lighter of the two bodies that it joins [m]."""

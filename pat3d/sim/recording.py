@@ -14,8 +14,9 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.sim.model import Model
-from pat3d.sim.settling import Progress, Run, SettleOptions, StepRecord, Tape
+from pat3d.sim.run import Progress, Run, SettleOptions
 from pat3d.sim.solvers.newton import NewtonResult
+from pat3d.sim.tape import StepRecord, Tape
 from pat3d.sim.worlds import copy_worlds
 
 GRADIENT_RESIDUAL = 1.0e-9

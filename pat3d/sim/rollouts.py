@@ -24,7 +24,7 @@ from pat3d.errors import SimulationError
 from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model
 from pat3d.sim.recording import RecordedRun, Recording
-from pat3d.sim.settling import Progress, SettleOptions
+from pat3d.sim.run import Progress, SettleOptions
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

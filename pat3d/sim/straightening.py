@@ -6,16 +6,12 @@ presses with many times its weight, and gaps at rest are not much more.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.run import Run
 from pat3d.sim.worlds import copy_worlds
-
-if TYPE_CHECKING:
-    from pat3d.sim.settling import Run
 
 BENT = 1.0 / 15.0
 """Distance between a body's affine and rigid surface, over the barrier's reach, that asks for more stiffness; gaps end

@@ -11,8 +11,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
-from pat3d.scene.model import Pose
 from pat3d.view.textures import TextureAtlas
 
 CREASE_ANGLE = 40.0

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
-from pat3d.scene.model import Pose, Scene
+from pat3d.scene.model import Scene
 from pat3d.view.camera import ELEVATION, frame
 from pat3d.view.render import Item, render
 from pat3d.view.viewpoint import overlooking

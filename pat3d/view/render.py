@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
-from pat3d.scene.model import Pose
 from pat3d.view import light
 from pat3d.view.camera import Camera, frame
 from pat3d.view.denoise import smooth
@@ -148,7 +148,7 @@ class _View:
             start[down] = point[down]
             start[down, 2] += self.gap
             radii = np.hypot(point[down, 0], point[down, 1]) / np.float32(max(self.geometry.radius, 1e-6))
-            colour[down] = light.backdrop(radii)
+            colour[down] = light.backdrop(radii.astype(np.float32, copy=False))
         seen = what[hits.which] > 0
         colour[hits.which[seen]] = hits.colour[seen]
         return _Surfaces(what, ray, distance, point, start, normal, colour)

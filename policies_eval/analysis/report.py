@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.policies_eval.analysis.charts import OUTCOME_COLOURS, interval_bar, outcome_bar
-from pat3d.policies_eval.analysis.strip import moments_of
 from pat3d.policies_eval.analysis.summary import Summary
-from pat3d.policies_eval.datasets.video import can_write_mp4, write_video
 from pat3d.policies_eval.run.failures import OUTCOMES
 from pat3d.policies_eval.run.records import Evaluation, write_text
 from pat3d.policies_eval.run.replay import FILM_RATE, Replayer
 from pat3d.policies_eval.run.rollout import Result
+from pat3d.policies_eval.strip import moments_of
+from pat3d.policies_eval.video import can_write_mp4, write_video
 
 MAX_ROWS = 500
 """Episodes in the page's table; all are in episodes.parquet."""

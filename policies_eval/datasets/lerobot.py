@@ -23,17 +23,13 @@ from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets.demonstrations import Demonstration
-from pat3d.policies_eval.datasets.video import FilmWriter
+from pat3d.policies_eval.policies.lerobot import IMAGES, STATE
 from pat3d.policies_eval.run.records import arrow
 from pat3d.policies_eval.run.settings import RolloutSettings
+from pat3d.policies_eval.video import FilmWriter
 
 VERSION = "v3.0"
 
-STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
-"""Observations that make up "observation.state", in this order, as in the environments of suites for LeRobot."""
-
-IMAGES = "observation.images."
-"""Before the name of every camera."""
 
 CHUNK = 1000
 """Files in a folder."""

@@ -16,9 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.datasets.lerobot import IMAGES, STATE
 from pat3d.policies_eval.policies.policy import EpisodeStart
-from pat3d.policies_eval.policies.registry import LEROBOT
+
+LEROBOT = "lerobot:"
+"""Before the folder of a checkpoint."""
+
+STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
+"""Observations that make up "observation.state", in this order, as in the environments of suites for LeRobot."""
+
+IMAGES = "observation.images."
+"""Before the name of every camera."""
 
 INSTALL_HINT = "policies of LeRobot need its package: pip install lerobot."
 

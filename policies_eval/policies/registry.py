@@ -14,14 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError, Pat3dError
+from pat3d.policies_eval.policies.lerobot import LEROBOT, LeRobotPolicy, require_checkpoint
 from pat3d.policies_eval.policies.policy import EpisodeStart, Policy
 
 FORMS = (
     "random, scripted, ws://HOST:PORT (an openpi policy server), package.module:callable, FILE.pt (pat3d train), "
     "lerobot:FOLDER (a checkpoint of LeRobot)"
 )
-
-LEROBOT = "lerobot:"
 
 _CALLABLE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
 
@@ -77,8 +76,6 @@ def make_policy(spec: str) -> Policy:
 
         return ClonedPolicy(spec)
     if spec.startswith(LEROBOT):
-        from pat3d.policies_eval.policies.lerobot import LeRobotPolicy
-
         return LeRobotPolicy(spec)
     return _imported(spec)
 
@@ -86,8 +83,6 @@ def make_policy(spec: str) -> Policy:
 def require_known(spec: str) -> None:
     """Raise EvaluationError unless `spec` has the form of a policy, and names a file that is there."""
     if spec.startswith(LEROBOT):
-        from pat3d.policies_eval.policies.lerobot import require_checkpoint
-
         require_checkpoint(spec)
         return
     plain = spec in ("random", "scripted") or spec.startswith(("ws://", "wss://"))

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from pat3d.envs.physics.world import CAMERAS
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.analysis.strip import moments_of, write_strip
-from pat3d.policies_eval.datasets.video import write_video
 from pat3d.policies_eval.run.manifest import engine
 from pat3d.policies_eval.run.records import Evaluation
 from pat3d.policies_eval.run.rollout import Result, Runner
 from pat3d.policies_eval.run.settings import RolloutSettings
+from pat3d.policies_eval.strip import moments_of, write_strip
+from pat3d.policies_eval.video import write_video
 
 MOMENTS = 4
 """Of an episode in a picture."""

@@ -18,8 +18,9 @@ from pat3d.check.certificate import (
     steadiness,
 )
 from pat3d.errors import CheckError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Material
-from pat3d.scene.model import Attachment, Pose
+from pat3d.scene.model import Attachment
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

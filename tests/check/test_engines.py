@@ -19,8 +19,8 @@ from pat3d.check.settle import SettleReport, settle_in_mujoco
 from pat3d.cli.main import main
 from pat3d.errors import CheckError, SpecError
 from pat3d.exporters.mjcf.writer import FOR_MUJOCO_3_3, SCENE, write_mjcf
+from pat3d.geometry.pose import Pose
 from pat3d.scene.io import save_scene
-from pat3d.scene.model import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 MUJOCO = chosen(["mujoco"])[0]

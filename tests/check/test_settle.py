@@ -8,7 +8,7 @@ from pat3d.check.metrics import displacement, share_still
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import CheckError
 from pat3d.exporters.mjcf.writer import write_mjcf
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

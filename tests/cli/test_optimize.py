@@ -18,14 +18,14 @@ from pat3d.exporters.parity import parity
 from pat3d.generation import optimize_stage as improve
 from pat3d.generation.optimize_stage import GIVEN
 from pat3d.generation.pipeline import Settings, make
-from pat3d.generation.report import Clock
 from pat3d.generation.request import Ingredient, Order
+from pat3d.geometry.pose import Pose
 from pat3d.layout import layout as layouts
 from pat3d.layout.bodies import place_all
 from pat3d.layout.proof import prove
-from pat3d.progress import silent
+from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
-from pat3d.scene.model import Pose, Scene, SceneObject
+from pat3d.scene.model import Scene, SceneObject
 from tests.optimize.scenes import overhanging
 
 PICTURES = {"loss.png", "before_after.png"}

@@ -10,8 +10,10 @@ import pytest
 from pat3d.envs.grasping.grasp import find_grasps, narrowest
 from pat3d.envs.robots.arms import Gripper
 from pat3d.geometry.hulls import convex_part
-from pat3d.scene.asset import Asset, MassProperties, Material, Region, VisualMesh
-from pat3d.scene.model import Pose, Scene, SceneObject
+from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset, Material, Region, VisualMesh
+from pat3d.scene.model import Scene, SceneObject
 
 GRIPPER = Gripper(
     opening=0.08, closed=0.0, finger_thickness=0.015, finger_width=0.02, tip=0.01, palm=0.045, hand=(0.2, 0.06),

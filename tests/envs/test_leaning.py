@@ -12,7 +12,7 @@ from pat3d.envs.grasping.grasp import find_grasps, leaning
 from pat3d.envs.grasping.leaning import LEANING_PAYLOAD, LEANS, find_leaning_grasps
 from pat3d.errors import TaskError
 from pat3d.geometry.hulls import convex_part
-from pat3d.scene.asset import MassProperties
+from pat3d.geometry.mass import MassProperties
 from pat3d.scene.model import Scene, SceneObject
 from tests.envs.test_grasp import GRIPPER, bar
 
@@ -108,13 +108,13 @@ def test_the_way_of_the_hand_is_continuous_and_ends_where_it_should(env):
 def test_the_scripted_policy_takes_a_bouquet_by_its_stems(tmp_path):
     """Its flowers are wider than the gripper opens, and cover the stems from above."""
     pytest.importorskip("robosuite")
-    from pat3d.assets.catalogue.registry import make
+    from pat3d.assets.catalogue.lookup import make
+    from pat3d.geometry.pose import Pose
     from pat3d.policies_eval.policies.scripted import ScriptedPolicy
     from pat3d.policies_eval.run.episodes import Setting, episodes_of
     from pat3d.policies_eval.run.rollout import Runner
     from pat3d.policies_eval.run.settings import RolloutSettings
     from pat3d.scene.io import save_scene
-    from pat3d.scene.model import Pose
 
     pose = Pose.from_yaw(0.0, (0.0, 0.0, 0.0))
     bouquet = SceneObject(name="bouquet", asset=make("bouquet"), pose=pose, initial_pose=pose)

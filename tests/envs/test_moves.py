@@ -96,7 +96,7 @@ def test_a_wall_that_stays_still_refuses_what_is_cleared_of_everything_else():
 
 def test_what_can_only_be_held_far_from_its_middle_is_picked_up_and_not_put_anywhere():
     from pat3d.envs.grasping.taking import grasps_of
-    from pat3d.scene.asset import MassProperties
+    from pat3d.geometry.mass import MassProperties
 
     made = bar("beam", (0.5, 0.04, 0.05))
     heavy = MassProperties(

@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
-from pat3d.envs.raytrace import RayTracer
+from pat3d.envs.rendering.raytrace import RayTracer
 
 BALL = """
 <mujoco>
@@ -60,11 +60,11 @@ def test_the_cpu_and_gl_see_the_same_things(env):
 
     if not probe_egl():
         pytest.skip("no EGL here")
-    from pat3d.envs.pictures import _Gl
+    from pat3d.envs.rendering.opengl import OpenGL
 
     env.reset(seed=0)
     model, data = env.simulation.model, env.simulation.data
-    gl, cpu = _Gl(model), RayTracer(model)
+    gl, cpu = OpenGL(model), RayTracer(model)
     for name in ("agentview", "wrist"):
         camera = model.camera(name).id
         theirs = gl.draw(data, camera, 96, 128, depth=True, segmentation=True)

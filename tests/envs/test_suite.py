@@ -22,10 +22,10 @@ gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
 from pat3d.cli.main import main  # noqa: E402
+from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder  # noqa: E402
 from pat3d.envs.suites.generate import generate  # noqa: E402
-from pat3d.envs.suites.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.page import page  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402

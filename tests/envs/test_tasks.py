@@ -13,15 +13,16 @@ pytest.importorskip("gymnasium")
 
 import mujoco
 
-from pat3d.assets.catalogue.registry import make
+from pat3d.assets.catalogue.lookup import make
 from pat3d.envs.grasping.placement import Needs, place
+from pat3d.envs.grasping.room import NARROWEST_BASE
 from pat3d.envs.physics.predicates import pairs_that
 from pat3d.envs.physics.snapshot import floors
 from pat3d.envs.tasks.registry import TASKS, parse_task, possible_tasks
-from pat3d.envs.tasks.room import NARROWEST_BASE
 from pat3d.errors import TaskError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import check_relations
-from pat3d.scene.model import Pose, Relation, Scene, SceneObject
+from pat3d.scene.model import Relation, Scene, SceneObject
 from tests.envs.test_grasp import bar
 
 ALOFT = 0.5

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pat3d.exporters.frames import principal_axes, rotation_of, rpy_of, text
+from pat3d.exporters.common.frames import principal_axes, rotation_of, rpy_of, text
 
 angles = st.floats(-np.pi, np.pi)
 

@@ -16,8 +16,9 @@ from pat3d.errors import ExportError
 from pat3d.exporters.mjcf.writer import body_names
 from pat3d.exporters.usd.reader import read_usd
 from pat3d.exporters.usd.writer import write_usd, write_usd_asset
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset, VisualMesh
-from pat3d.scene.model import Attachment, Pose
+from pat3d.scene.model import Attachment
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

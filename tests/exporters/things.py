@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, join, vessel
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Attachment, Pose, Scene
+from pat3d.scene.model import Attachment, Scene
 from tests.scenes import GAP, asset_of, placed, scene_of
 
 

@@ -7,9 +7,9 @@ import pytest
 
 from pat3d.assets.catalogue import make
 from pat3d.check.certificate import certify
+from pat3d.check.penetration import penetration
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.exporters.mjcf.writer import write_mjcf
-from pat3d.geometry.penetration import penetration
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_relations
 from pat3d.plan.grammar.planner import GrammarPlanner

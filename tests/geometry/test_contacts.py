@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from pat3d.assets.shapes import box, convex, join
 from pat3d.check.certificate import certify
 from pat3d.geometry.contacts import find_contacts, merged
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of
 
 
@@ -46,7 +46,7 @@ def test_the_least_gap_of_random_hulls_is_what_fcl_measures(seed):
         low, high = (low, middle) if fcl_distance(middle) > 5e-5 else (middle, high)
     pair = poses(high)
     contacts = find_contacts(
-        scene_of(placed("a", assets[0], pose=pair[0]), placed("b", assets[1], pose=pair[1])), activation=1e-4
+        scene_of(placed("a", assets[0], pose=pair[0]), placed("b", assets[1], pose=pair[1])).objects, activation=1e-4
     )
     assert contacts.gaps.min() == pytest.approx(fcl_distance(high), rel=1e-6)
     # The normal points from the second body to the first: moving apart along it opens the gap.
@@ -60,7 +60,7 @@ def test_turned_squares_touch_at_the_corners_of_an_octagon():
     scene = scene_of(
         placed("low", asset, (0, 0, GAP)), placed("high", asset, pose=Pose.from_yaw(np.pi / 4, (0, 0, 0.1 + 2 * GAP)))
     )
-    contacts = find_contacts(scene)
+    contacts = find_contacts(scene.objects)
     between = contacts.pick((contacts.bodies == (1, 0)).all(axis=1))
     assert len(between) == 8
     assert ConvexHull(between.points[:, :2]).volume == pytest.approx(0.1**2 * 2 * (np.sqrt(2) - 1), rel=1e-6)
@@ -76,7 +76,7 @@ def test_a_seam_between_two_parts_makes_no_slanted_contact():
         placed("table", asset_of(halves), fixed=True),
         placed("block", asset_of(box(0.04, 0.04, 0.04)), (0.02 + 1e-5, 0, 0.02 + GAP)),
     )
-    contacts = find_contacts(scene)
+    contacts = find_contacts(scene.objects)
     assert len(contacts) >= 4
     np.testing.assert_allclose(contacts.normals[:, 2], 1.0, atol=1e-12)
 
@@ -100,7 +100,7 @@ def test_an_edge_in_a_hollow_between_two_parts_leans_on_both(gaps, beyond):
         placed("trough", asset_of(trough), (0, 0, 0.05), fixed=True),
         placed("wedge", asset_of(wedge), (edge[0], 0, 0.05 + edge[1])),
     )
-    contacts = find_contacts(scene)
+    contacts = find_contacts(scene.objects)
     assert sorted(np.sign(contacts.normals[:, 0])) == [-1, -1, 1, 1]
     assert sorted(contacts.gaps) == pytest.approx(sorted([*gaps, *gaps]), rel=0.02)
     assert certify(scene, friction=0.01).passed
@@ -114,7 +114,7 @@ def _along_y(outline, half):
 def test_merging_keeps_the_corners_of_a_patch():
     fine = box(0.1, 0.1, 0.02)
     scene = scene_of(placed("tiles", asset_of(join(fine.moved(x=-0.05), fine.moved(x=0.05))), (0, 0, GAP)))
-    contacts = find_contacts(scene)
+    contacts = find_contacts(scene.objects)
     corners = merged(contacts)
     assert (len(contacts), len(corners)) == (8, 4)
     np.testing.assert_allclose(np.sort(corners.points[:, 0]), [-0.1, -0.1, 0.1, 0.1])
@@ -123,7 +123,7 @@ def test_merging_keeps_the_corners_of_a_patch():
 def test_far_objects_and_fixed_pairs_have_no_contacts():
     asset = asset_of(box(0.1, 0.1, 0.1))
     high = scene_of(placed("a", asset, (0, 0, 1)), placed("b", asset, (0, 0, 2)))
-    assert len(find_contacts(high)) == 0
-    assert len(merged(find_contacts(high))) == 0
+    assert len(find_contacts(high.objects)) == 0
+    assert len(merged(find_contacts(high.objects))) == 0
     fixed = scene_of(placed("a", asset, fixed=True), placed("b", asset, (0, 0, 0.1 + GAP), fixed=True))
-    assert len(find_contacts(fixed)) == 0
+    assert len(find_contacts(fixed.objects)) == 0

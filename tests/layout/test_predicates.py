@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import check_relations, polygon_gap, relation_holds
-from pat3d.scene.model import GROUND, Attachment, Pose, Relation
+from pat3d.scene.model import GROUND, Attachment, Relation
 from tests.layout.things import ball, block, table, tree_with_branch, vessel
 
 ASSETS = {

@@ -9,8 +9,8 @@ from pat3d.assets import shapes
 from pat3d.assets.catalogue.assemble import assemble
 from pat3d.assets.catalogue.registry import Build
 from pat3d.assets.materials import material
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset, Region
-from pat3d.scene.model import Pose
 
 
 def asset(noun: str, shape: shapes.Shape, *regions: Region, mass: float | None = None) -> Asset:

@@ -7,16 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.assets.catalogue.registry import make
+from pat3d.assets.catalogue.lookup import make
 from pat3d.check.settle import SettleReport, settle_in_mujoco
 from pat3d.exporters.mjcf.writer import write_mjcf
+from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import place
 from pat3d.layout.drop import fall
 from pat3d.layout.layout import arrange
 from pat3d.optimize.placement import Placement
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose, Relation, Scene, SceneObject
+from pat3d.scene.model import Relation, Scene, SceneObject
 
 HATS = "a plush toy dog with five hats of different colours stacked on its head"
 SOFA = (

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 from tests.layout.things import block
 
 

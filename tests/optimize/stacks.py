@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from pat3d.assets import shapes
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 from tests.layout.things import asset
 
 

@@ -5,11 +5,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_relations
 from pat3d.optimize.loss import SemanticLoss, outside_parent, states
 from pat3d.optimize.outline import Box
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 from tests.layout.things import ball, block, mug, pen, table, vessel
 
 LATERALS = ("left_of", "right_of", "in_front_of", "behind", "next_to")

@@ -11,6 +11,7 @@ from PIL import Image
 
 from pat3d.assets import shapes
 from pat3d.errors import LayoutError, SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.layout.layout import arrange
 from pat3d.optimize.loss import states
 from pat3d.optimize.optimize import Optimized, OptimizeOptions, optimize
@@ -18,7 +19,7 @@ from pat3d.optimize.placement import Placement
 from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
 from pat3d.optimize.steady import deepest
-from pat3d.scene.model import Pose, Relation
+from pat3d.scene.model import Relation
 from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
 from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
 from tests.optimize.scenes import on, overhanging

@@ -13,9 +13,9 @@ torch = pytest.importorskip("torch")
 from pat3d.errors import EvaluationError  # noqa: E402
 from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstrate  # noqa: E402
 from pat3d.policies_eval.policies.cloning import FEATURES, ClonedPolicy, features, load, make_network, save  # noqa: E402
-from pat3d.policies_eval.policies.train import fit  # noqa: E402
 from pat3d.policies_eval.run.episodes import Episode  # noqa: E402
 from pat3d.policies_eval.run.settings import RolloutSettings  # noqa: E402
+from pat3d.policies_eval.train import fit  # noqa: E402
 
 
 def observation(random, turn=None, shift=(0.0, 0.0, 0.0)):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.analysis.strip import GAP, moments_of, write_strip
+from pat3d.policies_eval.strip import GAP, moments_of, write_strip
 
 
 def frame(brightness):

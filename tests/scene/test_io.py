@@ -8,9 +8,10 @@ import pytest
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import ellipsoid
 from pat3d.errors import ExportError, SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Region
 from pat3d.scene.io import load_scene, save_scene
-from pat3d.scene.model import Attachment, Pose, Relation, SceneObject
+from pat3d.scene.model import Attachment, Relation, SceneObject
 from pat3d.scene.naming import slug, unique_slugs
 from tests.scenes import asset_of, placed, scene_of
 

@@ -3,7 +3,8 @@ import pytest
 
 from pat3d.assets.shapes import box
 from pat3d.errors import SpecError
-from pat3d.scene.model import Attachment, Pose, Relation, check_tree
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Attachment, Relation, check_tree
 from tests.scenes import asset_of, placed, scene_of
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import ModelBuilder
 
 

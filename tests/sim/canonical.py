@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from tests.sim.builders import add_hull, box_points
 

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 import trimesh
 
-from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from tests.sim.builders import box_points, random_hull
 

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import Model, ModelBuilder
 
 REPOSITORY = Path(__file__).resolve().parents[2]

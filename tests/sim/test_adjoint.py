@@ -9,12 +9,12 @@ import pytest
 import torch
 import warp as wp
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.adjoint import backward
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.recording import RecordedRun, Recording
 from pat3d.sim.rollouts import rollout
-from pat3d.sim.settling import SettleOptions
+from pat3d.sim.run import SettleOptions
 from tests.sim.builders import add_hull, box_points
 
 

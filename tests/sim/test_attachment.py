@@ -5,10 +5,11 @@ import pytest
 import torch
 
 from pat3d.errors import SimulationError
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import ATTACHMENT_STRETCH, Model, ModelBuilder, poses_from_states
 from pat3d.sim.rollouts import rollout
-from pat3d.sim.settling import SettleOptions, settle
+from pat3d.sim.run import SettleOptions
+from pat3d.sim.settling import settle
 from tests.sim.builders import add_hull, box_points, random_hull
 
 HOOK = np.array([0.0, 0.0, 1.0])

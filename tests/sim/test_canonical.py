@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from pat3d.sim.model import Model
-from pat3d.sim.settling import Settled, SettleOptions, settle
+from pat3d.sim.run import SettleOptions
+from pat3d.sim.settling import Settled, settle
 from tests.sim import canonical as cases
 from tests.sim.canonical import pair, spike, upside_down, wedge
 from tests.sim.oracles import IntersectionOracle, intersections

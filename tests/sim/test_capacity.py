@@ -5,7 +5,7 @@ import pytest
 
 from pat3d.sim.contact import boxes, broad_phase
 from pat3d.sim.model import Model
-from pat3d.sim.settling import Run, SettleOptions
+from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.terms import friction
 from tests.sim.drops import random_scene
 from tests.sim.test_clusters import pair_of_lumps

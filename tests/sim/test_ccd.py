@@ -2,7 +2,7 @@ import ipctk
 import numpy as np
 import warp as wp
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.contact.distance import EDGE_EDGE, POINT_TRIANGLE

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from pat3d.sim.settling import SettleOptions, settle
+from pat3d.sim.run import SettleOptions
+from pat3d.sim.settling import settle
 from tests.sim.drops import KINDS, random_scenes
 from tests.sim.oracles import intersections
 

@@ -7,12 +7,13 @@ import pytest
 import warp as wp
 
 from pat3d.errors import SimulationError
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import fractions, safe_step
 from pat3d.sim.failure import Status
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.settling import Run, SettleOptions, UnsettledError, settle
+from pat3d.sim.run import Run, SettleOptions
+from pat3d.sim.settling import UnsettledError, settle
 from tests.sim.builders import add_hull, box_points
 from tests.sim.drops import random_scene
 from tests.sim.oracles import IntersectionOracle

@@ -11,7 +11,8 @@ import warp as wp
 from pat3d.sim import determinism
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.model import Model, ModelBuilder
-from pat3d.sim.settling import Run, SettleOptions, settle
+from pat3d.sim.run import Run, SettleOptions
+from pat3d.sim.settling import settle
 from tests.sim.drops import KINDS, add_random_bodies, random_scene
 from tests.sim.test_clusters import pair_of_lumps, positions
 

@@ -8,9 +8,10 @@ import warp as wp
 
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import safe_step
-from pat3d.sim.potential import Potential
-from pat3d.sim.settling import Settled, SettleOptions, barrier_stiffness, settle
+from pat3d.sim.run import SettleOptions, barrier_stiffness
+from pat3d.sim.settling import Settled, settle
 from pat3d.sim.solvers.newton import Newton
+from pat3d.sim.terms.potential import Potential
 from tests.sim.fixtures import VARIABLE, Fixture, fixture_folder, fixture_names, read_fixture
 from tests.sim.oracles import IntersectionOracle, intersections
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import warp as wp
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import ModelBuilder
-from pat3d.sim.potential import Potential
+from pat3d.sim.terms.potential import Potential
 from tests.sim.builders import add_hull, box_points, random_hull
 
 D_HAT = 0.02

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from pat3d.errors import SimulationError
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.rollouts import rollout
 from tests.sim.builders import add_hull, box_points

@@ -5,9 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pat3d.errors import SimulationError
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settling import Run, Settled, SettleOptions, settle
+from pat3d.sim.run import Run, SettleOptions
+from pat3d.sim.settling import Settled, settle
 from tests.sim.builders import add_hull, box_points, random_hull
 
 

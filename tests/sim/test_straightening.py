@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.sim import straightening
 from pat3d.sim.model import ModelBuilder, poses_from_states
-from pat3d.sim.settling import SettleOptions, settle
+from pat3d.sim.run import SettleOptions
+from pat3d.sim.settling import settle
 from tests.sim.builders import add_hull, box_points
 
 SLOPE = np.deg2rad(0.5)

@@ -3,8 +3,11 @@
 import numpy as np
 import trimesh
 
-from pat3d.scene.asset import Asset, ConvexPart, MassProperties, Material, VisualMesh
-from pat3d.scene.model import Pose, Scene, SceneObject
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset, Material, VisualMesh
+from pat3d.scene.model import Scene, SceneObject
 
 
 def painted(mesh: trimesh.Trimesh, colour: tuple[int, int, int]) -> VisualMesh:

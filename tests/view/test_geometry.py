@@ -2,7 +2,7 @@ import numpy as np
 import trimesh
 from scipy.ndimage import map_coordinates
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.view.geometry import Geometry, crease_normals
 from pat3d.view.textures import TextureAtlas
 from pat3d.view.tone import compress, decode, encode, quantise

@@ -1,6 +1,6 @@
 import numpy as np
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.view import light
 from pat3d.view.camera import Camera
 from pat3d.view.denoise import smooth

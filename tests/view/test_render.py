@@ -6,8 +6,8 @@ import pytest
 import trimesh
 
 from pat3d.errors import SpecError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
-from pat3d.scene.model import Pose
 from pat3d.view.camera import Camera
 from pat3d.view.light import Studio
 from pat3d.view.render import frame_items, render

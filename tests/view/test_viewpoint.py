@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 from pat3d.view.camera import ELEVATION
 from pat3d.view.render import frame_items
 from pat3d.view.viewpoint import ELEVATIONS, ENOUGH, overlooking, share_seen

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from pathlib import Path
 
-from pat3d.assets import catalogue
-
-for _module in sorted(module.name for module in pkgutil.iter_modules(catalogue.__path__)):
-    importlib.import_module(f"{catalogue.__name__}.{_module}")
+for _module in sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent)])):
+    importlib.import_module(f"{__package__}.{_module}")

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.mesh.cover import planes
-from pat3d.scene.asset import ConvexPart, Region
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.scene.asset import Region
 
 
 def cavity_loss(

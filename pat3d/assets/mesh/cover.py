@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from pat3d.assets.mesh.reduce import reduce_hull
 from pat3d.assets.mesh.topology import Indices
-from pat3d.scene.asset import ConvexPart
+from pat3d.geometry.hulls import ConvexPart
 
 TOLERANCE = 1e-5
 """Points of the visual mesh may stick out of the parts by this much [m]."""

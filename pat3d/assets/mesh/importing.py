@@ -25,9 +25,9 @@ from pat3d.assets.mesh.regions import cavity, find_regions, mesh_height_map
 from pat3d.assets.mesh.repair import Repaired, Solid, manifold_of, repair, solid_of
 from pat3d.assets.mesh.topology import signed_volume
 from pat3d.errors import AssetError
-from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
-from pat3d.scene.asset import Asset, ConvexPart, VisualMesh
+from pat3d.scene.asset import Asset, VisualMesh
 from pat3d.scene.cache import cache_root, content_key, load_points, load_record, store_points
 
 Units = Literal["m", "cm", "mm", "in"]

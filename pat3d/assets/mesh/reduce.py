@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from pat3d.errors import AssetError
-from pat3d.geometry.hulls import convex_part
-from pat3d.scene.asset import ConvexPart
+from pat3d.geometry.hulls import ConvexPart, convex_part
 
 SHORT_EDGE = 0.01
 """Edges shorter than this fraction of the hull's longest side are removed."""

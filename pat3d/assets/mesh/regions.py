@@ -16,7 +16,8 @@ from scipy import ndimage
 from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.assets.mesh.cover import planes
-from pat3d.scene.asset import ConvexPart, Region
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.scene.asset import Region
 
 CELLS = 128
 """Cells of a height map along the longer side of the footprint."""

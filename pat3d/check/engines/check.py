@@ -11,8 +11,8 @@ import numpy as np
 from pat3d.check.engines.protocol import Absent, Engine, EngineRun, Failed, Format
 from pat3d.check.settle import ObjectDrift, SettleReport
 from pat3d.errors import CheckError, ExportError
+from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.formats import export
-from pat3d.exporters.objects import body_names
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.model import Scene, SceneObject
 from pat3d.scene.physics import STILL_SECONDS

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Literal
 
 from pat3d.plan.grammar.lexicon import NUMBERS
-
-Axis = Literal["height", "width", "depth", "length", "thickness"]
+from pat3d.plan.scene_plan import Axis
 
 SMALLEST, LARGEST = 0.002, 20.0
 """What an object may measure along the axis said [m]."""

@@ -26,9 +26,9 @@ class GrammarPlanner:
     def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
         """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`."""
         if vocabulary is None:
-            from pat3d.assets.catalogue import registry
+            from pat3d.assets.catalogue import lookup
 
-            vocabulary = registry
+            vocabulary = lookup
         self._nouns = Nouns(vocabulary)
         self._allow_proxies = allow_proxies
 

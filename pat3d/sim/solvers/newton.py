@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from pat3d.sim.contact.ccd import safe_step
 from pat3d.sim.model import Model
-from pat3d.sim.potential import SKIN, Potential
 from pat3d.sim.program import Mirror, Program
 from pat3d.sim.solvers import line_search
 from pat3d.sim.solvers.line_search import COUNTS, OUTSIDE, PENDING, UNSOLVED
 from pat3d.sim.solvers.linear import DenseSolver
+from pat3d.sim.terms.potential import SKIN, Potential
 
 BACKTRACKS = 60
 UNRESOLVED = 1.0e-14

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

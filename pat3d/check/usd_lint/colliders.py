@@ -7,14 +7,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.check.penetration import penetration
+from pat3d.check.usd_lint.file import Faults, LintFile
 from pat3d.errors import AssetError
-from pat3d.exporters.usd.lint.file import Faults, LintFile
 from pat3d.exporters.usd.openusd import Prim, UsdGeom, UsdPhysics
 from pat3d.exporters.usd.stage import bound_friction, collider_points
-from pat3d.geometry.hulls import convex_part
-from pat3d.geometry.penetration import penetration
-from pat3d.scene.asset import Asset, ConvexPart, MassProperties, Material, VisualMesh
-from pat3d.scene.model import GROUND, Pose, Scene, SceneObject
+from pat3d.geometry.hulls import ConvexPart, convex_part
+from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset, Material, VisualMesh
+from pat3d.scene.model import GROUND, Scene, SceneObject
 
 MAX_VERTICES = 64
 """More than this PhysX takes from no hull."""

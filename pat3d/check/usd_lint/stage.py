@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.exporters.usd.lint.file import SINGLE, Faults, LintFile
+from pat3d.check.usd_lint.file import SINGLE, Faults, LintFile
 from pat3d.exporters.usd.openusd import Usd, UsdGeom, UsdPhysics
 from pat3d.exporters.usd.stage import body_above, is_component, matrix, quaternion, value
 

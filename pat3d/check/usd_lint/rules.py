@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from pat3d.exporters.usd.lint import colliders, joints, mass, stage
-from pat3d.exporters.usd.lint.file import LintFile
+from pat3d.check.usd_lint import colliders, joints, mass, stage
+from pat3d.check.usd_lint.file import LintFile
 from pat3d.exporters.usd.stage import open_stage
 
 RULES = {

@@ -7,7 +7,7 @@ pytest.importorskip("pxr")
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
 from pat3d.assets.shapes import box, cylinder, vessel
-from pat3d.exporters.usd.lint.rules import RULES, lint_usd
+from pat3d.check.usd_lint.rules import RULES, lint_usd
 from pat3d.exporters.usd.writer import write_usd, write_usd_asset
 from pat3d.scene.model import Attachment
 from tests.scenes import GAP, asset_of, placed, scene_of

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.exporters.usd.lint.file import SINGLE, Faults, LintFile
+from pat3d.check.usd_lint.file import SINGLE, Faults, LintFile
 from pat3d.exporters.usd.openusd import Prim, UsdPhysics
 from pat3d.exporters.usd.stage import Body, collider_points, matrix, transformed
 

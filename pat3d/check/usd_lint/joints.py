@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.exporters.usd.lint.file import Faults, LintFile
+from pat3d.check.usd_lint.file import Faults, LintFile
 from pat3d.exporters.usd.openusd import UsdPhysics
 from pat3d.exporters.usd.stage import matrix, quaternion, transformed, value, without_scale
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 
 JOINT_GAP = 1e-4
 """[m], by which the two sides of a joint may be apart at the start."""

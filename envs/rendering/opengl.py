@@ -1,111 +1,23 @@
-"""Pictures of a running simulation: MuJoCo's GL renderer on a graphics card, else rays traced on the CPU.
-
-GL is tried once in a process of its own because broken drivers crash or hang. Where it would run on the CPU itself, the
-rays are ten times faster. PAT3D_RENDERER=gl or cpu decides without trying, and so does MUJOCO_GL=egl or osmesa. Both
-see the same cameras and agree on depth and segmentation; their light differs.
-"""
+"""MuJoCo's own renderer in a context without a window."""
 
 from __future__ import annotations
 
-import functools
 import os
-from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.simulation import Simulation
-from pat3d.envs.physics.world import ROBOT
+from pat3d.envs.rendering.picture import Picture
 from pat3d.errors import EnvironmentSetupError
 
-BACKENDS = ("gl", "cpu")
-
 VARIABLE = "PAT3D_RENDERER"
+"""Environment variable that names the renderer."""
 
 
-@dataclass(frozen=True, eq=False)
-class Picture:
-    """What one camera sees."""
-
-    image: NDArray[np.uint8]
-    """RGB, row 0 at the top, shape (height, width, 3)."""
-    depth: NDArray[np.float32] | None = None
-    """Distance from the camera's plane [m], shape (height, width)."""
-    geoms: NDArray[np.int32] | None = None
-    """MuJoCo's geom at every pixel, -1 for none, shape (height, width)."""
-    segmentation: NDArray[np.uint16] | None = None
-    """0 nothing or the surroundings, 1 robot, 2 + index of the object in the scene; shape (height, width)."""
-
-
-class Renderer(Protocol):
-    """Draws what one camera of one model sees."""
-
-    def draw(self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool) -> Picture:
-        """The picture, with depth and geoms where they are asked for."""
-        ...
-
-    def close(self) -> None:
-        """Free what the renderer holds."""
-        ...
-
-
-class Pictures:
-    """Takes pictures of one simulation."""
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
-        model = simulation.model
-        self._cameras = {model.camera(number).name: number for number in range(model.ncam)}
-        owner = simulation.world.owner
-        # The last entry is for pixels without any geom.
-        labels = np.where(owner >= 0, owner + 2, np.where(owner == ROBOT, 1, 0))
-        self._labels = np.append(labels, 0).astype(np.uint16)
-        self._renderer: Renderer = _Gl(model) if backend() == "gl" else _cpu(model)
-
-    def take(self, camera: str, height: int, width: int, *, depth: bool = False, segmentation: bool = False) -> Picture:
-        """What `camera` sees now, `height` x `width` pixels."""
-        data = self._simulation.data
-        picture = self._renderer.draw(
-            data, self._cameras[camera], height, width, depth=depth, segmentation=segmentation
-        )
-        labels = None if picture.geoms is None else self._labels[picture.geoms]
-        return Picture(image=picture.image, depth=picture.depth, geoms=picture.geoms, segmentation=labels)
-
-    def close(self) -> None:
-        """Free the renderer."""
-        self._renderer.close()
-
-
-@functools.lru_cache(maxsize=1)
-def backend() -> str:
-    """What draws the pictures of this process: "gl" or "cpu".
-
-    Raises:
-        EnvironmentSetupError: $PAT3D_RENDERER is neither.
-    """
-    wanted = os.environ.get(VARIABLE, "").strip().lower()
-    if wanted and wanted not in BACKENDS:
-        raise EnvironmentSetupError(f'{VARIABLE}="{wanted}" is no renderer. Valid: {", ".join(BACKENDS)}, or unset.')
-    if wanted:
-        return wanted
-    if os.environ.get("MUJOCO_GL", "").lower() in ("egl", "osmesa"):
-        return "gl"
-    from pat3d.view.gl import egl_renderer, is_software
-
-    card = egl_renderer()
-    return "gl" if card is not None and not is_software(card) else "cpu"
-
-
-def _cpu(model: Any) -> Any:
-    from pat3d.envs.raytrace import RayTracer
-
-    return RayTracer(model)
-
-
-class _Gl:
-    """MuJoCo's own renderer in a context without a window."""
+class OpenGL:
+    """Draws one model through EGL or OSMesa."""
 
     def __init__(self, model: Any) -> None:
         self._mujoco: Any = import_module("mujoco")

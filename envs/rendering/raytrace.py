@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.pictures import Picture
+from pat3d.envs.rendering.picture import Picture
 
 Array = NDArray[np.float32]
 

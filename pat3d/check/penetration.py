@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.scene.asset import ConvexPart
-from pat3d.scene.model import GROUND, Pose, Scene, SceneObject
+from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import GROUND, Scene, SceneObject
 
 CLOSE = 1e-3
 """[m]; gaps are listed for pairs closer than this."""

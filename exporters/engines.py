@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from pat3d.errors import CheckError
-from pat3d.exporters.read_files import Volumes, beside, common, convex_volume, in_body_axes
-from pat3d.exporters.readback import BodyReadback
+from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.common.xml_files import Volumes, beside, common, convex_volume, in_body_axes
 from pat3d.exporters.urdf.load_drake import load_drake, plant_config
 from pat3d.exporters.urdf.load_pybullet import load_pybullet
 from pat3d.exporters.urdf.reader import read_manifest
-from pat3d.scene.model import Pose
+from pat3d.geometry.pose import Pose
 
 
 def read_with_yourdfpy(folder: str | Path) -> tuple[BodyReadback, ...]:

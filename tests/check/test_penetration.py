@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from pat3d.assets.shapes import box, cylinder, ellipsoid, vessel
-from pat3d.geometry.penetration import penetration
-from pat3d.scene.model import Pose
+from pat3d.check.penetration import penetration
+from pat3d.geometry.pose import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
 

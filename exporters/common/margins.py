@@ -6,7 +6,8 @@ import numpy as np
 
 from pat3d.errors import ExportError
 from pat3d.geometry.contacts import GROUND_INDEX, Contacts
-from pat3d.scene.model import Pose, Scene
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Scene
 
 _SAME_SPOT = 5e-4
 """Contacts of one pair closer together than this [m] are one support."""

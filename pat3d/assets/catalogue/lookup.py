@@ -1,0 +1,97 @@
+"""What the catalogue has, and assets made of it: nouns and synonyms found, recipes run."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+import numpy as np
+
+from pat3d.assets.catalogue.registry import ENTRIES, NAMES, Entry, Style
+from pat3d.assets.colours import COLOURS, find_colour
+from pat3d.assets.materials import NATURAL_COLOURS
+from pat3d.assets.materials import material as find_material_entry
+from pat3d.errors import AssetError, PromptError
+from pat3d.scene.asset import Asset
+
+
+def entries() -> tuple[Entry, ...]:
+    """All entries, sorted by family and noun."""
+    _load_families()
+    return tuple(sorted(ENTRIES.values(), key=lambda made: (made.family, made.noun)))
+
+
+def names() -> tuple[str, ...]:
+    """Every noun, synonym and irregular plural."""
+    _load_families()
+    return tuple(sorted(NAMES))
+
+
+def find(name: str) -> Entry | None:
+    """The entry whose noun, synonym or irregular plural is `name` (lower case, singular otherwise), or None."""
+    _load_families()
+    return ENTRIES[NAMES[name]] if name in NAMES else None
+
+
+def nearest(name: str, count: int = 3) -> tuple[str, ...]:
+    """The known names most like `name`."""
+    return tuple(difflib.get_close_matches(name, names(), n=count, cutoff=0.5))
+
+
+def make(
+    noun: str,
+    *,
+    colours: Iterable[str] = (),
+    material: str | None = None,
+    scale: float = 1.0,
+    adjectives: Iterable[str] = (),
+    seed: int = 0,
+) -> Asset:
+    """Make an asset of catalogue noun (or synonym) `noun`.
+
+    Args:
+        noun: see `names`.
+        colours: colour names, main colour first; empty for a default chosen by seed.
+        material: material name; None for the entry's own. Where it is named and no colour is, its natural colour.
+        scale: uniform factor on the real dimensions.
+        adjectives: other words a recipe may honour.
+        seed: the same seed gives the same asset, bit for bit.
+
+    Raises:
+        PromptError: `noun` is not in the catalogue.
+    """
+    from pat3d.assets.catalogue.assemble import assemble
+
+    found = find(noun)
+    if found is None:
+        near = ", ".join(f'"{name}"' for name in nearest(noun)) or "see `pat3d catalogue`"
+        raise PromptError(f'"{noun}" is not in the catalogue. Nearest: {near}.')
+    if not (np.isfinite(scale) and 0.01 <= scale <= 100.0):
+        raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
+    rng = np.random.default_rng([seed, *noun.encode()])
+    default = found.colours[int(rng.integers(len(found.colours)))]
+    natural = NATURAL_COLOURS.get(material or "", (default,))
+    default = default if default in natural else natural[0]
+    asked = [find_colour(name) for name in colours]
+    if None in asked:
+        raise AssetError(f"unknown colour among {list(colours)}. Known: {', '.join(COLOURS)}.")
+    main = [COLOURS[name] for name in asked if name] or [COLOURS[default]]
+    accents = [COLOURS[name] for name in found.accents]
+    chosen = find_material_entry(material or found.material)
+    style = Style(
+        rng=rng,
+        colours=(*main, *accents[max(0, len(main) - 1) :]),
+        material=chosen.name,
+        adjectives=frozenset(adjectives),
+    )
+    build = found.recipe(style)
+    provenance = {
+        "source": "catalogue", "noun": found.noun, "seed": seed, "scale": scale,
+        "colours": list(asked) or [default], "material": chosen.name,
+    }  # fmt: skip
+    return assemble(found.noun, build, material=chosen, scale=scale, provenance=provenance)
+
+
+def _load_families() -> None:
+    """Import the modules that register the entries, once."""
+    from pat3d.assets.catalogue import families  # noqa: F401  (importing registers)

@@ -1,0 +1,63 @@
+"""Rigid placements."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.errors import SpecError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pose:
+    """A rigid placement: x_world = R(quat_wxyz) x_local + position."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """[m]"""
+    quat_wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    """Unit quaternion, scalar first."""
+
+    def __post_init__(self) -> None:
+        position = tuple(float(value) for value in self.position)
+        quat = tuple(float(value) for value in self.quat_wxyz)
+        if len(position) != 3 or len(quat) != 4 or not all(map(math.isfinite, position + quat)):
+            raise SpecError(f"a pose needs 3 finite positions and 4 finite quaternion values, got {position}, {quat}.")
+        norm = math.sqrt(sum(value * value for value in quat))
+        if abs(norm - 1.0) > 1e-6:
+            raise SpecError(f"quat_wxyz {quat} has norm {norm:.6g}; a rotation needs norm 1.")
+        object.__setattr__(self, "position", position)
+        object.__setattr__(
+            self, "quat_wxyz", tuple(value / norm for value in quat) if abs(norm - 1.0) > 1e-15 else quat
+        )
+
+    @staticmethod
+    def from_matrix(rotation: NDArray[np.float64], position: NDArray[np.float64]) -> Pose:
+        """The pose with rotation matrix `rotation`, shape (3, 3), and `position` [m], shape (3,)."""
+        from scipy.spatial.transform import Rotation
+
+        quat = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
+        return Pose(position=tuple(map(float, position)), quat_wxyz=tuple(map(float, quat)))  # type: ignore[arg-type]
+
+    @staticmethod
+    def from_yaw(yaw: float, position: tuple[float, float, float]) -> Pose:
+        """The pose turned by `yaw` [rad] about the vertical through its origin."""
+        return Pose(position=position, quat_wxyz=(math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Rotation matrix, shape (3, 3)."""
+        w, x, y, z = self.quat_wxyz
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+
+    def apply(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Local points [m], shape (n, 3), in the world frame."""
+        return np.asarray(points, dtype=np.float64) @ self.rotation.T + np.array(self.position)
