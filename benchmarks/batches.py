@@ -40,10 +40,15 @@ def laid_out(place: int) -> Scene | None:
     made = draft(Request(scenes=10_000, seed=0, objects=(6, 6)), place, 0)
     with tempfile.TemporaryDirectory() as folder:
         attempts = Attempts(
-            order_of(made.plan, False), seed=made.scene_seed, friction=FRICTION, device="cpu",
-            workspace=Workspace(Path(folder) / "none", keep=False), clock=Clock(), progress=silent,
+            order_of(made.plan, False),
+            seed=made.scene_seed,
+            friction=FRICTION,
+            device="cpu",
+            workspace=Workspace(Path(folder) / "none", keep=False),
+            clock=Clock(),
+            progress=silent,
             scratch=Path(folder),
-        )  # fmt: skip
+        )
         try:
             return attempts.layout()
         except LayoutError:
@@ -77,8 +82,9 @@ def main() -> None:
         still = sum(rest.at_rest for rest in rests)
         print(
             f"{options.device}, {size} together: {rate:.1f} scenes/s (target {TARGET:g}: {rate / TARGET:.2f} times), "
-            f"{still} of {len(rests)} at rest", flush=True,
-        )  # fmt: skip
+            f"{still} of {len(rests)} at rest",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -51,8 +51,9 @@ def main() -> int:
     def say() -> None:
         print(
             f"{sum(counts.values())} scenes {dict(counts)} in {time.monotonic() - begin:.0f} s: "
-            f"{len(crossing)} intersections {crossing[:5]}, {len(restless)} not at rest {restless[:10]}", flush=True,
-        )  # fmt: skip
+            f"{len(crossing)} intersections {crossing[:5]}, {len(restless)} not at rest {restless[:10]}",
+            flush=True,
+        )
 
     os.environ["OMP_NUM_THREADS"] = "1"
     with multiprocessing.get_context("spawn").Pool(options.workers) as pool:

@@ -67,8 +67,10 @@ def _table(scene: str | None, rounds: int, rate: float) -> None:
         for name, run in runs.items():
             rates[name].append(run())
     contacts = awake.simulation.data.ncon
-    print(f"\n{scene or 'shipped scene'}: {len(ours.objects)} moving objects, {ours.simulation.model.ngeom} geoms, "
-          f"{contacts} contacts, {rate:g} actions/s")  # fmt: skip
+    print(
+        f"\n{scene or 'shipped scene'}: {len(ours.objects)} moving objects, {ours.simulation.model.ngeom} geoms, "
+        f"{contacts} contacts, {rate:g} actions/s"
+    )
     for name, found in rates.items():
         ratio = statistics.median(a / b for a, b in zip(found, rates["robosuite Lift"], strict=True))
         print(f"{name:28s} {statistics.median(found):8.1f} control steps/s   ratio {ratio:5.2f}", flush=True)
@@ -112,9 +114,14 @@ def _lift(rate: float) -> Any:
         import robosuite
 
         return robosuite.make(
-            "Lift", robots="Panda", has_renderer=False, has_offscreen_renderer=False, use_camera_obs=False,
-            control_freq=rate, horizon=10**6,
-        )  # fmt: skip
+            "Lift",
+            robots="Panda",
+            has_renderer=False,
+            has_offscreen_renderer=False,
+            use_camera_obs=False,
+            control_freq=rate,
+            horizon=10**6,
+        )
 
 
 if __name__ == "__main__":

@@ -138,8 +138,10 @@ class Benchmark:
             shown = demonstrated(episodes, self.options.workers)
             network, error = fit(shown, epochs=200)
             save(network, file, {"demonstrations": len(shown), "epochs": 200, "error": error, "seed": 0})
-            say(f"  trained on {len(shown)} demonstrations in {time.perf_counter() - begun:.0f} s, "
-                f"{time.process_time() - cpu:.0f} CPU seconds in this process")  # fmt: skip
+            say(
+                f"  trained on {len(shown)} demonstrations in {time.perf_counter() - begun:.0f} s, "
+                f"{time.process_time() - cpu:.0f} CPU seconds in this process"
+            )
         count, rates = self.options.held_out, {}
         for name, policy in (("layouts_scripted", "scripted"), ("layouts_cloned", str(file))):
             found = self._evaluate(name, policy, [MUG], count, LAYOUTS)
@@ -195,9 +197,15 @@ class Benchmark:
             if kept is None:
                 ends: list[float] = []
                 self._evaluate(
-                    name, "scripted", [MUG], self.options.timed * count + count, LAYOUTS, workers=count, ends=ends,
+                    name,
+                    "scripted",
+                    [MUG],
+                    self.options.timed * count + count,
+                    LAYOUTS,
+                    workers=count,
+                    ends=ends,
                     overwrite=True,
-                )  # fmt: skip
+                )
                 # Every worker's first episode carries its start.
                 kept = self._keep(name, {"seconds": ends[-1] - ends[count - 1], "episodes": len(ends) - count})
             rates[count] = kept["episodes"] / kept["seconds"]
@@ -228,9 +236,17 @@ class Benchmark:
         return sorted(suite_settings(str(folder), None)[0], key=lambda one: one.scene)
 
     def _evaluate(
-        self, name: str, policy: str, settings: list[Setting], count: int, perturbation: Perturbation | None = None,
-        *, workers: int | None = None, ends: list[float] | None = None, overwrite: bool = False,
-    ) -> Evaluation:  # fmt: skip
+        self,
+        name: str,
+        policy: str,
+        settings: list[Setting],
+        count: int,
+        perturbation: Perturbation | None = None,
+        *,
+        workers: int | None = None,
+        ends: list[float] | None = None,
+        overwrite: bool = False,
+    ) -> Evaluation:
         episodes: tuple[Episode, ...] = episodes_of(settings, count, perturbation=perturbation)
 
         def report(result: Result, done: int, wanted: int) -> None:
@@ -281,11 +297,15 @@ class Clock:
 
         stack = ExitStack()
         for name, owner, method in (
-            ("physics", Simulation, "step"), ("physics", Simulation, "reset"), ("rendering", Pictures, "take"),
-            ("policy", ScriptedPolicy, "reset"), ("policy", ScriptedPolicy, "act"),
-            ("setup", RolloutSettings, "make_env"), ("environment", TabletopEnv, "step"),
+            ("physics", Simulation, "step"),
+            ("physics", Simulation, "reset"),
+            ("rendering", Pictures, "take"),
+            ("policy", ScriptedPolicy, "reset"),
+            ("policy", ScriptedPolicy, "act"),
+            ("setup", RolloutSettings, "make_env"),
+            ("environment", TabletopEnv, "step"),
             ("environment", TabletopEnv, "reset"),
-        ):  # fmt: skip
+        ):
             stack.enter_context(patch.object(owner, method, self._timed(name, getattr(owner, method))))
         return stack
 
@@ -308,10 +328,13 @@ def rate(found: Evaluation) -> str:
 def kinds(refused: dict[str, str]) -> str:
     """How many objects were refused for what reason."""
     reasons = {
-        "does not stay still": "moves when set down", "at its narrowest": "no place to grasp",
+        "does not stay still": "moves when set down",
+        "at its narrowest": "no place to grasp",
         "mm high": "too flat",
-        "too heavy": "too heavy for the arm", "out of reach": "out of reach", "no free place": "no place for the robot",
-    }  # fmt: skip
+        "too heavy": "too heavy for the arm",
+        "out of reach": "out of reach",
+        "no free place": "no place for the robot",
+    }
     counted = Counter(
         next((short for part, short in reasons.items() if part in message), message[:60])
         for message in refused.values()

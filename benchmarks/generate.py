@@ -61,9 +61,15 @@ def measure(number: int, prompt: str, seed: int, folder: Path, device: str) -> R
     path = folder / "report.json"
     report = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
     return Run(
-        number=number, prompt=prompt, seed=seed, seconds=seconds, megabytes=used / 1e3, code=code,
-        message="; ".join(lines), report=report,
-    )  # fmt: skip
+        number=number,
+        prompt=prompt,
+        seed=seed,
+        seconds=seconds,
+        megabytes=used / 1e3,
+        code=code,
+        message="; ".join(lines),
+        report=report,
+    )
 
 
 def _environment() -> dict[str, str]:
@@ -114,8 +120,22 @@ def _figure(value: float | None) -> str:
 
 def table(runs: list[Run], prompts: list[str]) -> str:
     """The whole page in Markdown."""
-    titles = ("prompt", "seed", "objects", "unbalanced", "least friction", "tilt deg", "drift mm", "drift deg",
-              "hull / surface overlaps", "relations", "attempts", "proven", "seconds", "MB")  # fmt: skip
+    titles = (
+        "prompt",
+        "seed",
+        "objects",
+        "unbalanced",
+        "least friction",
+        "tilt deg",
+        "drift mm",
+        "drift deg",
+        "hull / surface overlaps",
+        "relations",
+        "attempts",
+        "proven",
+        "seconds",
+        "MB",
+    )
     lines = ["# pat3d generate", "", *summary(runs), ""]
     lines += ["| " + " | ".join(titles) + " |", "|" + " ---: |" * len(titles), *map(row, runs), "", "## Prompts", ""]
     lines += [f"{number}. {prompt}" for number, prompt in enumerate(prompts, start=1)]
@@ -145,26 +165,30 @@ def summary(runs: list[Run]) -> list[str]:
         return ["No scene was made."]
     proofs = [report["proof"] for report in made]
     objects = [obj for report in made for obj in report["objects"] if not obj["fixed"]]
-    still = sum(
-        obj["drift_mm"] is not None and obj["drift_mm"] < 1.0 and obj["drift_degrees"] < 1.0 for obj in objects
-    )  # fmt: skip
+    still = sum(obj["drift_mm"] is not None and obj["drift_mm"] < 1.0 and obj["drift_degrees"] < 1.0 for obj in objects)
     held = sum(proof["relations"]["held"] for proof in proofs)
     asked = sum(proof["relations"]["count"] for proof in proofs)
     seconds = [run.seconds for run in runs]
     rows = (
         ("scenes made", f"{len(made)} of {len(runs)}", "all"),
         ("scenes proven", f"{sum(report['passed'] for report in made)} of {len(runs)}", "all"),
-        ("pairs that intersect, hulls and surfaces",
-         f"{sum(len(proof['penetration']['hulls']) + len(proof['penetration']['visuals']) for proof in proofs)}", "0"),
+        (
+            "pairs that intersect, hulls and surfaces",
+            f"{sum(len(proof['penetration']['hulls']) + len(proof['penetration']['visuals']) for proof in proofs)}",
+            "0",
+        ),
         ("largest certificate residual", f"{max(proof['certificate']['worst'] for proof in proofs):.1e}", "1e-3"),
-        ("least tilt that a scene stands [degrees]",
-         f"{min(proof['certificate']['largest_tilt'] for proof in proofs):.2f}", "0.57"),
+        (
+            "least tilt that a scene stands [degrees]",
+            f"{min(proof['certificate']['largest_tilt'] for proof in proofs):.2f}",
+            "0.57",
+        ),
         ("objects still within 1 mm and 1 degree", f"{still} of {len(objects)} ({still / len(objects):.1%})", "99 %"),
         ("scenes that MuJoCo warns about", f"{sum(bool(proof['mujoco']['warnings']) for proof in proofs)}", "0"),
         ("relations that hold at rest", f"{held} of {asked} ({held / max(asked, 1):.1%})", "90 %"),
         ("seconds, median and worst", f"{statistics.median(seconds):.1f} and {max(seconds):.1f}", "15 and 60"),
         ("largest memory [MB]", f"{max(run.megabytes for run in runs):.0f}", "2000"),
-    )  # fmt: skip
+    )
     lines = ["| what | measured | target |", "| --- | ---: | ---: |"]
     return lines + [f"| {what} | {figure} | {target} |" for what, figure, target in rows]
 

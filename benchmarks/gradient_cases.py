@@ -59,9 +59,14 @@ def add(builder: ModelBuilder, points: NDArray[np.float64], pose: Pose, *, fixed
     part = convex_part(points)
     solid = mass_properties(part.vertices, part.faces, density=500.0)
     return builder.add_body(
-        [part], mass=solid.mass, volume=solid.volume, centre=np.array(solid.centre_of_mass),
-        second_moment=solid.second_moment, pose=pose, fixed=fixed,
-    )  # fmt: skip
+        [part],
+        mass=solid.mass,
+        volume=solid.volume,
+        centre=np.array(solid.centre_of_mass),
+        second_moment=solid.second_moment,
+        pose=pose,
+        fixed=fixed,
+    )
 
 
 def one_box() -> ModelBuilder:

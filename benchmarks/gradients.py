@@ -93,12 +93,20 @@ def signatures(model: Model, record: Recording, states: NDArray[np.float64]) -> 
         found = potential.candidates
         rows = wp.zeros((max(found.count, 1), 8), dtype=int, device=model.device)
         wp.launch(
-            _features, dim=found.count, device=model.device,
+            _features,
+            dim=found.count,
+            device=model.device,
             inputs=[
-                model.body_world, model.vertex_rest, model.vertex_body, step.d_hat, found.kind, found.primitives,
-                potential.vertex_positions, rows,
+                model.body_world,
+                model.vertex_rest,
+                model.vertex_body,
+                step.d_hat,
+                found.kind,
+                found.primitives,
+                potential.vertex_positions,
+                rows,
             ],
-        )  # fmt: skip
+        )
         table = rows.numpy()
         table = table[table[:, 0] > 0].astype(np.int64)
         world = table[:, 0] - 1
@@ -208,10 +216,15 @@ def measure(case: Case, device: str) -> Outcome:
             one_sided = max(one_sided, np.abs(forward[d] - back[d]).min() / scale)
     shown = int(np.argmax(np.isnan(errors)))
     return Outcome(
-        case=case, errors=errors, spread=spread, steps=steps, one_sided=one_sided,
+        case=case,
+        errors=errors,
+        spread=spread,
+        steps=steps,
+        one_sided=one_sided,
         curve=(sizes, forward[shown] / analytic[shown], back[shown] / analytic[shown]),
-        seconds=time.perf_counter() - begun, time_steps=marks.shape[1] // 2,
-    )  # fmt: skip
+        seconds=time.perf_counter() - begun,
+        time_steps=marks.shape[1] // 2,
+    )
 
 
 def row(outcome: Outcome) -> str:

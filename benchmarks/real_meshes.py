@@ -81,8 +81,12 @@ def build(name: str, spec: dict, workspace: Path, cache: Path) -> bool:
     start = time.perf_counter()
     done = subprocess.run(
         [sys.executable, "-m", "pat3d", "build", f"{name}.yaml", "--out", f"out_{name}"],
-        cwd=workspace, env={**os.environ, "PAT3D_CACHE": str(cache)}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        cwd=workspace,
+        env={**os.environ, "PAT3D_CACHE": str(cache)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     seconds = time.perf_counter() - start
     path = workspace / f"out_{name}" / "report.json"
     if not path.is_file():

@@ -95,9 +95,15 @@ def libuipc(scene: Pile, python: str, frames: int) -> dict:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.npz"
         np.savez(
-            path, vertices=scene.part.vertices, faces=scene.part.faces, transforms=scene.transforms(),
-            density=DENSITY, dt=TIME_STEP, friction=FRICTION, d_hat=0.01 * scene.size,
-        )  # fmt: skip
+            path,
+            vertices=scene.part.vertices,
+            faces=scene.part.faces,
+            transforms=scene.transforms(),
+            density=DENSITY,
+            dt=TIME_STEP,
+            friction=FRICTION,
+            d_hat=0.01 * scene.size,
+        )
         script = Path(__file__).parent / "peers" / "libuipc.py"
         done = subprocess.run(
             [python, str(script), str(path), str(frames), folder], capture_output=True, text=True, timeout=300
@@ -138,10 +144,12 @@ def many_worlds(device: str, python: str, worlds: int = 1024) -> list[Row]:
     rest = next((k for k in range(3, len(still)) if still[k - 3 : k].all()), len(still))
     theirs = sum(peer["seconds"][:rest])
     row = Row(
-        what=f"{worlds} worlds of 10 cubes to rest, scenes/s", ours=f"{worlds / seconds:.0f}",
-        peer=f"{1 / theirs:.1f}", ratio=worlds / seconds * theirs,
+        what=f"{worlds} worlds of 10 cubes to rest, scenes/s",
+        ours=f"{worlds / seconds:.0f}",
+        peer=f"{1 / theirs:.1f}",
+        ratio=worlds / seconds * theirs,
         note=f"settled to 1e-6 of the weight at a 15 um barrier; the peer's {rest} frames end at {STILL:g} m a frame",
-    )  # fmt: skip
+    )
     print(row, flush=True)
     return [row]
 
@@ -175,9 +183,11 @@ def gradients(device: str, frames: int = 300) -> list[Row]:
         count = frames if worlds == 1 else 30
         rollout(model, q0, until=3, options=options_of(scene)).q_end.sum().backward()
         forward: list = []
-        ahead = timed(lambda m=model, q=q0, n=count, s=scene, out=forward: out.append(
-            rollout(m, q, until=n, options=options_of(s))
-        ))  # fmt: skip
+        ahead = timed(
+            lambda m=model, q=q0, n=count, s=scene, out=forward: out.append(
+                rollout(m, q, until=n, options=options_of(s))
+            )
+        )
         loss = (forward[0].frames[::10, :, :, :3] ** 2).sum()
         back = timed(loss.backward)
         note = f"forward {ahead:.2f} s, backward {back:.2f} s"
@@ -185,9 +195,12 @@ def gradients(device: str, frames: int = 300) -> list[Row]:
             place = wp.get_device(device)
             note += f", {(place.total_memory - place.free_memory) / 1e9:.1f} GB in use"
         row = Row(
-            what=f"{scene.name}, {worlds} worlds, {count} frames there and back, s", ours=f"{ahead + back:.2f}",
-            peer="2.5 x forward", ratio=2.5 * ahead / (ahead + back), note=note,
-        )  # fmt: skip
+            what=f"{scene.name}, {worlds} worlds, {count} frames there and back, s",
+            ours=f"{ahead + back:.2f}",
+            peer="2.5 x forward",
+            ratio=2.5 * ahead / (ahead + back),
+            note=note,
+        )
         print(row, flush=True)
         rows.append(row)
     return rows
@@ -213,9 +226,12 @@ def against_mujoco(prompts: list[str]) -> list[Row]:
             flush=True,
         )
     row = Row(
-        what=f"{len(prompts)} prompts to rest, s", ours=f"{statistics.median(seconds):.2f} (worst {max(seconds):.2f})",
-        peer="MuJoCo, 5 s simulated", ratio=statistics.median(ratios), note=f"worst ratio {min(ratios):.2g}",
-    )  # fmt: skip
+        what=f"{len(prompts)} prompts to rest, s",
+        ours=f"{statistics.median(seconds):.2f} (worst {max(seconds):.2f})",
+        peer="MuJoCo, 5 s simulated",
+        ratio=statistics.median(ratios),
+        note=f"worst ratio {min(ratios):.2g}",
+    )
     print(row)
     return [row]
 

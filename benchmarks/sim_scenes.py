@@ -35,9 +35,13 @@ class Pile:
         properties = mass_properties(self.part.vertices, self.part.faces, density=DENSITY)
         for pose in self.poses:
             builder.add_body(
-                [self.part], mass=properties.mass, volume=properties.volume,
-                centre=np.array(properties.centre_of_mass), second_moment=properties.second_moment, pose=pose,
-            )  # fmt: skip
+                [self.part],
+                mass=properties.mass,
+                volume=properties.volume,
+                centre=np.array(properties.centre_of_mass),
+                second_moment=properties.second_moment,
+                pose=pose,
+            )
 
     def transforms(self) -> NDArray[np.float64]:
         """Homogeneous matrices of the bodies, shape (bodies, 4, 4)."""

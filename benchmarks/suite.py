@@ -59,9 +59,12 @@ def main() -> None:
         print("no pictures: embreex is not installed", flush=True)
         picture = 0
     request = Request(
-        scenes=options.scenes, seed=options.seed, objects=(options.objects, options.objects), picture=picture,
+        scenes=options.scenes,
+        seed=options.seed,
+        objects=(options.objects, options.objects),
+        picture=picture,
         device=options.device,
-    )  # fmt: skip
+    )
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(options.out or Path(scratch) / "suite")
         tell = _Progress().tell

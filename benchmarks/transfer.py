@@ -82,9 +82,15 @@ def make(arguments: list[str], folder: Path, log: Path) -> bool:
     with log.open("w", encoding="utf-8") as errors:
         try:
             subprocess.run(
-                [sys.executable, "-m", "pat3d", *arguments, "--out", str(folder)], cwd=log.parent, env=environment,
-                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, timeout=LIMIT, check=False,
-            )  # fmt: skip
+                [sys.executable, "-m", "pat3d", *arguments, "--out", str(folder)],
+                cwd=log.parent,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=errors,
+                timeout=LIMIT,
+                check=False,
+            )
         except subprocess.TimeoutExpired:
             return False
     return (folder / "report.json").is_file()
@@ -146,10 +152,15 @@ def table(
 ) -> str:
     """The page: a summary of the engines, every scene, everything that moved, and the scenes that were not run."""
     here = [engine for engine in engines if any(engine.name in row for row in results.values())]
-    lines = ["# Scenes in other engines", "", f"{seconds:g} s of simulated time; drift at any time, from the pose in "
-             f"scene.json; still means under {MM:g} mm and {DEGREES:g} degree.", "",
-             "| engine | version | settings | scenes | objects | still | median mm | worst mm | worst deg |",
-             "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"]  # fmt: skip
+    lines = [
+        "# Scenes in other engines",
+        "",
+        f"{seconds:g} s of simulated time; drift at any time, from the pose in "
+        f"scene.json; still means under {MM:g} mm and {DEGREES:g} degree.",
+        "",
+        "| engine | version | settings | scenes | objects | still | median mm | worst mm | worst deg |",
+        "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
+    ]
     for engine in here:
         documents = [row[engine.name] for row in results.values() if engine.name in row]
         every = [stray for document in documents for stray in strays(document)]
@@ -165,8 +176,13 @@ def table(
             f"| {len(every)} | {still / len(every):.1%} | {statistics.median(mm for _, mm, _ in every):.3f} "
             f"| {max(mm for _, mm, _ in every):.2f} | {max(degrees for *_, degrees in every):.2f} |"
         )
-    lines += ["", "Largest drift, mm / degrees.", "", "| scene | " + " | ".join(engine.title for engine in here) + " |",
-              "| --- |" + " ---: |" * len(here)]  # fmt: skip
+    lines += [
+        "",
+        "Largest drift, mm / degrees.",
+        "",
+        "| scene | " + " | ".join(engine.title for engine in here) + " |",
+        "| --- |" + " ---: |" * len(here),
+    ]
     moved = []
     for name, row in results.items():
         cells = []
@@ -179,8 +195,11 @@ def table(
             found = strays(document)
             mm, degrees = max((mm for _, mm, _ in found), default=0.0), max((d for *_, d in found), default=0.0)
             cells.append(f"{mm:.3f} / {degrees:.3f}")
-            moved += [f"- {name}, {engine.title}: {obj} {m:.2f} mm, {d:.2f} degrees" for obj, m, d in found
-                      if not (m < MM and d < DEGREES)]  # fmt: skip
+            moved += [
+                f"- {name}, {engine.title}: {obj} {m:.2f} mm, {d:.2f} degrees"
+                for obj, m, d in found
+                if not (m < MM and d < DEGREES)
+            ]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     lines += ["", "## What moved", "", *(moved or ["Nothing."])]
     if unproven:

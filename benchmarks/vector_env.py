@@ -35,10 +35,16 @@ def recorded(env: TabletopEnv) -> NDArray[np.float32]:
     policy = ScriptedPolicy()
     policy.reset(
         EpisodeStart(
-            instruction=env.instruction, task=env.task.spec, seed=0, robot=env.robot, control=env.control,
-            action_size=env.simulation.controller.size, control_freq=env.control_freq, env=env,
+            instruction=env.instruction,
+            task=env.task.spec,
+            seed=0,
+            robot=env.robot,
+            control=env.control,
+            action_size=env.simulation.controller.size,
+            control_freq=env.control_freq,
+            env=env,
         )
-    )  # fmt: skip
+    )
     actions: list[NDArray[np.float32]] = []
     for _ in range(400):
         for action in np.atleast_2d(policy.act(observation)):
@@ -95,23 +101,29 @@ def measure(folder: str | None, worlds: int, device: str) -> None:
     print(
         f"physics: {rate:,.0f} steps/s (target {TARGET:,}: {rate / TARGET:.2f} times), one CPU core {peer:,.0f}: "
         f"{rate / peer:.0f} times; {iterations.mean():.1f} iterations of the solver (most {iterations.max()}), "
-        f"peaks {physics.peaks}", flush=True,
-    )  # fmt: skip
+        f"peaks {physics.peaks}",
+        flush=True,
+    )
     together.reset(seed=0)
     begin = time.perf_counter()
     for move in moves:
         together.step(move)
     seconds = time.perf_counter() - begin
     rate = STEPS * worlds / seconds
-    print(f"env.step: {rate:,.0f} control steps/s, {rate * physics.substeps:,.0f} physics steps/s; beside the physics "
-          f"{1e3 * (seconds - stepping) / STEPS:.1f} ms a step of all worlds", flush=True)  # fmt: skip
+    print(
+        f"env.step: {rate:,.0f} control steps/s, {rate * physics.substeps:,.0f} physics steps/s; beside the physics "
+        f"{1e3 * (seconds - stepping) / STEPS:.1f} ms a step of all worlds",
+        flush=True,
+    )
     if len(actions):
         together.reset(seed=0)
         succeeded = np.zeros(worlds, dtype=bool)
         for action in actions:
             succeeded |= together.step(np.broadcast_to(action, (worlds, len(action))))[2]
-        print(f"scripted actions done again: {succeeded.sum()} of {worlds} worlds succeed, "
-              f"{physics.lost.sum()} lost", flush=True)  # fmt: skip
+        print(
+            f"scripted actions done again: {succeeded.sum()} of {worlds} worlds succeed, {physics.lost.sum()} lost",
+            flush=True,
+        )
     place = wp.get_device(device)
     if place.is_cuda:
         print(f"{(place.total_memory - place.free_memory) / 1e9:.1f} GB in use", flush=True)

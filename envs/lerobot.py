@@ -19,9 +19,13 @@ _STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
 
 
 def make_env(
-    suite: str | os.PathLike[str], *, n_envs: int = 1, use_async_envs: bool = False, split: str = "test",
+    suite: str | os.PathLike[str],
+    *,
+    n_envs: int = 1,
+    use_async_envs: bool = False,
+    split: str = "test",
     image_size: tuple[int, int] = (256, 256),
-) -> dict[str, dict[int, gymnasium.vector.VectorEnv]]:  # fmt: skip
+) -> dict[str, dict[int, gymnasium.vector.VectorEnv]]:
     """A vector environment for every kind of task with scenes in `split`: {"pick": {0: env}, "place": {0: env}, ...}.
 
     Raises:

@@ -111,9 +111,17 @@ class Observer:
         """
         now = states.snapshot
         joints, speeds, fingers, place, quat = _robot(
-            states.qpos, now.qvel, now.sites, states.xquat, self._positions, self._velocities, self._fingers,
-            self._site, self._hand, self._turn,
-        )  # fmt: skip
+            states.qpos,
+            now.qvel,
+            now.sites,
+            states.xquat,
+            self._positions,
+            self._velocities,
+            self._fingers,
+            self._site,
+            self._hand,
+            self._turn,
+        )
         seen = {"joint_pos": joints, "joint_vel": speeds, "gripper_pos": fingers, "eef_pos": place, "eef_quat": quat}
         if self._spec.kind == "state":
             seen["objects"], seen["target"] = _objects(

@@ -107,9 +107,20 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
     metadata: ClassVar[dict[str, Any]] = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # type: ignore[misc]
 
     PARAMETERS: ClassVar[tuple[str, ...]] = (
-        "scene", "task", "robot", "suite", "split", "index", "obs", "control", "reward", "control_freq", "start_noise",
-        "max_episode_steps", "room",
-    )  # fmt: skip
+        "scene",
+        "task",
+        "robot",
+        "suite",
+        "split",
+        "index",
+        "obs",
+        "control",
+        "reward",
+        "control_freq",
+        "start_noise",
+        "max_episode_steps",
+        "room",
+    )
 
     def __init__(
         self,

@@ -111,8 +111,10 @@ def read_with_drake(path: str | Path) -> tuple[BodyReadback, ...]:
             names = load_drake(path, plant)
         else:
             models = parsing.Parser(plant).AddModels(str(path))
-            names = {plant.GetModelInstanceName(model).split("::")[-1]: plant.GetBodyByName("link", model)
-                     for model in models}  # fmt: skip
+            names = {
+                plant.GetModelInstanceName(model).split("::")[-1]: plant.GetBodyByName("link", model)
+                for model in models
+            }
     except RuntimeError as error:
         raise CheckError(f"Drake refuses {path}: {error}") from error
     plant.Finalize()

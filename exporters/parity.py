@@ -117,9 +117,14 @@ class ParityReport:
         """Plain data for report.json."""
         readings = [{**asdict(reading), "worst": reading.worst} for reading in self.readings]
         return {
-            "format": self.format, "passed": self.passed, "failures": list(self.failures), "worst": self.worst,
-            "tolerance": TOLERANCE, "readings": readings, "absent": list(self.absent),
-        }  # fmt: skip
+            "format": self.format,
+            "passed": self.passed,
+            "failures": list(self.failures),
+            "worst": self.worst,
+            "tolerance": TOLERANCE,
+            "readings": readings,
+            "absent": list(self.absent),
+        }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,8 +261,7 @@ def _relative(found: float, expected: float) -> float:
 
 def _lines(obj: SceneObject, body: BodyReadback, errors: BodyParity, path: Path) -> list[str]:
     """What is wrong with one object, a line each; NaN is wrong."""
-    wrong = [name for name in QUANTITIES
-             if (error := getattr(errors, name)) is not None and not error <= TOLERANCE]  # fmt: skip
+    wrong = [name for name in QUANTITIES if (error := getattr(errors, name)) is not None and not error <= TOLERANCE]
     lines = []
     if "position" in wrong or "rotation" in wrong:
         lines.append(
@@ -300,12 +304,20 @@ def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
     return (
         _Reader(name="manifest and objects", package=None, read=lambda path: read_urdf(path.parent)),
         _Reader(name="model directives", package=None, read=lambda path: read_directives(path.parent)),
-        _Reader(name="yourdfpy", package="yourdfpy", read=lambda path: read_with_yourdfpy(path.parent),
-                silent=frozenset({"friction", "fixed"})),
-        _Reader(name="PyBullet", package="pybullet", read=lambda path: read_with_pybullet(path.parent),
-                silent=frozenset({"hull_volume"})),
+        _Reader(
+            name="yourdfpy",
+            package="yourdfpy",
+            read=lambda path: read_with_yourdfpy(path.parent),
+            silent=frozenset({"friction", "fixed"}),
+        ),
+        _Reader(
+            name="PyBullet",
+            package="pybullet",
+            read=lambda path: read_with_pybullet(path.parent),
+            silent=frozenset({"hull_volume"}),
+        ),
         _Reader(name="Drake", package="drake", read=lambda path: read_with_drake(path.parent)),
-    )  # fmt: skip
+    )
 
 
 def _sdf_readers(path: Path) -> tuple[_Reader, ...]:
@@ -324,5 +336,8 @@ def _usd_readers(path: Path) -> tuple[_Reader, ...]:
 
 
 _READERS: dict[str, Callable[[Path], tuple[_Reader, ...]]] = {
-    "mjcf": _mjcf_readers, "usd": _usd_readers, "urdf": _urdf_readers, "sdf": _sdf_readers,
-}  # fmt: skip
+    "mjcf": _mjcf_readers,
+    "usd": _usd_readers,
+    "urdf": _urdf_readers,
+    "sdf": _sdf_readers,
+}

@@ -92,9 +92,16 @@ class FilmWriter:
         # H.264 in its common form has pictures of even sizes only.
         self._height, self._width = size[0] // 2 * 2, size[1] // 2 * 2
         self._writer = ffmpeg.write_frames(
-            str(path), (self._width, self._height), fps=fps, codec="libx264", pix_fmt_out="yuv420p",
-            macro_block_size=2, quality=6, output_params=["-movflags", "+faststart"], ffmpeg_log_level="error",
-        )  # fmt: skip
+            str(path),
+            (self._width, self._height),
+            fps=fps,
+            codec="libx264",
+            pix_fmt_out="yuv420p",
+            macro_block_size=2,
+            quality=6,
+            output_params=["-movflags", "+faststart"],
+            ffmpeg_log_level="error",
+        )
         self._writer.send(None)
 
     def add(self, frame: NDArray[np.uint8]) -> None:

@@ -56,8 +56,9 @@ class BatchedController:
         self._velocities = self._array(dofs, int)
         self._actuators = self._array(arm_actuators, int)
         self._limits = self._array(model.actuator_ctrlrange[arm_actuators].T, wp.float64)
-        self._scale = self._array(np.broadcast_to(np.asarray(settings["output_max"], dtype=np.float64), self.size - 1),
-                                  wp.float64)  # fmt: skip
+        self._scale = self._array(
+            np.broadcast_to(np.asarray(settings["output_max"], dtype=np.float64), self.size - 1), wp.float64
+        )
         self._site = int(model.site(prefix + robot.grip_site).id)
         mujoco: Any = import_module("mujoco")
         base = mujoco.MjData(model)
@@ -96,17 +97,40 @@ class BatchedController:
         self._action.assign(np.ascontiguousarray(action, dtype=np.float32))
         data = self._data
         if self.kind == "osc":
-            self._launch(aim_hand, self._worlds, [
-                self._action, self._scale, self._base, self._site, data.site_xpos, data.site_xmat,
-                self._goal_position, self._goal_rotation,
-            ])  # fmt: skip
+            self._launch(
+                aim_hand,
+                self._worlds,
+                [
+                    self._action,
+                    self._scale,
+                    self._base,
+                    self._site,
+                    data.site_xpos,
+                    data.site_xmat,
+                    self._goal_position,
+                    self._goal_rotation,
+                ],
+            )
         else:
-            self._launch(aim_joints, (self._worlds, self.size - 1),
-                         [self._action, self._scale, self._positions, data.qpos, self._goal])  # fmt: skip
-        self._launch(move_fingers, (self._worlds, len(self._fingers)), [
-            self._action, self.size - 1, self._stride, self._middle, self._reach, self._fingers, self._opening,
-            data.ctrl,
-        ])  # fmt: skip
+            self._launch(
+                aim_joints,
+                (self._worlds, self.size - 1),
+                [self._action, self._scale, self._positions, data.qpos, self._goal],
+            )
+        self._launch(
+            move_fingers,
+            (self._worlds, len(self._fingers)),
+            [
+                self._action,
+                self.size - 1,
+                self._stride,
+                self._middle,
+                self._reach,
+                self._fingers,
+                self._opening,
+                data.ctrl,
+            ],
+        )
 
     def control(self) -> None:
         """Write the torques of this physics step; positions and velocities must be up to date."""

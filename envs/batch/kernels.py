@@ -32,10 +32,15 @@ def rotation_by(turn: wp.vec3d) -> wp.mat33d:
 
 @wp.kernel
 def aim_hand(
-    action: wp.array2d[wp.float32], scale: wp.array[wp.float64], base: wp.mat33d, site: int,
-    site_position: wp.array2d[wp.vec3], site_rotation: wp.array2d[wp.mat33],
-    goal_position: wp.array[wp.vec3d], goal_rotation: wp.array[wp.mat33d],
-):  # fmt: skip
+    action: wp.array2d[wp.float32],
+    scale: wp.array[wp.float64],
+    base: wp.mat33d,
+    site: int,
+    site_position: wp.array2d[wp.vec3],
+    site_rotation: wp.array2d[wp.mat33],
+    goal_position: wp.array[wp.vec3d],
+    goal_rotation: wp.array[wp.mat33d],
+):
     """The hand's goal: its present pose, moved by the action along the axes of the robot's base."""
     world = wp.tid()
     shift = wp.vec3d()
@@ -49,9 +54,12 @@ def aim_hand(
 
 @wp.kernel
 def aim_joints(
-    action: wp.array2d[wp.float32], scale: wp.array[wp.float64], positions: wp.array[int],
-    qpos: wp.array2d[wp.float32], goal: wp.array2d[wp.float64],
-):  # fmt: skip
+    action: wp.array2d[wp.float32],
+    scale: wp.array[wp.float64],
+    positions: wp.array[int],
+    qpos: wp.array2d[wp.float32],
+    goal: wp.array2d[wp.float64],
+):
     """The joints' goal: their present positions, moved by the action."""
     world, joint = wp.tid()
     goal[world, joint] = wp.float64(qpos[world, positions[joint]]) + wp.float64(action[world, joint]) * scale[joint]
@@ -59,10 +67,15 @@ def aim_joints(
 
 @wp.kernel
 def move_fingers(
-    action: wp.array2d[wp.float32], arm: int, stride: wp.array[wp.float32], middle: wp.array[wp.float32],
-    reach: wp.array[wp.float32], actuators: wp.array[int], opening: wp.array2d[wp.float32],
+    action: wp.array2d[wp.float32],
+    arm: int,
+    stride: wp.array[wp.float32],
+    middle: wp.array[wp.float32],
+    reach: wp.array[wp.float32],
+    actuators: wp.array[int],
+    opening: wp.array2d[wp.float32],
     control: wp.array2d[wp.float32],
-):  # fmt: skip
+):
     """Move every finger's target one stride in the direction that the last value of the action says."""
     world, finger = wp.tid()
     told = action[world, arm]
@@ -133,14 +146,28 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
 
     @wp.kernel(module="unique")
     def operational_space(
-        gain: wp.float64, damping: wp.float64, start: wp.array2d[wp.float64], goal_position: wp.array[wp.vec3d],
-        goal_rotation: wp.array[wp.mat33d], site: int, site_position: wp.array2d[wp.vec3],
-        site_rotation: wp.array2d[wp.mat33], joint_anchor: wp.array2d[wp.vec3], joint_axis: wp.array2d[wp.vec3],
-        ids: wp.array[int], positions: wp.array[int], velocities: wp.array[int], actuators: wp.array[int],
-        limits: wp.array2d[wp.float64], qpos: wp.array2d[wp.float32], qvel: wp.array2d[wp.float32],
-        bias: wp.array2d[wp.float32], mass: wp.array2d[wp.float32], place: wp.array2d[int],
+        gain: wp.float64,
+        damping: wp.float64,
+        start: wp.array2d[wp.float64],
+        goal_position: wp.array[wp.vec3d],
+        goal_rotation: wp.array[wp.mat33d],
+        site: int,
+        site_position: wp.array2d[wp.vec3],
+        site_rotation: wp.array2d[wp.mat33],
+        joint_anchor: wp.array2d[wp.vec3],
+        joint_axis: wp.array2d[wp.vec3],
+        ids: wp.array[int],
+        positions: wp.array[int],
+        velocities: wp.array[int],
+        actuators: wp.array[int],
+        limits: wp.array2d[wp.float64],
+        qpos: wp.array2d[wp.float32],
+        qvel: wp.array2d[wp.float32],
+        bias: wp.array2d[wp.float32],
+        mass: wp.array2d[wp.float32],
+        place: wp.array2d[int],
         control: wp.array2d[wp.float32],
-    ):  # fmt: skip
+    ):
         """Torques J^T (Lambda (K e - D v)) + bias, and what pulls to the start posture without moving the hand."""
         world = wp.tid()
         hand = wp.vec3d(site_position[world, site])
@@ -201,11 +228,20 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
 
     @wp.kernel(module="unique")
     def joint_position(
-        gain: wp.float64, damping: wp.float64, goal: wp.array2d[wp.float64], positions: wp.array[int],
-        velocities: wp.array[int], actuators: wp.array[int], limits: wp.array2d[wp.float64],
-        qpos: wp.array2d[wp.float32], qvel: wp.array2d[wp.float32], bias: wp.array2d[wp.float32],
-        mass: wp.array2d[wp.float32], place: wp.array2d[int], control: wp.array2d[wp.float32],
-    ):  # fmt: skip
+        gain: wp.float64,
+        damping: wp.float64,
+        goal: wp.array2d[wp.float64],
+        positions: wp.array[int],
+        velocities: wp.array[int],
+        actuators: wp.array[int],
+        limits: wp.array2d[wp.float64],
+        qpos: wp.array2d[wp.float32],
+        qvel: wp.array2d[wp.float32],
+        bias: wp.array2d[wp.float32],
+        mass: wp.array2d[wp.float32],
+        place: wp.array2d[int],
+        control: wp.array2d[wp.float32],
+    ):
         """Torques M (K e - D v) + bias."""
         world = wp.tid()
         pull = vector()
@@ -222,9 +258,13 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
 
 @wp.kernel
 def note_peaks(
-    contacts: wp.array[int], pairs: wp.array[int], rows: wp.array[int], position: wp.array2d[wp.float32],
-    peaks: wp.array[int], lost: wp.array[wp.bool],
-):  # fmt: skip
+    contacts: wp.array[int],
+    pairs: wp.array[int],
+    rows: wp.array[int],
+    position: wp.array2d[wp.float32],
+    peaks: wp.array[int],
+    lost: wp.array[wp.bool],
+):
     """Most contacts, pairs and rows so far, and which worlds are no longer finite."""
     world = wp.tid()
     if world == 0:
@@ -238,10 +278,16 @@ def note_peaks(
 
 @wp.kernel
 def note_touches(
-    count: wp.array[int], geoms: wp.array[wp.vec2i], distance: wp.array[wp.float32], address: wp.array2d[int],
-    of_world: wp.array[int], owner: wp.array[int], finger: wp.array[int], touching: wp.array3d[wp.bool],
+    count: wp.array[int],
+    geoms: wp.array[wp.vec2i],
+    distance: wp.array[wp.float32],
+    address: wp.array2d[int],
+    of_world: wp.array[int],
+    owner: wp.array[int],
+    finger: wp.array[int],
+    touching: wp.array3d[wp.bool],
     pinched: wp.array3d[wp.bool],
-):  # fmt: skip
+):
     """Whose geoms touch whose in every world, and what either finger touches."""
     contact = wp.tid()
     if contact >= count[0] or distance[contact] >= wp.float32(wp.static(TOUCH)) or address[contact, 0] < 0:

@@ -169,8 +169,11 @@ class BatchedPhysics:
 
     def _note_peaks(self) -> None:
         data = self.data
-        wp.launch(note_peaks, dim=self.worlds,
-                  inputs=[data.nacon, data.ncollision, data.nefc, data.qpos, self._peaks, self._lost])  # fmt: skip
+        wp.launch(
+            note_peaks,
+            dim=self.worlds,
+            inputs=[data.nacon, data.ncollision, data.nefc, data.qpos, self._peaks, self._lost],
+        )
 
     def reset(self, worlds: NDArray[np.int64], noise: NDArray[np.float64]) -> None:
         """Put `worlds` back to the start; `noise` [rad], shape (len(worlds), joints), is added to the arms' posture.
@@ -184,8 +187,14 @@ class BatchedPhysics:
         position[np.ix_(worlds, self._arm)] += noise
         for array in (velocity, warm, time, control, lost):
             array[worlds] = 0
-        for target, values in ((data.qpos, position), (data.qvel, velocity), (data.qacc_warmstart, warm),
-                               (data.time, time), (data.ctrl, control), (self._lost, lost)):  # fmt: skip
+        for target, values in (
+            (data.qpos, position),
+            (data.qvel, velocity),
+            (data.qacc_warmstart, warm),
+            (data.time, time),
+            (data.ctrl, control),
+            (self._lost, lost),
+        ):
             target.assign(values)
         self.controller.reset(worlds, position[np.ix_(worlds, self._arm)].astype(np.float64))
 
@@ -237,10 +246,21 @@ class BatchedPhysics:
         with wp.ScopedDevice(self.device):
             self._touching.zero_()
             self._pinched.zero_()
-            wp.launch(note_touches, dim=data.naconmax, inputs=[
-                data.nacon, contact.geom, contact.dist, contact.efc_address, contact.worldid, self._owner, self._finger,
-                self._touching, self._pinched,
-            ])  # fmt: skip
+            wp.launch(
+                note_touches,
+                dim=data.naconmax,
+                inputs=[
+                    data.nacon,
+                    contact.geom,
+                    contact.dist,
+                    contact.efc_address,
+                    contact.worldid,
+                    self._owner,
+                    self._finger,
+                    self._touching,
+                    self._pinched,
+                ],
+            )
         return self._touching.numpy().astype(np.bool_), self._pinched.numpy().astype(np.bool_)
 
 
@@ -257,9 +277,14 @@ def mujoco_warp() -> Any:
 
 
 def require_still(
-    world: World, checksum: str, control: str, control_freq: float, device: str, room: Room,
+    world: World,
+    checksum: str,
+    control: str,
+    control_freq: float,
+    device: str,
+    room: Room,
     seconds: float = STILL_SECONDS,
-) -> None:  # fmt: skip
+) -> None:
     """Refuse a scene that moves on this device while the robot stands still; known results are not tried again.
 
     Args:

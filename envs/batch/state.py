@@ -27,9 +27,15 @@ class BatchState(States):
         self.qpos, self.xquat = _double(data.qpos), _double(data.xquat)
         self.site_xmat = data.site_xmat.numpy().reshape(worlds, -1, 9)
         self.snapshot = Snapshot(
-            xpos=_double(data.xpos), xmat=_double(data.xmat).reshape(worlds, -1, 9), xipos=_double(data.xipos),
-            qvel=_double(data.qvel), sites=_double(data.site_xpos), touching=touching, pinched=pinched, **self._about,
-        )  # fmt: skip
+            xpos=_double(data.xpos),
+            xmat=_double(data.xmat).reshape(worlds, -1, 9),
+            xipos=_double(data.xipos),
+            qvel=_double(data.qvel),
+            sites=_double(data.site_xpos),
+            touching=touching,
+            pinched=pinched,
+            **self._about,
+        )
 
 
 def _double(array: Any) -> Array:

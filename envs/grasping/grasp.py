@@ -120,9 +120,16 @@ def find_grasps(
 
 
 def search(
-    scene: Scene, name: str, gripper: Gripper, *, among: Collection[str] | None = None, lean: float = 0.0,
-    heading: float = 0.0, angles: int = ANGLES, wrist: tuple[float, float] | None = None,
-) -> list[Grasp]:  # fmt: skip
+    scene: Scene,
+    name: str,
+    gripper: Gripper,
+    *,
+    among: Collection[str] | None = None,
+    lean: float = 0.0,
+    heading: float = 0.0,
+    angles: int = ANGLES,
+    wrist: tuple[float, float] | None = None,
+) -> list[Grasp]:
     """Grasps along one approach, in no order.
 
     Args:
@@ -181,9 +188,14 @@ def narrowest(obj: SceneObject) -> float:
 
 
 def _along(
-    angle: float, grid: _Grid, own: Array, around: Array, gripper: Gripper, centre: Array,
+    angle: float,
+    grid: _Grid,
+    own: Array,
+    around: Array,
+    gripper: Gripper,
+    centre: Array,
     wrist: tuple[float, float] | None,
-) -> list[Grasp]:  # fmt: skip
+) -> list[Grasp]:
     """Places where the fingers fit when they close along `angle` [rad], at several depths."""
     turned_own, turned_other = grid.turned(own, angle), grid.turned(around, angle)
     turned_all = np.maximum(turned_own, turned_other)
@@ -298,10 +310,12 @@ def _through(start: Array, towards: Array, normals: Array, offsets: Array) -> tu
     slopes = np.broadcast_to(slope, cut.shape)
     enter = np.where(outside, np.inf, np.take_along_axis(entering, first[..., None], -1)[..., 0])
     leave = np.where(outside, -np.inf, np.take_along_axis(leaving, last[..., None], -1)[..., 0])
-    cosines = np.stack([
-        -np.take_along_axis(slopes, first[..., None], -1)[..., 0],
-        np.take_along_axis(slopes, last[..., None], -1)[..., 0],
-    ])  # fmt: skip
+    cosines = np.stack(
+        [
+            -np.take_along_axis(slopes, first[..., None], -1)[..., 0],
+            np.take_along_axis(slopes, last[..., None], -1)[..., 0],
+        ]
+    )
     return enter, leave, cosines
 
 

@@ -188,9 +188,10 @@ def _reached(
             # Above the place where the approach begins, and where the object is held up.
             (x, y, z), rotation = before
             poses = [
-                (np.array([x, y, z + HOVER]), rotation), *poses,
+                (np.array([x, y, z + HOVER]), rotation),
+                *poses,
                 hand_pose(grasp.lifted(LIFTED), tip, closing_axis, half=half),
-            ]  # fmt: skip
+            ]
         joints: Array | None = None
         margin = math.inf
         for position, rotation in poses:

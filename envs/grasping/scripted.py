@@ -94,9 +94,9 @@ class Servo:
         to_base = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         move = to_base @ (position - state.hand)
         turn = to_base @ _rotation_vector(rotation @ state.hand_rotation.T)
-        command = np.concatenate([
-            _limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]
-        ])  # fmt: skip
+        command = np.concatenate(
+            [_limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]]
+        )
         error = float(np.linalg.norm(move)) + 0.05 * float(np.linalg.norm(turn))
         return command.astype(np.float32), error
 

@@ -19,9 +19,7 @@ GRASPS_TRIED = 6
 """Grasps from above of an object, at most."""
 
 
-def grasps_of(
-    scene: Scene, names: Sequence[str], robot: str, *, put: bool, cleared: bool
-) -> dict[str, list[Grasp]]:  # fmt: skip
+def grasps_of(scene: Scene, names: Sequence[str], robot: str, *, put: bool, cleared: bool) -> dict[str, list[Grasp]]:
     """Grasps of every object, best first, in the order in which the objects are taken.
 
     Args:

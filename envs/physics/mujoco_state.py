@@ -37,10 +37,15 @@ class MujocoState(States):
         self._never_moves[[OWNERS + SUPPORT, OWNERS + FLOOR]] = True
         self._never_moves[OWNERS:] = [obj.fixed for obj in world.scene.objects]
         self.snapshot = Snapshot(
-            xpos=data.xpos[None], xmat=data.xmat[None], xipos=data.xipos[None], qvel=data.qvel[None],
-            sites=data.site_xpos[None], touching=np.zeros((1, count, count), dtype=np.bool_),
-            pinched=np.zeros((1, 2, count), dtype=np.bool_), **self._about,
-        )  # fmt: skip
+            xpos=data.xpos[None],
+            xmat=data.xmat[None],
+            xipos=data.xipos[None],
+            qvel=data.qvel[None],
+            sites=data.site_xpos[None],
+            touching=np.zeros((1, count, count), dtype=np.bool_),
+            pinched=np.zeros((1, 2, count), dtype=np.bool_),
+            **self._about,
+        )
         self._wake()
 
     def _wake(self) -> None:
@@ -63,9 +68,15 @@ class MujocoState(States):
         distances = contact.dist
         if len(distances):
             _list_contacts(
-                contact.geom, distances, contact.efc_address, TOUCH, self._row, self._finger, now,
+                contact.geom,
+                distances,
+                contact.efc_address,
+                TOUCH,
+                self._row,
+                self._finger,
+                now,
                 self.snapshot.pinched[0],
-            )  # fmt: skip
+            )
         asleep = self._data.body_awake.take(self.bodies) == 0
         if (asleep != self._asleep).any():
             self._fall_asleep(asleep, before, now)

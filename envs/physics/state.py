@@ -56,10 +56,13 @@ class States(ABC):
         dofs = np.full(len(objects), -1, dtype=np.int64)
         dofs[[self.numbers[name] for name in world.objects]] = world.velocities
         self._about = {
-            "start_centre": np.zeros((count, len(objects), 3)), "start_up": np.zeros((count, len(objects), 3)),
-            "bodies": self.bodies, "dofs": dofs, "hand": self.hand,
+            "start_centre": np.zeros((count, len(objects), 3)),
+            "start_up": np.zeros((count, len(objects), 3)),
+            "bodies": self.bodies,
+            "dofs": dofs,
+            "hand": self.hand,
             "surface": float(world.placement.surface - predicates.EDGE),
-        }  # fmt: skip
+        }
 
     @abstractmethod
     def refresh(self) -> None:

@@ -125,9 +125,16 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
 
     def box(name: str, position: list[float], size: list[float], material: Any) -> None:
         spec.worldbody.add_geom(
-            name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=position, size=size, material=material.name, contype=0,
-            conaffinity=0, group=0, mass=0.0,
-        )  # fmt: skip
+            name=name,
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            pos=position,
+            size=size,
+            material=material.name,
+            contype=0,
+            conaffinity=0,
+            group=0,
+            mass=0.0,
+        )
 
     # A hair below the plane on which objects rest, so that the two never flicker.
     box("bench/top", [*centre, -_TOP_THICKNESS / 2 - 1e-5], [*half, _TOP_THICKNESS / 2], wood)
@@ -136,10 +143,17 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
         corner = [centre[0] + x * (half[0] - 2 * _LEG), centre[1] + y * (half[1] - 2 * _LEG)]
         box(f"bench/leg_{number}", [*corner, legs], [_LEG, _LEG, -legs - _TOP_THICKNESS], steel)
     spec.worldbody.add_geom(
-        name="floor", type=mujoco.mjtGeom.mjGEOM_BOX, group=3, friction=ground.friction, condim=ground.condim,
-        solref=ground.solref, solimp=ground.solimp, pos=[0, 0, placement.floor - GROUND_HALF_THICKNESS],
-        size=[5.0, 5.0, GROUND_HALF_THICKNESS], rgba=[0, 0, 0, 0],
-    )  # fmt: skip
+        name="floor",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        group=3,
+        friction=ground.friction,
+        condim=ground.condim,
+        solref=ground.solref,
+        solimp=ground.solimp,
+        pos=[0, 0, placement.floor - GROUND_HALF_THICKNESS],
+        size=[5.0, 5.0, GROUND_HALF_THICKNESS],
+        rgba=[0, 0, 0, 0],
+    )
 
 
 def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
@@ -148,9 +162,13 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
         return
     x, y = placement.base_position[:2]
     spec.worldbody.add_geom(
-        name="pedestal", type=mujoco.mjtGeom.mjGEOM_CYLINDER, pos=[x, y, placement.floor + height / 2],
-        size=[placement.pedestal_radius, height / 2, 0], rgba=[0.25, 0.26, 0.28, 1.0], group=0,
-    )  # fmt: skip
+        name="pedestal",
+        type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+        pos=[x, y, placement.floor + height / 2],
+        size=[placement.pedestal_radius, height / 2, 0],
+        rgba=[0.25, 0.26, 0.28, 1.0],
+        group=0,
+    )
 
 
 def _cameras(spec: Any, placement: Placement) -> None:

@@ -131,9 +131,7 @@ class PlacedArm:
         """Least distance of a joint from its limits [rad]."""
         return self._arm.margin(joints)
 
-    def solve(
-        self, position: Array, rotation: Array, start: Array, posture: Array | None = None
-    ) -> Array | None:  # fmt: skip
+    def solve(self, position: Array, rotation: Array, start: Array, posture: Array | None = None) -> Array | None:
         """Joint positions [rad] that bring the grip site to a pose of the world; None where none are found.
 
         Args:
@@ -147,9 +145,13 @@ class PlacedArm:
 
 def _rotation_vector(rotation: Array) -> Array:
     """Axis times angle [rad] of a rotation matrix, shape (3,)."""
-    axis = 0.5 * np.array([
-        rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1],
-    ])  # fmt: skip
+    axis = 0.5 * np.array(
+        [
+            rotation[2, 1] - rotation[1, 2],
+            rotation[0, 2] - rotation[2, 0],
+            rotation[1, 0] - rotation[0, 1],
+        ]
+    )
     sine, cosine = float(np.linalg.norm(axis)), float((np.trace(rotation) - 1.0) / 2.0)
     angle = float(np.arctan2(sine, cosine))
     if sine > 1e-9:

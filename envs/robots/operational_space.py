@@ -42,15 +42,27 @@ class OperationalSpace:
 
     def __init__(
         self, model: Any, data: Any, joints: list[int], site: int, actuators: NDArray[np.int64], limits: Array
-    ) -> None:  # fmt: skip
+    ) -> None:
         numbers = np.array(joints, dtype=np.int64)
         self._fixed = (
-            data.site_xpos[site], data.site_xmat[site], data.xanchor, data.xaxis, numbers,
-            data.qpos, model.jnt_qposadr[numbers].astype(np.int64),
-            data.qvel, model.jnt_dofadr[numbers].astype(np.int64), data.qfrc_bias,
-            data.M, model.M_rowadr.astype(np.int64), model.M_rownnz.astype(np.int64), model.M_colind.astype(np.int64),
-            data.ctrl, np.asarray(actuators, dtype=np.int64), np.ascontiguousarray(limits),
-        )  # fmt: skip
+            data.site_xpos[site],
+            data.site_xmat[site],
+            data.xanchor,
+            data.xaxis,
+            numbers,
+            data.qpos,
+            model.jnt_qposadr[numbers].astype(np.int64),
+            data.qvel,
+            model.jnt_dofadr[numbers].astype(np.int64),
+            data.qfrc_bias,
+            data.M,
+            model.M_rowadr.astype(np.int64),
+            model.M_rownnz.astype(np.int64),
+            model.M_colind.astype(np.int64),
+            data.ctrl,
+            np.asarray(actuators, dtype=np.int64),
+            np.ascontiguousarray(limits),
+        )
         # Compiled here, so that no step waits for it.
         before, nothing = data.ctrl.copy(), np.zeros(6)
         self.apply(np.zeros(3), np.eye(3), nothing, nothing, np.zeros(len(joints)))

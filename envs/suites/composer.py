@@ -45,18 +45,27 @@ class Composer:
         self.coloured_only = False
 
     def item(
-        self, parent: str = GROUND, kind: SupportKind = "on", *, moved: bool = False,
-        groups: tuple[str, ...] = (FLAT, STANDING, PLAIN), width: float = 1.0, height: float = 0.0,
+        self,
+        parent: str = GROUND,
+        kind: SupportKind = "on",
+        *,
+        moved: bool = False,
+        groups: tuple[str, ...] = (FLAT, STANDING, PLAIN),
+        width: float = 1.0,
+        height: float = 0.0,
         colour: str | None = None,
-    ) -> str:  # fmt: skip
+    ) -> str:
         """Add something a gripper takes, at most `width` and at least `height` [m]; returns its name."""
         if colour is not None or self.coloured_only:
             groups = tuple(group for group in groups if group != PLAIN)
         fitting = [
-            item.noun for item in ITEMS
-            if item.noun in self._nouns[moved] and item.group in groups
-            and item.width <= width and item.height >= height
-        ]  # fmt: skip
+            item.noun
+            for item in ITEMS
+            if item.noun in self._nouns[moved]
+            and item.group in groups
+            and item.width <= width
+            and item.height >= height
+        ]
         if not fitting:
             raise ExhaustedError
         item = item_of(self._pick(fitting))
@@ -118,9 +127,7 @@ class Composer:
     def _pick(self, of: list[str] | tuple[str, ...]) -> str:
         return of[int(self.rng.integers(len(of)))]
 
-    def _add(
-        self, noun: str, colours: tuple[str, ...], material: str | None, parent: str, kind: SupportKind
-    ) -> str:  # fmt: skip
+    def _add(self, noun: str, colours: tuple[str, ...], material: str | None, parent: str, kind: SupportKind) -> str:
         # Naming a thing's own material would be no different from not naming it, but reads oddly beside "red".
         words = [*colours, *([_ADJECTIVES.get(material, material)] if material else []), noun]
         name = " ".join(words)

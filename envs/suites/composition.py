@@ -57,9 +57,13 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
         except ExhaustedError:
             continue
         return Draft(
-            plan=composer.plan(), task=task, structure=_name(core, side), moved=tuple(composer.moved),
-            places=tuple(composer.places), scene_seed=derived_seed(seed, "scene"),
-        )  # fmt: skip
+            plan=composer.plan(),
+            task=task,
+            structure=_name(core, side),
+            moved=tuple(composer.moved),
+            places=tuple(composer.places),
+            scene_seed=derived_seed(seed, "scene"),
+        )
     raise RuntimeError(f"no composition for place {place} of {request}")
 
 

@@ -29,8 +29,15 @@ from pat3d.errors import ExportError, SuiteError
 from pat3d.scene.folder import finite
 
 MANIFEST, SCENES, REJECTED, WORK, LOCK, LOG, PAGE, HUB = (
-    "suite.json", "scenes", "rejected", ".work", ".lock", "log.jsonl", "index.html", "env.py",
-)  # fmt: skip
+    "suite.json",
+    "scenes",
+    "rejected",
+    ".work",
+    ".lock",
+    "log.jsonl",
+    "index.html",
+    "env.py",
+)
 RECORD = "record.json"
 FORMAT, VERSION = "pat3d-suite", 1
 

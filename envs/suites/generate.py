@@ -66,9 +66,15 @@ Watcher = Callable[[Status], None]
 
 
 def generate(
-    path: str, request: Request, *, workers: int | str = "auto", limit: float = LIMIT, ray: str | None = None,
-    block: int | None = None, tell: Watcher = lambda status: None,
-) -> Status:  # fmt: skip
+    path: str,
+    request: Request,
+    *,
+    workers: int | str = "auto",
+    limit: float = LIMIT,
+    ray: str | None = None,
+    block: int | None = None,
+    tell: Watcher = lambda status: None,
+) -> Status:
     """Make the suite `request` in the folder `path`, or what is missing of it.
 
     Settled on a CPU, the same request gives the same suite bit for bit. On a GPU, scenes of a block settle side by
@@ -187,9 +193,14 @@ class _Run:
         """How far the run is."""
         seconds = 0.0 if self._began is None else time.perf_counter() - self._began
         return Status(
-            done=self.done, total=self.request.scenes, rejected=self.rejected, made=self.made, seconds=seconds,
-            workers=self._crew.size if self._crew is not None else 0, note=note,
-        )  # fmt: skip
+            done=self.done,
+            total=self.request.scenes,
+            rejected=self.rejected,
+            made=self.made,
+            seconds=seconds,
+            workers=self._crew.size if self._crew is not None else 0,
+            note=note,
+        )
 
     def work(self, crew: Crew, workers: int) -> None:
         """Until nothing is pending."""
@@ -269,10 +280,13 @@ class _Run:
         else:
             message = f"{DEATHS} workers died over it; the last one {answer.ended}. {answer.last_words}"
             document = {
-                "place": place, "candidate": candidate, "split": self.request.split_of(place),
-                "kind": self.request.task_of(place), "reason": "time limit" if answer.late else "worker",
+                "place": place,
+                "candidate": candidate,
+                "split": self.request.split_of(place),
+                "kind": self.request.task_of(place),
+                "reason": "time limit" if answer.late else "worker",
                 "message": message.strip(),
-            }  # fmt: skip
+            }
             write_document(self.folder.rejection(place, candidate), document)
             self._again(place, candidate)
 

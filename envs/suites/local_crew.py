@@ -36,9 +36,14 @@ class LocalCrew(Crew):
         with self._log(number).open("wb") as log:
             process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "pat3d.envs.suites.worker"],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
-                env={**os.environ, **ONE_THREAD, "PYTHONPATH": python_path()}, start_new_session=True,
-            )  # fmt: skip
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+                text=True,
+                encoding="utf-8",
+                env={**os.environ, **ONE_THREAD, "PYTHONPATH": python_path()},
+                start_new_session=True,
+            )
         self._processes[number] = process
         self._send(number, {"folder": str(self._folder.path), "request": self._request.as_dict()})
         threading.Thread(target=self._listen, args=(number, process), daemon=True).start()

@@ -64,9 +64,7 @@ def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
         **_head(request),
         "complete": True,
         "checksum": whole.hexdigest(),
-        "splits": {
-            name: [scene["place"] for scene in scenes if in_split(scene["split"], name)] for name in SPLITS
-        },
+        "splits": {name: [scene["place"] for scene in scenes if in_split(scene["split"], name)] for name in SPLITS},
         "axes": {
             name: {"about": about, "scenes": _histogram(scene["axes"][name] for scene in scenes)}
             for name, about in AXES.items()
@@ -74,7 +72,7 @@ def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
         "numbers": numbers(scenes, rejected),
         "scenes": scenes,
         "rejected": rejected,
-    }  # fmt: skip
+    }
     write_document(folder.path / MANIFEST, document)
     write_text(folder.path / HUB, _HUB)
     write_text(folder.path / PAGE, page(folder.path.name, document))

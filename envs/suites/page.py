@@ -40,10 +40,13 @@ def page(name: str, document: Mapping[str, Any]) -> str:
     )
     kinds = request["tasks"]
     splits = [
-        [split, *(sum(in_split(s["split"], split) and s["kind"] == kind for s in scenes) for kind in kinds),
-         sum(in_split(s["split"], split) for s in scenes)]
+        [
+            split,
+            *(sum(in_split(s["split"], split) and s["kind"] == kind for s in scenes) for kind in kinds),
+            sum(in_split(s["split"], split) for s in scenes),
+        ]
         for split in SPLITS
-    ]  # fmt: skip
+    ]
     axes = "".join(
         _table([escape(axis), "scenes"], [[value, count] for value, count in told["scenes"].items()], told["about"])
         for axis, told in document["axes"].items()
@@ -96,10 +99,13 @@ def _figure_of(scene: Mapping[str, Any], picture: bool) -> str:
 def _table(head: Sequence[Any], rows: Sequence[Sequence[Any]], about: str = "", left: int = -1) -> str:
     cells = "".join(f"<th>{escape(str(one))}</th>" for one in head)
     body = "".join(
-        "<tr>" + "".join(f"<td{' class=left' if place == left else ''}>{escape(str(one))}</td>"
-                         for place, one in enumerate(row)) + "</tr>\n"
+        "<tr>"
+        + "".join(
+            f"<td{' class=left' if place == left else ''}>{escape(str(one))}</td>" for place, one in enumerate(row)
+        )
+        + "</tr>\n"
         for row in rows
-    )  # fmt: skip
+    )
     note = f'<p class="dim">{escape(about)}</p>' if about else ""
     return f"<div>{note}<table><tr>{cells}</tr>\n{body}</table></div>"
 

@@ -158,8 +158,11 @@ class Worker:
         """Do what is slow the first time, and refuse versions other than the run's."""
         from pat3d.envs.suites.worker import prepare_for
 
-        differ = [f"{name} {versions().get(name)} (here {value})" for name, value in wanted.items()
-                  if versions().get(name) != value]  # fmt: skip
+        differ = [
+            f"{name} {versions().get(name)} (here {value})"
+            for name, value in wanted.items()
+            if versions().get(name) != value
+        ]
         if differ:
             return {"fatal": f"{os.uname().nodename} has {', '.join(differ)}; install the same versions there."}, {}
         try:

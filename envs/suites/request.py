@@ -73,9 +73,14 @@ class Request:
     def as_dict(self) -> dict[str, Any]:
         """JSON data."""
         return {
-            "tasks": list(self.tasks), "scenes": self.scenes, "seed": self.seed, "objects": list(self.objects),
-            "robot": self.robot, "picture": self.picture, "device": self.device,
-        }  # fmt: skip
+            "tasks": list(self.tasks),
+            "scenes": self.scenes,
+            "seed": self.seed,
+            "objects": list(self.objects),
+            "robot": self.robot,
+            "picture": self.picture,
+            "device": self.device,
+        }
 
     @staticmethod
     def from_dict(data: Any, where: str) -> Request:
@@ -97,10 +102,14 @@ class Request:
         if not good:
             raise SuiteError(f"{where}: the suite's request is damaged: {json.dumps(data)[:200]}")
         return Request(
-            tasks=tuple(data["tasks"]), scenes=data["scenes"], seed=data["seed"],
-            objects=(data["objects"][0], data["objects"][1]), robot=data["robot"], picture=data["picture"],
+            tasks=tuple(data["tasks"]),
+            scenes=data["scenes"],
+            seed=data["seed"],
+            objects=(data["objects"][0], data["objects"][1]),
+            robot=data["robot"],
+            picture=data["picture"],
             device=data.get("device", "cpu"),
-        )  # fmt: skip
+        )
 
     def task_of(self, place: int) -> str:
         """The kind of task at a place of the suite, from 0."""

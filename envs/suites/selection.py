@@ -26,7 +26,7 @@ class Selection:
     @staticmethod
     def of(
         suite: str | os.PathLike[str] | None, split: str | None, index: int | None, scene: Any, task: Any
-    ) -> Selection | None:  # fmt: skip
+    ) -> Selection | None:
         """The selection that an environment's arguments ask for; None where they name no suite.
 
         Raises:

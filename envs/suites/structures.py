@@ -136,8 +136,10 @@ def _core(name: str, size: int, build: Callable[[Composer], str]) -> Core:
 
 CORES: dict[str, tuple[Core, ...]] = {
     "pick": (
-        _core("loose", 1, _pick_loose), _core("in a container", 2, _pick_in),
-        _core("beside another on a carrier", 3, _pick_beside), _core("on top of one", 2, _pick_top(1)),
+        _core("loose", 1, _pick_loose),
+        _core("in a container", 2, _pick_in),
+        _core("beside another on a carrier", 3, _pick_beside),
+        _core("on top of one", 2, _pick_top(1)),
         _core("on top of two", 3, _pick_top(2)),
     ),
     "place": (
@@ -145,22 +147,30 @@ CORES: dict[str, tuple[Core, ...]] = {
         _core("onto an empty carrier", 2, _place_loose("on", 0)),
         _core("beside another in a container", 3, _place_loose("in", 1)),
         _core("beside another on a carrier", 3, _place_loose("on", 1)),
-        _core("from a stack", 3, _place_from_tower), _core("from a carrier into a container", 3, _place_across),
+        _core("from a stack", 3, _place_from_tower),
+        _core("from a carrier into a container", 3, _place_across),
     ),
     "stack": (
-        _core("on one", 2, _stack_loose(1)), _core("on two", 3, _stack_loose(2)), _core("on three", 4, _stack_loose(3)),
-        _core("from a carrier", 3, _stack_from("on")), _core("from a container", 3, _stack_from("in")),
+        _core("on one", 2, _stack_loose(1)),
+        _core("on two", 3, _stack_loose(2)),
+        _core("on three", 4, _stack_loose(3)),
+        _core("from a carrier", 3, _stack_from("on")),
+        _core("from a container", 3, _stack_from("in")),
     ),
     "sort": (
-        _core("one and one", 4, _sort(1, 1)), _core("two and one", 5, _sort(2, 1)),
-        _core("two and two", 6, _sort(2, 2)), _core("three and one", 6, _sort(3, 1)),
+        _core("one and one", 4, _sort(1, 1)),
+        _core("two and one", 5, _sort(2, 1)),
+        _core("two and two", 6, _sort(2, 2)),
+        _core("three and one", 6, _sort(3, 1)),
     ),
     "unload": (
-        _core("two from a container", 3, _unload("in", 2)), _core("two from a carrier", 3, _unload("on", 2)),
-        _core("three from a container", 4, _unload("in", 3)), _core("three from a carrier", 4, _unload("on", 3)),
+        _core("two from a container", 3, _unload("in", 2)),
+        _core("two from a carrier", 3, _unload("on", 2)),
+        _core("three from a container", 4, _unload("in", 3)),
+        _core("three from a carrier", 4, _unload("on", 3)),
     ),
     "retrieve": (_core("under one", 2, _retrieve(1)), _core("under two", 3, _retrieve(2))),
-}  # fmt: skip
+}
 
 
 def _side_none(c: Composer) -> str:
@@ -182,8 +192,10 @@ def _side_container(kind: str, count: int) -> Callable[[Composer], str]:
 
 
 SIDES = (
-    _core("nothing", 0, _side_none), _core("a stack of two", 2, _side_tower(2)),
+    _core("nothing", 0, _side_none),
+    _core("a stack of two", 2, _side_tower(2)),
     _core("a stack of three", 3, _side_tower(3)),
-    _core("one in a container", 2, _side_container("in", 1)), _core("two on a carrier", 3, _side_container("on", 2)),
+    _core("one in a container", 2, _side_container("in", 1)),
+    _core("two on a carrier", 3, _side_container("on", 2)),
     _core("two in a container", 3, _side_container("in", 2)),
-)  # fmt: skip
+)

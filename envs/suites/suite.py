@@ -82,8 +82,10 @@ class Suite:
         if not found:
             kinds = [one.split for one in self.entries if kind in (None, one.kind)]
             there = ", ".join(f"{name} {count}" for name in SPLITS if (count := sum(in_split(k, name) for k in kinds)))
-            raise SuiteError(f'split "{split}" of {self.folder.path} has no scene for {kind or "any task"}; '
-                             f"there are: {there or 'none'}.")  # fmt: skip
+            raise SuiteError(
+                f'split "{split}" of {self.folder.path} has no scene for {kind or "any task"}; '
+                f"there are: {there or 'none'}."
+            )
         return found
 
     @property
@@ -122,10 +124,16 @@ def check_version(document: Mapping[str, Any], where: Path) -> None:
 def _entry(scene: Any, place: int, where: Path) -> Entry:
     try:
         entry = Entry(
-            place=scene["place"], split=scene["split"], kind=scene["kind"], task=scene["task"],
-            prompt=scene["prompt"], instruction=scene["instruction"], axes=scene["axes"],
-            checksum=scene["checksum"], proven_in=scene["proof"]["mujoco"]["version"],
-        )  # fmt: skip
+            place=scene["place"],
+            split=scene["split"],
+            kind=scene["kind"],
+            task=scene["task"],
+            prompt=scene["prompt"],
+            instruction=scene["instruction"],
+            axes=scene["axes"],
+            checksum=scene["checksum"],
+            proven_in=scene["proof"]["mujoco"]["version"],
+        )
         text = (entry.task, entry.prompt, entry.instruction, entry.checksum, entry.proven_in)
         good = entry.place == place and entry.split in SPLITS and entry.kind in TASKS
         good = good and all(isinstance(one, str) for one in text) and isinstance(entry.axes.get("objects"), int)

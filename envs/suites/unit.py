@@ -47,11 +47,15 @@ class Making:
         self._draft, self.clock = draft(request, place, candidate), Clock()
         self._scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
         self.attempts = Attempts(
-            order_of(self._draft.plan, False), seed=self._draft.scene_seed, friction=SETTLING_FRICTION,
+            order_of(self._draft.plan, False),
+            seed=self._draft.scene_seed,
+            friction=SETTLING_FRICTION,
             device=request.device,
-            workspace=Workspace(self._scratch / "none", keep=False), clock=self.clock, progress=silent,
+            workspace=Workspace(self._scratch / "none", keep=False),
+            clock=self.clock,
+            progress=silent,
             scratch=self._scratch,
-        )  # fmt: skip
+        )
         self.seconds = time.perf_counter() - start
         """Spent on it [s]."""
 
@@ -78,9 +82,13 @@ class Making:
             reason, message = self._judged(attempt)
         stages = {name: round(value, 3) for name, value in self.clock.seconds.items() if name != "total"}
         return {
-            "place": self._place, "candidate": self._candidate, "reason": reason, "message": message,
-            "seconds": round(self.seconds, 3), "stages": stages,
-        }  # fmt: skip
+            "place": self._place,
+            "candidate": self._candidate,
+            "reason": reason,
+            "message": message,
+            "seconds": round(self.seconds, 3),
+            "stages": stages,
+        }
 
     def _judged(self, attempt: Attempt) -> tuple[str, str]:
         """Kind of fault and what is wrong; empty for a scene that is now in the suite."""
@@ -144,21 +152,36 @@ def _record(request: Request, place: int, candidate: int, made: Draft, attempt: 
     numbers = None
     if proof is not None:
         numbers = {
-            "mujoco": {"version": proof.mujoco.version, "seconds": proof.mujoco.seconds, "passed": proof.mujoco.passed,
-                       "mm": proof.mujoco.worst_mm, "degrees": proof.mujoco.worst_degrees},
+            "mujoco": {
+                "version": proof.mujoco.version,
+                "seconds": proof.mujoco.seconds,
+                "passed": proof.mujoco.passed,
+                "mm": proof.mujoco.worst_mm,
+                "degrees": proof.mujoco.worst_degrees,
+            },
             "intersections": len(proof.penetration.hulls) + len(proof.penetration.visuals),
-            "equilibrium": {"passed": proof.certificate.passed, "residual": proof.certificate.worst,
-                            "smallest_friction": proof.certificate.smallest_friction,
-                            "largest_tilt": proof.certificate.largest_tilt},
-        }  # fmt: skip
+            "equilibrium": {
+                "passed": proof.certificate.passed,
+                "residual": proof.certificate.worst,
+                "smallest_friction": proof.certificate.smallest_friction,
+                "largest_tilt": proof.certificate.largest_tilt,
+            },
+        }
     return {
-        "place": place, "candidate": candidate, "seed": made.scene_seed, "split": request.split_of(place),
-        "kind": request.task_of(place), "task": made.task, "prompt": made.plan.prompt,
+        "place": place,
+        "candidate": candidate,
+        "seed": made.scene_seed,
+        "split": request.split_of(place),
+        "kind": request.task_of(place),
+        "task": made.task,
+        "prompt": made.plan.prompt,
         "instruction": parse_task(made.task).instruction(scene) if scene is not None and _told(made, scene) else "",
-        "structure": made.structure, "moved": list(made.moved),
+        "structure": made.structure,
+        "moved": list(made.moved),
         "nouns": sorted({obj.noun for obj in made.plan.objects if obj.name in made.moved}),
-        "axes": _axes(made, scene), "proof": numbers,
-    }  # fmt: skip
+        "axes": _axes(made, scene),
+        "proof": numbers,
+    }
 
 
 def _told(made: Draft, scene: Scene) -> bool:
@@ -197,9 +220,14 @@ def _axes(made: Draft, scene: Scene | None) -> dict[str, Any]:
 
 
 def _write(
-    folder: SuiteFolder, request: Request, place: int, attempt: Attempt, record: dict[str, Any], scratch: Path,
+    folder: SuiteFolder,
+    request: Request,
+    place: int,
+    attempt: Attempt,
+    record: dict[str, Any],
+    scratch: Path,
     clock: Clock,
-) -> None:  # fmt: skip
+) -> None:
     """Write the scene's folder and move it to its place."""
     from pat3d.view.preview import save_picture
 

@@ -65,12 +65,13 @@ class Verdicts(NamedTuple):
         """These, but those of `other` where `replaced`, shape (worlds,)."""
         return Verdicts(
             success=np.where(replaced, other.success, self.success),
-            predicates={name: np.where(replaced, other.predicates[name], self.predicates[name])
-                        for name in self.predicates},
+            predicates={
+                name: np.where(replaced, other.predicates[name], self.predicates[name]) for name in self.predicates
+            },
             progress=np.where(replaced, other.progress, self.progress),
             target=np.where(replaced, other.target, self.target),
             goal=np.where(replaced[:, None], other.goal, self.goal),
-        )  # fmt: skip
+        )
 
 
 class Judge(ABC):

@@ -122,8 +122,15 @@ def _document(scene: Scene, stored: Mapping[int, str], margins: Sequence[float],
         as_mesh: identities of the assets whose boxes are meshes.
     """
     root = _root("pat3d scene")
-    option = ET.SubElement(root, "option", timestep=text(TIMESTEP), integrator="implicitfast",
-                           cone="elliptic", impratio="10", ccd_tolerance=text(CCD_TOLERANCE))  # fmt: skip
+    option = ET.SubElement(
+        root,
+        "option",
+        timestep=text(TIMESTEP),
+        integrator="implicitfast",
+        cone="elliptic",
+        impratio="10",
+        ccd_tolerance=text(CCD_TOLERANCE),
+    )
     # On by default only since MuJoCo 3.9; without it a hull rests on a single point and falls over.
     ET.SubElement(option, "flag", multiccd="enable")
     _look(root, scene)
@@ -171,15 +178,23 @@ def _object(asset: Asset, name: str) -> ET.Element:
 def _root(model: str, above: str = "") -> ET.Element:
     """An empty model whose meshes and textures lie in the folder `above`."""
     root = ET.Element("mujoco", model=model)
-    ET.SubElement(root, "compiler", angle="radian", meshdir=f"{above}meshes", texturedir=f"{above}textures",
-                  inertiafromgeom="false", autolimits="true")  # fmt: skip
+    ET.SubElement(
+        root,
+        "compiler",
+        angle="radian",
+        meshdir=f"{above}meshes",
+        texturedir=f"{above}textures",
+        inertiafromgeom="false",
+        autolimits="true",
+    )
     return root
 
 
 def _look(root: ET.Element, scene: Scene) -> None:
     low, high = _bounds(scene)
-    ET.SubElement(root, "statistic", center=text(*((low + high) / 2)),
-                  extent=text(float(np.linalg.norm(high - low)) / 2))  # fmt: skip
+    ET.SubElement(
+        root, "statistic", center=text(*((low + high) / 2)), extent=text(float(np.linalg.norm(high - low)) / 2)
+    )
     visual = ET.SubElement(root, "visual")
     ET.SubElement(visual, "global", offwidth="1920", offheight="1080", azimuth="90", elevation="-25")
     ET.SubElement(visual, "headlight", ambient="0.35 0.35 0.35", diffuse="0.35 0.35 0.35", specular="0.1 0.1 0.1")
@@ -192,33 +207,83 @@ def _defaults(root: ET.Element) -> None:
     visual = ET.SubElement(default, "default", {"class": "visual"})
     ET.SubElement(visual, "geom", type="mesh", group="2", contype="0", conaffinity="0", mass="0")
     collision = ET.SubElement(default, "default", {"class": "collision"})
-    ET.SubElement(collision, "geom", group="3", condim=CONDIM, solref=SOLREF, solimp=SOLIMP,
-                  mass="0", rgba="0.4 0.6 0.9 0.5")  # fmt: skip
+    ET.SubElement(
+        collision, "geom", group="3", condim=CONDIM, solref=SOLREF, solimp=SOLIMP, mass="0", rgba="0.4 0.6 0.9 0.5"
+    )
 
 
 def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> None:
     low, high = _bounds(scene)
     centre, reach = (low + high) / 2, max(float(np.linalg.norm(high - low)), 0.2)
-    ET.SubElement(assets, "texture", type="skybox", builtin="gradient", rgb1="0.78 0.84 0.9", rgb2="0.95 0.96 0.97",
-                  width="256", height="1536")  # fmt: skip
-    ET.SubElement(assets, "texture", name="ground", type="2d", builtin="checker", rgb1="0.80 0.79 0.77",
-                  rgb2="0.74 0.73 0.71", width="512", height="512")  # fmt: skip
-    ET.SubElement(assets, "material", name="ground", texture="ground", texrepeat="2 2", texuniform="true",
-                  specular="0.1", shininess="0.1", reflectance="0")  # fmt: skip
+    ET.SubElement(
+        assets,
+        "texture",
+        type="skybox",
+        builtin="gradient",
+        rgb1="0.78 0.84 0.9",
+        rgb2="0.95 0.96 0.97",
+        width="256",
+        height="1536",
+    )
+    ET.SubElement(
+        assets,
+        "texture",
+        name="ground",
+        type="2d",
+        builtin="checker",
+        rgb1="0.80 0.79 0.77",
+        rgb2="0.74 0.73 0.71",
+        width="512",
+        height="512",
+    )
+    ET.SubElement(
+        assets,
+        "material",
+        name="ground",
+        texture="ground",
+        texrepeat="2 2",
+        texuniform="true",
+        specular="0.1",
+        shininess="0.1",
+        reflectance="0",
+    )
     friction = ground_friction(scene.settling_friction)
-    ET.SubElement(world, "geom", {"class": "visual"}, name="ground/visual", type="plane", size="0 0 0.05", group="0",
-                  material="ground")  # fmt: skip
+    ET.SubElement(
+        world,
+        "geom",
+        {"class": "visual"},
+        name="ground/visual",
+        type="plane",
+        size="0 0 0.05",
+        group="0",
+        material="ground",
+    )
     side = max(5.0, 4.0 * reach)
-    ET.SubElement(world, "geom", {"class": "collision"}, name="ground", type="box",
-                  pos=text(0, 0, -GROUND_HALF_THICKNESS), size=text(side, side, GROUND_HALF_THICKNESS),
-                  friction=text(friction, TORSIONAL_FRICTION, ROLLING_FRICTION))  # fmt: skip
+    ET.SubElement(
+        world,
+        "geom",
+        {"class": "collision"},
+        name="ground",
+        type="box",
+        pos=text(0, 0, -GROUND_HALF_THICKNESS),
+        size=text(side, side, GROUND_HALF_THICKNESS),
+        friction=text(friction, TORSIONAL_FRICTION, ROLLING_FRICTION),
+    )
     for name, offset, diffuse, shadow in (
         ("key", (-1.0, -1.2, 2.0), "0.65 0.63 0.6", "true"),
         ("fill", (1.5, -0.6, 1.5), "0.25 0.26 0.28", "false"),
     ):
         position = centre + 2.0 * reach * np.array(offset)
-        ET.SubElement(world, "light", name=name, directional="true", pos=text(*position),
-                      dir=text(*(centre - position)), diffuse=diffuse, castshadow=shadow)  # fmt: skip
+        ET.SubElement(
+            world,
+            "light",
+            name=name,
+            directional="true",
+            pos=text(*position),
+            dir=text(*(centre - position)),
+            diffuse=diffuse,
+            castshadow=shadow,
+        )
     # The viewer of the relations: from -y, a little above, looking at the middle of the scene.
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])
     ET.SubElement(world, "camera", name="front", pos=text(*eye), fovy="45", xyaxes="1 0 0 0 0.4472135955 0.894427191")
@@ -236,8 +301,16 @@ def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
     for one in moving:
         child, parent = names[one.child], names[one.parent]
         for number, (point, _) in enumerate(one.anchors):
-            ET.SubElement(equality, "connect", name=f"{child}/anchor_{number:02d}", body1=child, body2=parent,
-                          anchor=text(*point), solref=SOLREF, solimp=SOLIMP)  # fmt: skip
+            ET.SubElement(
+                equality,
+                "connect",
+                name=f"{child}/anchor_{number:02d}",
+                body1=child,
+                body2=parent,
+                anchor=text(*point),
+                solref=SOLREF,
+                solimp=SOLIMP,
+            )
 
 
 def _write_assets(scene: Scene, folder: Path) -> dict[int, str]:
@@ -274,8 +347,14 @@ def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: fl
     ET.SubElement(body, "geom", {"class": "visual"}, name=f"{name}/visual", mesh=f"{stored}/visual", material=stored)
     friction = text(asset.material.friction, TORSIONAL_FRICTION, ROLLING_FRICTION)
     for number, part in enumerate(asset.parts):
-        geom = ET.SubElement(body, "geom", {"class": "collision"}, name=f"{name}/part_{number:03d}",
-                             friction=friction, margin=text(margin))  # fmt: skip
+        geom = ET.SubElement(
+            body,
+            "geom",
+            {"class": "collision"},
+            name=f"{name}/part_{number:03d}",
+            friction=friction,
+            margin=text(margin),
+        )
         if part.box is None or as_mesh:
             geom.set("type", "mesh")
             geom.set("mesh", f"{stored}/part_{number:03d}")

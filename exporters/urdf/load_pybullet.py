@@ -48,9 +48,12 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
     # At PyBullet's own 1/240 s stacks of hulls creep by millimetres; contact slop lets bodies sink by as much. Its own
     # threshold, the square of 0.3 mm/s, stops the solver so early that what is wedged creeps at that speed.
     pybullet.setPhysicsEngineParameter(
-        numSolverIterations=200, solverResidualThreshold=0.0, contactSlop=0.0, fixedTimeStep=TIME_STEP,
+        numSolverIterations=200,
+        solverResidualThreshold=0.0,
+        contactSlop=0.0,
+        fixedTimeStep=TIME_STEP,
         physicsClientId=client,
-    )  # fmt: skip
+    )
     # Without the first, hulls keep apart by their margins and everything floats by 1 to 2 mm; without the second,
     # inertias are guessed from the collision shapes.
     flags = pybullet.URDF_INITIALIZE_SAT_FEATURES | pybullet.URDF_USE_INERTIA_FROM_FILE
@@ -59,15 +62,24 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
     entries = [{**ground, "name": "ground", "fixed": True, "position": [0, 0, 0], "quat_xyzw": [0, 0, 0, 1]}]
     for entry in entries + manifest["objects"]:
         body = pybullet.loadURDF(
-            str(folder / entry["file"]), entry["position"], entry["quat_xyzw"], useFixedBase=entry["fixed"],
-            flags=flags, physicsClientId=client,
-        )  # fmt: skip
+            str(folder / entry["file"]),
+            entry["position"],
+            entry["quat_xyzw"],
+            useFixedBase=entry["fixed"],
+            flags=flags,
+            physicsClientId=client,
+        )
         bodies[entry["name"]] = body
         friction = math.sqrt(entry["friction"]) if geometric_friction else entry["friction"]
         pybullet.changeDynamics(
-            body, -1, lateralFriction=friction, spinningFriction=SPINNING_FRICTION, linearDamping=0.0,
-            angularDamping=0.0, physicsClientId=client,
-        )  # fmt: skip
+            body,
+            -1,
+            lateralFriction=friction,
+            spinningFriction=SPINNING_FRICTION,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            physicsClientId=client,
+        )
     for attachment in manifest["attachments"]:
         _attach(pybullet, client, attachment, bodies)
     return bodies
@@ -78,11 +90,16 @@ def _attach(pybullet: Any, client: int, attachment: dict[str, Any], bodies: dict
     child, parent = bodies[attachment["child"]], bodies[attachment["parent"]]
     for anchor in attachment["anchors"]:
         pybullet.createConstraint(
-            parent, -1, child, -1, pybullet.JOINT_POINT2POINT, [0, 0, 0],
+            parent,
+            -1,
+            child,
+            -1,
+            pybullet.JOINT_POINT2POINT,
+            [0, 0, 0],
             _from_centre(pybullet, client, parent, anchor["parent_point"]),
             _from_centre(pybullet, client, child, anchor["child_point"]),
             physicsClientId=client,
-        )  # fmt: skip
+        )
 
 
 def _from_centre(pybullet: Any, client: int, body: int, point: list[float]) -> list[float]:

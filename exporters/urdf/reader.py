@@ -55,9 +55,14 @@ def read_urdf(folder: str | Path) -> tuple[BodyReadback, ...]:
         x, y, z, w = numbers(_words(entry["quat_xyzw"]), 4, "quat_xyzw")
         position = numbers(_words(entry["position"]), 3, "position")
         bodies.append(
-            replace(body, name=entry["name"], fixed=bool(entry["fixed"]), pose=_pose(position, (w, x, y, z)),
-                    friction=common([body.friction, float(entry["friction"])]))
-        )  # fmt: skip
+            replace(
+                body,
+                name=entry["name"],
+                fixed=bool(entry["fixed"]),
+                pose=_pose(position, (w, x, y, z)),
+                friction=common([body.friction, float(entry["friction"])]),
+            )
+        )
     return tuple(bodies)
 
 

@@ -60,11 +60,20 @@ MATERIAL_WORDS: dict[str, str] = {
 """Adjectives that name a material other than by its own name."""
 
 NATURAL_COLOURS: dict[str, tuple[str, ...]] = {
-    "wood": ("wood", "brown", "tan"), "bamboo": ("bamboo",), "cork": ("cork",), "cardboard": ("cardboard",),
-    "wicker": ("wicker", "tan"), "metal": ("steel", "silver", "gray"), "steel": ("steel", "silver"),
-    "iron": ("gray", "black"), "aluminium": ("silver", "steel"), "brass": ("gold", "bronze", "copper"),
-    "glass": ("glass",), "stone": ("gray", "white"), "leather": ("brown", "black", "tan"),
-}  # fmt: skip
+    "wood": ("wood", "brown", "tan"),
+    "bamboo": ("bamboo",),
+    "cork": ("cork",),
+    "cardboard": ("cardboard",),
+    "wicker": ("wicker", "tan"),
+    "metal": ("steel", "silver", "gray"),
+    "steel": ("steel", "silver"),
+    "iron": ("gray", "black"),
+    "aluminium": ("silver", "steel"),
+    "brass": ("gold", "bronze", "copper"),
+    "glass": ("glass",),
+    "stone": ("gray", "white"),
+    "leather": ("brown", "black", "tan"),
+}
 """Colours that a thing has when its material is named and its colour is not."""
 
 

@@ -58,21 +58,27 @@ class Balance:
         free = [k for k, obj in enumerate(scene.objects) if not obj.fixed]
         masses = [obj.asset.mass_properties for obj in scene.objects]
         bodies = _Bodies(
-            centre=np.array([obj.pose.apply(np.array([mass.centre_of_mass]))[0]
-                             for obj, mass in zip(scene.objects, masses, strict=True)]),
+            centre=np.array(
+                [
+                    obj.pose.apply(np.array([mass.centre_of_mass]))[0]
+                    for obj, mass in zip(scene.objects, masses, strict=True)
+                ]
+            ),
             weight=np.array([mass.mass * GRAVITY for mass in masses]),
             size=np.array([float(obj.asset.size.max()) for obj in scene.objects]),
             friction=np.array(
                 [*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene.settling_friction)]
             ),
-        )  # fmt: skip
+        )
         self.groups = [
             Group(
-                bodies, members, contacts.pick(np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))),
+                bodies,
+                members,
+                contacts.pick(np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))),
                 anchors.of(members),
             )
             for members in _groups(free, np.concatenate([contacts.bodies, anchors.bodies]))
-        ]  # fmt: skip
+        ]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -218,9 +224,12 @@ def _frames(normals: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _solve(
-    matrix: NDArray[np.float64], still: NDArray[np.float64],
-    tilted: tuple[NDArray[np.float64], float] | None, contacts: int, allowed: float,
-) -> tuple[NDArray[np.float64], float, NDArray[np.float64]] | None:  # fmt: skip
+    matrix: NDArray[np.float64],
+    still: NDArray[np.float64],
+    tilted: tuple[NDArray[np.float64], float] | None,
+    contacts: int,
+    allowed: float,
+) -> tuple[NDArray[np.float64], float, NDArray[np.float64]] | None:
     """Forces x that leave the least, or that bear the largest tilt.
 
     Without `tilted` = (push, limit), the least t with |still + matrix x| <= t for the force and the torque of every

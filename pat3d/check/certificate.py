@@ -195,8 +195,9 @@ def _largest_tilt(balance: Balance, friction: float | None) -> tuple[float, tupl
     for group in balance.groups:
         mu = group.exported if friction is None else np.full(group.contacts, friction)
         found = [group.largest_tilt(mu, angle, limit, TOLERANCE) for angle in angles]
-        radius = _inscribed([tilt * np.array([math.cos(a), math.sin(a)])
-                             for (tilt, _), a in zip(found, angles, strict=True)])  # fmt: skip
+        radius = _inscribed(
+            [tilt * np.array([math.cos(a), math.sin(a)]) for (tilt, _), a in zip(found, angles, strict=True)]
+        )
         if radius < most * (1.0 - ROUNDING):
             most, first = radius, min(found, key=lambda one: one[0])[1]
     return math.degrees(math.atan(most)), first

@@ -105,9 +105,15 @@ def ground_drop(mjcf_path: str | Path, *, heights: float = HEIGHTS) -> DropRepor
 
 
 def _fall(
-    mujoco: Any, model: Any, data: Any, body: int, points: NDArray[np.float64], upright: NDArray[np.float64],
-    height: float, size: float,
-) -> DropReport:  # fmt: skip
+    mujoco: Any,
+    model: Any,
+    data: Any,
+    body: int,
+    points: NDArray[np.float64],
+    upright: NDArray[np.float64],
+    height: float,
+    size: float,
+) -> DropReport:
     limit = math.sqrt(2.0 * height / GRAVITY) + 1.0
     touched = still = math.inf
     deepest = depth = 0.0

@@ -100,8 +100,12 @@ def penetration(scene: Scene) -> PenetrationReport:
             if _boxes_meet(hulls[i][0], hulls[j][0], CLOSE):
                 distance = _distance(hulls[i], hulls[j])
                 if distance <= 0.0 or _contained(first, second) or _contained(second, first):
-                    overlap = Overlap(first=first.name, second=second.name, depth=_depth(first, second),
-                                      volume=_shared_volume(visuals[i], visuals[j]))  # fmt: skip
+                    overlap = Overlap(
+                        first=first.name,
+                        second=second.name,
+                        depth=_depth(first, second),
+                        volume=_shared_volume(visuals[i], visuals[j]),
+                    )
                     deep.append(overlap)
                 elif distance < CLOSE:
                     gaps.append(Gap(first=first.name, second=second.name, distance=distance))

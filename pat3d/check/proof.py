@@ -40,8 +40,10 @@ class Proof:
                 f"degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
             )
         for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
-            lines += [f'the {what} of "{pair.first}" and "{pair.second}" intersect, {1e3 * pair.depth:.3g} mm deep.'
-                      for pair in overlaps]  # fmt: skip
+            lines += [
+                f'the {what} of "{pair.first}" and "{pair.second}" intersect, {1e3 * pair.depth:.3g} mm deep.'
+                for pair in overlaps
+            ]
         lines += [
             f'"{obj.name}" drifts {max(obj.centre_mm, obj.origin_mm):.2f} mm and {obj.degrees:.2f} degrees in '
             f"{self.mujoco.seconds:g} s of MuJoCo."
@@ -58,8 +60,11 @@ class Proof:
     @property
     def unmet(self) -> tuple[str, ...]:
         """Lateral relations that do not hold; the scene is proven without them but less faithful."""
-        return tuple(f"{found.relation} ({found.detail})" for found in self.relations
-                     if not found.relation.supports and not found.holds)  # fmt: skip
+        return tuple(
+            f"{found.relation} ({found.detail})"
+            for found in self.relations
+            if not found.relation.supports and not found.holds
+        )
 
     @property
     def passed(self) -> bool:
@@ -81,12 +86,16 @@ class Proof:
                 "held": held,
                 "count": len(self.relations),
                 "list": [
-                    {"relation": str(found.relation), "kind": found.relation.kind, "holds": found.holds,
-                     "detail": found.detail}
+                    {
+                        "relation": str(found.relation),
+                        "kind": found.relation.kind,
+                        "holds": found.holds,
+                        "detail": found.detail,
+                    }
                     for found in self.relations
                 ],
             },
-        }  # fmt: skip
+        }
 
 
 def _listed(names: tuple[str, ...]) -> str:
@@ -95,8 +104,11 @@ def _listed(names: tuple[str, ...]) -> str:
 
 def broken(relations: tuple[RelationResult, ...]) -> tuple[str, ...]:
     """A line for every support relation that does not hold."""
-    return tuple(f"broken: {found.relation} ({found.detail})." for found in relations
-                 if found.relation.supports and not found.holds)  # fmt: skip
+    return tuple(
+        f"broken: {found.relation} ({found.detail})."
+        for found in relations
+        if found.relation.supports and not found.holds
+    )
 
 
 def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
@@ -122,6 +134,4 @@ def prove(scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, s
     progress(Event(stage="proving", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
     mujoco = settle_in_mujoco(mjcf_path, seconds)
     progress(Event(stage="proving", detail="relations", step=3, steps=4))
-    return Proof(
-        certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)
-    )  # fmt: skip
+    return Proof(certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene))

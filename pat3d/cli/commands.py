@@ -19,9 +19,12 @@ def generate(options: argparse.Namespace) -> int:
     if options.out is None:
         raise SpecError("give the folder to write: --out scenes/NAME.")
     settings = Settings(
-        seed=options.seed, friction=options.friction, device=options.device, formats=tuple(options.formats),
+        seed=options.seed,
+        friction=options.friction,
+        device=options.device,
+        formats=tuple(options.formats),
         resume=options.resume,
-    )  # fmt: skip
+    )
     with watch(console(stderr=True)) as progress:
         outcome = run_prompt(
             options.prompt, out=options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
@@ -42,9 +45,15 @@ def build(options: argparse.Namespace) -> int:
         raise SpecError("give the specification and the folder to write: pat3d build scene.yaml --out scenes/NAME.")
     with watch(console(stderr=True)) as progress:
         outcome = run_spec(
-            options.spec, out=options.out, seed=options.seed, friction=options.friction, device=options.device,
-            formats=tuple(options.formats), resume=options.resume, progress=progress,
-        )  # fmt: skip
+            options.spec,
+            out=options.out,
+            seed=options.seed,
+            friction=options.friction,
+            device=options.device,
+            formats=tuple(options.formats),
+            resume=options.resume,
+            progress=progress,
+        )
     return _finished(outcome, options.out)
 
 
@@ -58,9 +67,14 @@ def optimize(options: argparse.Namespace) -> int:
 
     with watch(console(stderr=True)) as progress:
         outcome = optimize_folder(
-            options.folder, out=options.out, epochs=options.epochs, starts=options.starts, seed=options.seed,
-            device=options.device, progress=progress,
-        )  # fmt: skip
+            options.folder,
+            out=options.out,
+            epochs=options.epochs,
+            starts=options.starts,
+            seed=options.seed,
+            device=options.device,
+            progress=progress,
+        )
     show_mended(console(), outcome)
     return _verdict(outcome.failures)
 

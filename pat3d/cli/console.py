@@ -174,9 +174,11 @@ def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> 
         cells = [drift.get(obj.name) for drift in drifts]
         table.add_row(
             obj.name,
-            *("fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
-              for cell in cells),
-        )  # fmt: skip
+            *(
+                "fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
+                for cell in cells
+            ),
+        )
     if runs:
         target.print(table)
         target.print()

@@ -16,10 +16,23 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 NEEDED = {
-    "numpy": "2.0", "scipy": "1.13", "warp-lang": "1.15", "mujoco": "3.9", "trimesh": "4.5", "manifold3d": "3.0",
-    "coacd": "1.0.5", "python-fcl": "0.7.0.8", "clarabel": "0.9", "embreex": "2.17", "pillow": "10.0",
-    "pyyaml": "6.0", "jsonschema": "4.20", "networkx": "3.0", "rich": "13.0", "ipctk": "1.3",
-}  # fmt: skip
+    "numpy": "2.0",
+    "scipy": "1.13",
+    "warp-lang": "1.15",
+    "mujoco": "3.9",
+    "trimesh": "4.5",
+    "manifold3d": "3.0",
+    "coacd": "1.0.5",
+    "python-fcl": "0.7.0.8",
+    "clarabel": "0.9",
+    "embreex": "2.17",
+    "pillow": "10.0",
+    "pyyaml": "6.0",
+    "jsonschema": "4.20",
+    "networkx": "3.0",
+    "rich": "13.0",
+    "ipctk": "1.3",
+}
 """Least versions that are supported."""
 
 OPTIONAL = {

@@ -20,15 +20,22 @@ if TYPE_CHECKING:
 def add_commands(command: Any) -> None:
     """Add the commands to a command line; `command` makes a parser from a name and a summary."""
     evaluating = command("evaluate", "let a policy do episodes, and report its success rate and failures")
-    evaluating.add_argument("--policy", required=True, metavar="POLICY",
-                            help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt, "
-                                 "lerobot:FOLDER")  # fmt: skip
+    evaluating.add_argument(
+        "--policy",
+        required=True,
+        metavar="POLICY",
+        help="random, scripted, ws://HOST:PORT, package.module:callable, FILE.pt, lerobot:FOLDER",
+    )
     _add_episodes(evaluating)
     evaluating.add_argument("--out", required=True, metavar="FOLDER", help="records; an unfinished run goes on there")
     evaluating.add_argument("--workers", default="1", metavar="N", help="processes, or auto: one a core (1)")
     evaluating.add_argument("--overwrite", action="store_true", help="throw away what FOLDER holds")
-    evaluating.add_argument("--interval", choices=("wilson", "clopper-pearson"), default="wilson",
-                            help="of the success rate, 95 %% (wilson)")  # fmt: skip
+    evaluating.add_argument(
+        "--interval",
+        choices=("wilson", "clopper-pearson"),
+        default="wilson",
+        help="of the success rate, 95 %% (wilson)",
+    )
     evaluating.add_argument("--videos", type=int, default=0, metavar="N", help="films for the report (0)")
     evaluating.add_argument("--no-pictures", action="store_true", help="no pictures in the report")
     _add_settings(evaluating)
@@ -57,8 +64,12 @@ def add_commands(command: Any) -> None:
 
     showing = command("demonstrate", "write demonstrations of the scripted policy, for robomimic or LeRobot")
     _add_episodes(showing)
-    showing.add_argument("--out", required=True, metavar="PATH",
-                         help="FILE.hdf5 as robomimic reads it, or a new folder: a LeRobotDataset v3.0")  # fmt: skip
+    showing.add_argument(
+        "--out",
+        required=True,
+        metavar="PATH",
+        help="FILE.hdf5 as robomimic reads it, or a new folder: a LeRobotDataset v3.0",
+    )
     showing.add_argument("--noise", type=float, default=0.3, help="of the hand while it demonstrates (0.3)")
     _add_settings(showing, ("robot", "obs", "control_freq", "max_steps", "image_size"))
 
@@ -70,19 +81,28 @@ def _add_episodes(to: argparse.ArgumentParser) -> None:
     to.add_argument("--split", default="test", help="of the suite (test)")
     to.add_argument("--episodes", type=int, default=100, help="number of episodes (100)")
     to.add_argument("--seed", type=int, default=0, help="the same seed gives the same episodes (0)")
-    to.add_argument("--perturb", nargs="+", default=[], metavar="AXIS=STRENGTH",
-                    help="pose [m], friction, mass, camera, light, words; all 0 by default")  # fmt: skip
+    to.add_argument(
+        "--perturb",
+        nargs="+",
+        default=[],
+        metavar="AXIS=STRENGTH",
+        help="pose [m], friction, mass, camera, light, words; all 0 by default",
+    )
 
 
 def _add_settings(to: argparse.ArgumentParser, names: tuple[str, ...] | None = None) -> None:
     """Options for the settings called `names`, or for all."""
     default = RolloutSettings()
     helps = {
-        "robot": "Panda, UR5e, Sawyer or IIWA", "control": "osc, joint_velocity or joint_position",
-        "obs": "state, rgb or rgbd", "control_freq": "actions a second", "max_steps": "of an episode",
-        "image_size": "of observations [pixel]", "replan": "actions done of a chunk before the policy is asked again",
+        "robot": "Panda, UR5e, Sawyer or IIWA",
+        "control": "osc, joint_velocity or joint_position",
+        "obs": "state, rgb or rgbd",
+        "control_freq": "actions a second",
+        "max_steps": "of an episode",
+        "image_size": "of observations [pixel]",
+        "replan": "actions done of a chunk before the policy is asked again",
         "act_seconds": "a policy that thinks for longer hangs [s]",
-    }  # fmt: skip
+    }
     for name in names or helps:
         value = getattr(default, name)
         to.add_argument(f"--{name.replace('_', '-')}", type=type(value), default=value, help=f"{helps[name]} ({value})")
@@ -135,8 +155,16 @@ def evaluate(options: argparse.Namespace) -> int:
             f"{done}/{wanted} {result.episode.task}: {what} ({left:.0f} s to go)", markup=False, soft_wrap=True
         )
 
-    done = run(options.policy, episodes, options.out, settings=settings, source=source, workers=workers,
-               overwrite=options.overwrite, report=report)  # fmt: skip
+    done = run(
+        options.policy,
+        episodes,
+        options.out,
+        settings=settings,
+        source=source,
+        workers=workers,
+        overwrite=options.overwrite,
+        report=report,
+    )
     from pat3d.policies_eval.analysis.report import write_report
     from pat3d.policies_eval.analysis.summary import show_summary, summarise
 
@@ -172,9 +200,14 @@ def replay(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.replay import replay_episodes
 
     return replay_episodes(
-        read_evaluation(options.folder), options.episode, video=options.video, picture=options.picture,
-        camera=options.camera, size=_size(options.size), target=console(),
-    )  # fmt: skip
+        read_evaluation(options.folder),
+        options.episode,
+        video=options.video,
+        picture=options.picture,
+        camera=options.camera,
+        size=_size(options.size),
+        target=console(),
+    )
 
 
 def train(options: argparse.Namespace) -> int:
@@ -182,8 +215,15 @@ def train(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.train import train as run
 
     episodes, _ = episodes_from(options)
-    run(episodes, options.out, epochs=options.epochs, seed=options.seed, noise=options.noise,
-        demonstrations=options.demonstrations, target=console())  # fmt: skip
+    run(
+        episodes,
+        options.out,
+        epochs=options.epochs,
+        seed=options.seed,
+        noise=options.noise,
+        demonstrations=options.demonstrations,
+        target=console(),
+    )
     return 0
 
 

@@ -86,8 +86,9 @@ def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, An
     target = console()
     if made:
         target.print(assets_table(made))
-        worst = {name: max(made, key=lambda one, key=name: one.parities[key].largest).parities[name]
-                 for name in formats}  # fmt: skip
+        worst = {
+            name: max(made, key=lambda one, key=name: one.parities[key].largest).parities[name] for name in formats
+        }
         target.print()
         target.print(parity_table(worst))
         target.print("\nwritten to:", markup=False)
@@ -119,8 +120,9 @@ def parity_table(reports: Mapping[str, ParityReport]) -> Any:
     table.add_column("")
     for name, report in reports.items():
         for number, reading in enumerate(report.readings):
-            errors = ["-" if error is None else "0" if error == 0.0 else f"{error:.0e}"
-                      for error in reading.worst.values()]  # fmt: skip
+            errors = [
+                "-" if error is None else "0" if error == 0.0 else f"{error:.0e}" for error in reading.worst.values()
+            ]
             verdict = "[bold red]FAIL[/]" if reading.failures else "[green]same[/]"
             table.add_row("" if number else name, reading.reader, *errors, verdict)
     table.caption = "Largest errors of any object: relative; position in m, rotation in rad; the limit is 1e-06."

@@ -103,20 +103,25 @@ def parser() -> argparse.ArgumentParser:
 
     mending = command(
         "optimize", "find an initial layout that keeps the scene's relations while it settles, where its own does not"
-    )  # fmt: skip
+    )
     mending.add_argument("folder", metavar="SCENE", help="scene folder that generate or build wrote")
     mending.add_argument("--out", metavar="FOLDER", help="scene folder to write (default: SCENE is replaced)")
     mending.add_argument("--epochs", type=int, default=50, help="gradient steps at most; 0 for none (50)")
-    mending.add_argument("--starts", type=int, default=6,
-                         help="layouts tried before gradients, the scene's own among them (6)")  # fmt: skip
+    mending.add_argument(
+        "--starts", type=int, default=6, help="layouts tried before gradients, the scene's own among them (6)"
+    )
     mending.add_argument("--seed", type=int, help="of the layouts tried (the scene's)")
     mending.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
 
     checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
     checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")
-    checking.add_argument("--engines", nargs="+", metavar="ENGINE",
-                          help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
-                          "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all")  # fmt: skip
+    checking.add_argument(
+        "--engines",
+        nargs="+",
+        metavar="ENGINE",
+        help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
+        "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all",
+    )
     checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
 
     exporting = command(
@@ -124,8 +129,9 @@ def parser() -> argparse.ArgumentParser:
     )
     exporting.add_argument("source", metavar="SOURCE", help="a scene folder, a mesh file, or a folder of meshes")
     exporting.add_argument("--out", metavar="FOLDER", required=True, help="where to write; each format has its folder")
-    exporting.add_argument("--formats", nargs="+", metavar="FORMAT",
-                           help="mjcf, usd, urdf, sdf, with commas or spaces between (all)")  # fmt: skip
+    exporting.add_argument(
+        "--formats", nargs="+", metavar="FORMAT", help="mjcf, usd, urdf, sdf, with commas or spaces between (all)"
+    )
     exporting.add_argument("--usda", action="store_true", help="USD as text, scene.usda")
     exporting.add_argument("--usdz", action="store_true", help="USD also in one file, scene.usdz")
     meshes = exporting.add_argument_group("meshes only")
@@ -163,13 +169,22 @@ def _add_making(to: argparse.ArgumentParser, *, seed: int | None, friction: floa
     shown = {"seed": "0", "friction": "0.2"} if seed is not None else dict.fromkeys(("seed", "friction"), "the file's")
     to.add_argument("--out", metavar="FOLDER", help="scene folder to write; an earlier one is replaced at the end")
     to.add_argument("--seed", type=int, default=seed, help=f"the same seed gives the same scene ({shown['seed']})")
-    to.add_argument("--friction", type=float, default=friction,
-                    help=f"friction coefficient while settling ({shown['friction']})")  # fmt: skip
+    to.add_argument(
+        "--friction", type=float, default=friction, help=f"friction coefficient while settling ({shown['friction']})"
+    )
     to.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
-    to.add_argument("--formats", nargs="+", default=["mjcf"], metavar="FORMAT",
-                    help="mjcf, usd, urdf, sdf, with commas or spaces between (mjcf)")  # fmt: skip
-    to.add_argument("--resume", action="store_true",
-                    help="keep finished stages in FOLDER.partial, and go on from those of an earlier run")  # fmt: skip
+    to.add_argument(
+        "--formats",
+        nargs="+",
+        default=["mjcf"],
+        metavar="FORMAT",
+        help="mjcf, usd, urdf, sdf, with commas or spaces between (mjcf)",
+    )
+    to.add_argument(
+        "--resume",
+        action="store_true",
+        help="keep finished stages in FOLDER.partial, and go on from those of an earlier run",
+    )
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -23,9 +23,13 @@ _QUIET_SECONDS = 10.0
 def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     """The verbs of `pat3d suite`."""
     verbs = to.add_subparsers(dest="verb", required=True, metavar="VERB")
-    making = verbs.add_parser("generate", help="make a suite, or what is missing of it", formatter_class=formatter,
-                              epilog="Interrupted or killed, the same command goes on where it stopped. The same seed "
-                              "gives the same suite with any number of workers (on a GPU, to 1e-9 m).")  # fmt: skip
+    making = verbs.add_parser(
+        "generate",
+        help="make a suite, or what is missing of it",
+        formatter_class=formatter,
+        epilog="Interrupted or killed, the same command goes on where it stopped. The same seed "
+        "gives the same suite with any number of workers (on a GPU, to 1e-9 m).",
+    )
     making.add_argument("folder", metavar="OUT", help="suite folder to write")
     making.add_argument("--tasks", default=",".join(TASKS[:5]), help=f"any of {', '.join(TASKS)} (all but retrieve)")
     making.add_argument("--scenes", type=int, default=100, help="how many (100); a larger number makes a suite longer")
@@ -33,13 +37,20 @@ def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     making.add_argument("--objects", default="5-8", metavar="N or N-M", help="objects of a scene (5-8)")
     making.add_argument("--robot", default="Panda", help="that must be able to do the tasks (Panda)")
     making.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
-    making.add_argument("--device", choices=DEVICES, default="cpu",
-                        help="where scenes settle; on a GPU, many side by side (cpu)")  # fmt: skip
+    making.add_argument(
+        "--device", choices=DEVICES, default="cpu", help="where scenes settle; on a GPU, many side by side (cpu)"
+    )
     making.add_argument("--ray", metavar="ADDRESS", help="let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto")
-    making.add_argument("--limit", type=float, default=300.0, metavar="SECONDS",
-                        help="for one scene; one that takes longer twice is replaced (300)")  # fmt: skip
-    making.add_argument("--picture", type=int, default=320, metavar="PIXELS",
-                        help="width of the scenes' pictures; 0 for none (320)")  # fmt: skip
+    making.add_argument(
+        "--limit",
+        type=float,
+        default=300.0,
+        metavar="SECONDS",
+        help="for one scene; one that takes longer twice is replaced (300)",
+    )
+    making.add_argument(
+        "--picture", type=int, default=320, metavar="PIXELS", help="width of the scenes' pictures; 0 for none (320)"
+    )
     checking = verbs.add_parser("check", help="prove a suite again: files, splits, stillness in MuJoCo")
     checking.add_argument("folder", metavar="OUT", help="suite folder")
     checking.add_argument("--quick", action="store_true", help="checksums and splits only")
@@ -61,18 +72,25 @@ def _generate(options: argparse.Namespace) -> int:
     worker_count(options.workers)
 
     request = Request(
-        tasks=tuple(name.strip() for name in options.tasks.split(",")), scenes=options.scenes, seed=options.seed,
-        objects=_range(options.objects), robot=options.robot, picture=options.picture,
+        tasks=tuple(name.strip() for name in options.tasks.split(",")),
+        scenes=options.scenes,
+        seed=options.seed,
+        objects=_range(options.objects),
+        robot=options.robot,
+        picture=options.picture,
         device=options.device,
-    )  # fmt: skip
+    )
     with _progress() as tell:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
         )
     _summary(Suite.open(options.folder))
     if status.made:
-        console().print(f"\n{status.made} scenes in {status.seconds:.0f} s: {status.per_hour:.0f} an hour with "
-                        f"{status.workers} workers", markup=False)  # fmt: skip
+        console().print(
+            f"\n{status.made} scenes in {status.seconds:.0f} s: {status.per_hour:.0f} an hour with "
+            f"{status.workers} workers",
+            markup=False,
+        )
     return 0
 
 

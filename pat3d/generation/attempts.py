@@ -96,10 +96,14 @@ class Attempt:
         """Plain data for report.json."""
         settling = dict(self.rest.record) if self.rest is not None else None
         return {
-            "attempt": self.number + 1, "layout_seed": self.layout_seed, "passed": self.passed,
-            "checked": self.checked is not None, "failures": list(self.failures), "settling": settling,
+            "attempt": self.number + 1,
+            "layout_seed": self.layout_seed,
+            "passed": self.passed,
+            "checked": self.checked is not None,
+            "failures": list(self.failures),
+            "settling": settling,
             "optimised": self.rest is not None and self.rest.optimisation is not None,
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -118,9 +122,17 @@ class Attempts:
     """Makes attempts at one order."""
 
     def __init__(
-        self, order: Order, *, seed: int, friction: float, device: str,
-        workspace: Workspace, clock: Clock, progress: Progress, scratch: Path,
-    ) -> None:  # fmt: skip
+        self,
+        order: Order,
+        *,
+        seed: int,
+        friction: float,
+        device: str,
+        workspace: Workspace,
+        clock: Clock,
+        progress: Progress,
+        scratch: Path,
+    ) -> None:
         self.order, self.seed, self.friction, self.device = order, seed, friction, device
         self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
         self._ingredients: tuple[Ingredient, ...] = ()
@@ -221,10 +233,14 @@ class Attempts:
             )
         objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
         scene = Scene(
-            objects=objects, relations=self.order.relations, attachments=layout.attachments,
-            prompt=self.order.prompt, seed=self.seed,
-            settling_friction=self.friction, provenance=self._provenance(layout_seed),
-        )  # fmt: skip
+            objects=objects,
+            relations=self.order.relations,
+            attachments=layout.attachments,
+            prompt=self.order.prompt,
+            seed=self.seed,
+            settling_friction=self.friction,
+            provenance=self._provenance(layout_seed),
+        )
         notes = (*(one.note for one in self._ingredients if one.note), *layout.notes)
         self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
         return scene, notes
@@ -311,6 +327,4 @@ def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> Sce
         lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
         x, y, z = pose.position
         pose = Pose(position=(x, y, z - lowest + CLEARANCE), quat_wxyz=pose.quat_wxyz)
-    return SceneObject(
-        name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed
-    )  # fmt: skip
+    return SceneObject(name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed)

@@ -106,10 +106,12 @@ class Workspace:
             write_json(
                 folder / "report.json",
                 {
-                    "inputs": dict(inputs), "layout": {"notes": list(notes)}, "settling": dict(rest.record),
+                    "inputs": dict(inputs),
+                    "layout": {"notes": list(notes)},
+                    "settling": dict(rest.record),
                     "optimisation": rest.optimisation,
                 },
-            )  # fmt: skip
+            )
 
     def clear(self) -> None:
         """Forget the unfinished work, now that the folder is complete."""

@@ -103,10 +103,12 @@ def optimize_folder(
     target = check_target(out if out is not None else source)
     report = read_json(source / "report.json")
     options = OptimizeOptions(
-        epochs=epochs, starts=starts, seed=scene.seed if seed is None else seed,
+        epochs=epochs,
+        starts=starts,
+        seed=scene.seed if seed is None else seed,
         # A scene that holds but failed its proof drifts in another engine: it should stand more firmly.
         steady=report.get("passed") is False,
-    )  # fmt: skip
+    )
     formats, usd = exported(source)
     with clock("kernels"):
         options = replace(options, device=prepare(device, progress))
@@ -124,7 +126,7 @@ def optimize_folder(
             proof = _write(done.scene, rest, report, exports, fresh, clock, progress)
     return Outcome(
         scene=done.scene, improved=done, proof=proof, folder=target, seconds=clock.seconds["total"], exports=exports
-    )  # fmt: skip
+    )
 
 
 def _write(
@@ -152,14 +154,17 @@ def _write(
         save_preview(scene, fresh / "preview.png")
     failures = _failures(rest, proof, exports)
     report = {
-        "format": FORMAT, "version": VERSION, "prompt": scene.prompt, "seed": scene.seed,
+        "format": FORMAT,
+        "version": VERSION,
+        "prompt": scene.prompt,
+        "seed": scene.seed,
         **{key: value for key, value in earlier.items() if key not in _STALE},
         **of_scene(scene, rest, proof),
         "exports": {name: one.as_dict() for name, one in exports.items()},
         "passed": not failures,
         "failures": list(failures),
         "seconds": dict(clock.seconds),
-    }  # fmt: skip
+    }
     write_json(fresh / "report.json", report)
     return proof
 

@@ -103,12 +103,8 @@ def improve(
             progress(Event(stage=_PHASES.get(phase, phase), step=step, motion=value))
 
     fulfilled = _fulfilled(scene)
-    wanted = replace(
-        scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled)
-    )  # fmt: skip
-    found = optimize_scene(
-        wanted, options=options, pinned=given_poses(scene), at_rest=at_rest, progress=tell
-    )  # fmt: skip
+    wanted = replace(scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled))
+    found = optimize_scene(wanted, options=options, pinned=given_poses(scene), at_rest=at_rest, progress=tell)
     if not found.improved:
         return Improved(scene=scene, rest=None, found=found)
     after = scene_after(scene, found.best)

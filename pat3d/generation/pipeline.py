@@ -146,9 +146,15 @@ def build(
         ExportError: `out` cannot be written.
     """
     return run_spec(
-        spec_path, out=out, seed=seed, friction=friction, device=device, formats=formats, resume=resume,
+        spec_path,
+        out=out,
+        seed=seed,
+        friction=friction,
+        device=device,
+        formats=formats,
+        resume=resume,
         progress=progress,
-    ).scene  # fmt: skip
+    ).scene
 
 
 def run_prompt(
@@ -205,9 +211,15 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
     workspace = Workspace(folder, keep=settings.resume)
     with replacing(folder) as fresh:
         attempts = Attempts(
-            order, seed=settings.seed, friction=settings.friction, device=settings.device,
-            workspace=workspace, clock=clock, progress=progress, scratch=fresh.parent,
-        )  # fmt: skip
+            order,
+            seed=settings.seed,
+            friction=settings.friction,
+            device=settings.device,
+            workspace=workspace,
+            clock=clock,
+            progress=progress,
+            scratch=fresh.parent,
+        )
         delivery = attempts.best_of(ATTEMPTS)
         scene, rest = delivery.checked.scene, delivery.checked.rest
         with clock("files"):
@@ -223,9 +235,12 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
         report = Report(
-            order=order.record, delivery=delivery, reused=tuple(workspace.reused), seconds=clock.seconds,
+            order=order.record,
+            delivery=delivery,
+            reused=tuple(workspace.reused),
+            seconds=clock.seconds,
             exports=exports,
-        )  # fmt: skip
+        )
         write_json(fresh / "report.json", report.as_dict())
     workspace.clear()
     return Outcome(scene=scene, report=report, folder=folder)

@@ -124,7 +124,13 @@ def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredi
 def _plain(obj: PlannedObject) -> dict[str, Any]:
     """A planned object as JSON data."""
     return {
-        "name": obj.name, "noun": obj.noun, "phrase": obj.phrase, "colours": list(obj.colours),
-        "material": obj.material, "scale": obj.scale, "adjectives": list(obj.adjectives), "proxy": obj.proxy,
+        "name": obj.name,
+        "noun": obj.noun,
+        "phrase": obj.phrase,
+        "colours": list(obj.colours),
+        "material": obj.material,
+        "scale": obj.scale,
+        "adjectives": list(obj.adjectives),
+        "proxy": obj.proxy,
         "extent": asdict(obj.extent) if obj.extent else None,
-    }  # fmt: skip
+    }

@@ -61,6 +61,11 @@ def _outline(name: str, load: Asset) -> Item:
     half = np.array(load.size[:2]) / 2
     corners = half * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
     return Item(
-        name=name, low=-half, high=half, outline=corners, centre_of_mass=np.zeros(2), tall=float(load.size[2]),
+        name=name,
+        low=-half,
+        high=half,
+        outline=corners,
+        centre_of_mass=np.zeros(2),
+        tall=float(load.size[2]),
         alike=load.noun,
-    )  # fmt: skip
+    )

@@ -61,10 +61,11 @@ class Spec:
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
             provenance={
-                "source": "specification", "file": self.source.path.name,
+                "source": "specification",
+                "file": self.source.path.name,
                 **({GIVEN: sorted(self.poses)} if self.poses else {}),
             },
-        )  # fmt: skip
+        )
 
     def gather(self, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
         """The assets, in the order of the specification."""

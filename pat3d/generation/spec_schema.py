@@ -19,13 +19,16 @@ _POSE = {
         "position": {**_VECTOR, "description": "Of the base's centre [m]; z is up."},
         "yaw_degrees": {"type": "number", "description": "Turn about the vertical, counter-clockwise from above."},
         "quat_wxyz": {
-            "type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4,
+            "type": "array",
+            "items": {"type": "number"},
+            "minItems": 4,
+            "maxItems": 4,
             "description": "Unit quaternion, scalar first, instead of yaw_degrees.",
         },
     },
     "required": ["position"],
     "additionalProperties": False,
-}  # fmt: skip
+}
 
 _OBJECT = {
     "type": "object",
@@ -33,7 +36,9 @@ _OBJECT = {
         "name": {**_NAME, "description": "Unique in the scene."},
         "noun": {**_NAME, "description": "What to take from the catalogue; see pat3d catalogue."},
         "mesh": {
-            "type": "string", "minLength": 1, "maxLength": 1000,
+            "type": "string",
+            "minLength": 1,
+            "maxLength": 1000,
             "description": "OBJ, STL, PLY, OFF, GLB or glTF file instead of a noun, relative to this file.",
         },
         "colour": {**_NAME, "description": "Main colour of a noun."},
@@ -59,7 +64,7 @@ _OBJECT = {
     },
     "required": ["name"],
     "additionalProperties": False,
-}  # fmt: skip
+}
 
 _RELATION = {
     "type": "object",
@@ -75,7 +80,10 @@ BUILD_SCHEMA: dict[str, Any] = {
     "properties": {
         "seed": {"type": "integer", "minimum": 0, "maximum": 2**32 - 1, "default": 0},
         "friction": {
-            "type": "number", "exclusiveMinimum": 0, "maximum": 2, "default": 0.2,
+            "type": "number",
+            "exclusiveMinimum": 0,
+            "maximum": 2,
+            "default": 0.2,
             "description": "Coulomb coefficient of every contact while settling.",
         },
         "objects": {"type": "array", "items": _OBJECT, "minItems": 1, "maxItems": 500},
@@ -88,4 +96,4 @@ BUILD_SCHEMA: dict[str, Any] = {
     },
     "required": ["objects"],
     "additionalProperties": False,
-}  # fmt: skip
+}

@@ -264,9 +264,13 @@ def _edges_near(part: WorldPart, other: WorldPart, reach: float) -> NDArray[np.f
 
 
 def _on_seam(
-    point: NDArray[np.float64], foot: NDArray[np.float64], normal: NDArray[np.float64],
-    parts: list[WorldPart], own: int, gap: float,
-) -> bool:  # fmt: skip
+    point: NDArray[np.float64],
+    foot: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    parts: list[WorldPart],
+    own: int,
+    gap: float,
+) -> bool:
     """Whether `point` touches another of `parts` instead, not part `own` at `foot`, `gap` [m] below it along `normal`.
 
     Another part is closer, and part `own` does not rise from it: where it does, the two form a hollow, such as a bowl's
@@ -285,9 +289,14 @@ def _on_seam(
 
 
 def _rises(
-    foot: NDArray[np.float64], normal: NDArray[np.float64], base: NDArray[np.float64], up: NDArray[np.float64],
-    parts: list[WorldPart], own: int, gap: float,
-) -> bool:  # fmt: skip
+    foot: NDArray[np.float64],
+    normal: NDArray[np.float64],
+    base: NDArray[np.float64],
+    up: NDArray[np.float64],
+    parts: list[WorldPart],
+    own: int,
+    gap: float,
+) -> bool:
     """Whether a step from `foot` along `up`, part `own` is open and above the plane through `base` across `up`."""
     along = up - (up @ normal) * normal
     size = float(np.linalg.norm(along))

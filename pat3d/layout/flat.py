@@ -42,10 +42,16 @@ class Item:
         turn = np.array([[0.0, -1.0], [1.0, 0.0]])
         corners = np.array([self.low, self.high]) @ turn.T
         return Item(
-            name=self.name, low=corners.min(axis=0), high=corners.max(axis=0), outline=self.outline @ turn.T,
-            centre_of_mass=turn @ self.centre_of_mass, tall=self.tall, alike=self.alike, turnable=False,
+            name=self.name,
+            low=corners.min(axis=0),
+            high=corners.max(axis=0),
+            outline=self.outline @ turn.T,
+            centre_of_mass=turn @ self.centre_of_mass,
+            tall=self.tall,
+            alike=self.alike,
+            turnable=False,
             walled=self.walled,
-        )  # fmt: skip
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

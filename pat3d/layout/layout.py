@@ -164,17 +164,13 @@ class _Arranger:
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         groups = [self._build(kid, 0.0) for kid in names if kid not in self.fixed]
         obstacles = [member for other in given for member in other.members]
-        packed = pack(
-            root, column, groups, obstacles=obstacles, rng=self._rng(group.name, "pack"), gap=self.gap
-        )  # fmt: skip
+        packed = pack(root, column, groups, obstacles=obstacles, rng=self._rng(group.name, "pack"), gap=self.gap)
         return self._with(group, [*given, *packed])
 
     def _load(self, group: Group, names: list[str], yaw: float) -> Group:
         if not names:
             return group
-        laterals = [
-            lat for lat in self.laterals.get(group.name, []) if lat.child in names and lat.parent in names
-        ]  # fmt: skip
+        laterals = [lat for lat in self.laterals.get(group.name, []) if lat.child in names and lat.parent in names]
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         free = [kid for kid in names if kid not in self.fixed]
         groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]

@@ -151,9 +151,10 @@ class _Search:
         done, order = set(self.pinned), []
         while waiting:
             tied = [
-                item for item in waiting
+                item
+                for item in waiting
                 if any({item.name, other} == {lat.child, lat.parent} for other in done for lat in self.laterals)
-            ]  # fmt: skip
+            ]
             chosen = (tied or [item for item in waiting if self._leads(item.name)] or waiting)[0]
             waiting.remove(chosen)
             order.append(chosen)

@@ -262,10 +262,20 @@ class _Search:
 
         options = self.options
         best = refine(
-            placement, placement.relations, confirm=confirm, start=number, history=history, progress=self.progress,
-            epochs=options.epochs, learning_rate=options.learning_rate, every=options.every, patience=options.patience,
-            frames=min(options.frames, options.settle.max_frames), settings=options.settle, device=options.device,
-        )  # fmt: skip
+            placement,
+            placement.relations,
+            confirm=confirm,
+            start=number,
+            history=history,
+            progress=self.progress,
+            epochs=options.epochs,
+            learning_rate=options.learning_rate,
+            every=options.every,
+            patience=options.patience,
+            frames=min(options.frames, options.settle.max_frames),
+            settings=options.settle,
+            device=options.device,
+        )
         if not any(one.satisfied for one in found):
             confirm(best)
         return found

@@ -139,9 +139,7 @@ class Placement:
             if above == GROUND and lift[name] > SHALLOW:
                 raise LayoutError(f'"{name}" would stand on another object.')
         prove([done[name] for name in self.names])
-        return {
-            name: self.poses[name] if name in self.held else done[name].pose for name in self.names
-        }  # fmt: skip
+        return {name: self.poses[name] if name in self.held else done[name].pose for name in self.names}
 
     def scene(
         self,
@@ -154,14 +152,15 @@ class Placement:
         """The objects as a scene laid out at `poses0`, and at rest at `poses`, settled with `friction` [-]."""
         objects = tuple(
             SceneObject(
-                name=name, asset=asset, initial_pose=poses0[name], pose=(poses or poses0)[name],
+                name=name,
+                asset=asset,
+                initial_pose=poses0[name],
+                pose=(poses or poses0)[name],
                 fixed=name in self.fixed,
             )
             for name, asset in self.assets.items()
-        )  # fmt: skip
-        return Scene(
-            objects=objects, relations=self.relations, attachments=attachments, settling_friction=friction
-        )  # fmt: skip
+        )
+        return Scene(objects=objects, relations=self.relations, attachments=attachments, settling_friction=friction)
 
     def groups(self, poses: Mapping[str, Pose]) -> dict[str, Group]:
         """Every object with everything that it carries, at `poses`."""

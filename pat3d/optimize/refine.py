@@ -168,7 +168,5 @@ def _broken(model: Model, placement: Placement, relations: tuple[Relation, ...],
     """How many relations do not hold at states `q`, shape (bodies, 12)."""
     poses = dict(zip(placement.names, poses_from_states(model, q.reshape(-1, 4, 3)), strict=True))
     # Bodies still float within the barrier's reach while they drop.
-    results = check_relations(
-        relations, placement.assets, poses, touch=2e-3, attachments=placement.attachments
-    )  # fmt: skip
+    results = check_relations(relations, placement.assets, poses, touch=2e-3, attachments=placement.attachments)
     return sum(not result.holds for result in results)

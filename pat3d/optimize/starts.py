@@ -60,17 +60,13 @@ def make_starts(
     """
     rng = np.random.default_rng(seed)
     held = placement.attachments
-    start = Start(
-        source="layout", poses=placement.poses, balance=balance(placement, placement.poses), attachments=held
-    )  # fmt: skip
+    start = Start(source="layout", poses=placement.poses, balance=balance(placement, placement.poses), attachments=held)
     if count <= 1:
         return [start]
     found: list[Start] = []
 
     def add(source: str, poses: Mapping[str, Pose], attachments: tuple[Attachment, ...] = held) -> None:
-        found.append(
-            Start(source=source, poses=poses, balance=balance(placement, poses), attachments=attachments)
-        )  # fmt: skip
+        found.append(Start(source=source, poses=poses, balance=balance(placement, poses), attachments=attachments))
 
     best = balanced(placement)
     for source, variables in [
@@ -110,9 +106,10 @@ def balance(placement: Placement, poses: Mapping[str, Pose]) -> float:
         carried = {member.body.name for member in group.members}
         low, high = group.root.low, group.root.high
         others = [
-            other.root for key, other in groups.items()
+            other.root
+            for key, other in groups.items()
             if key not in carried and np.all(other.root.low[:2] < high[:2]) and np.all(other.root.high[:2] > low[:2])
-        ]  # fmt: skip
+        ]
         worst = min(worst, _share(group, others))
     return worst
 
@@ -165,9 +162,12 @@ def _on(group: Group, carrier, offset: NDArray[np.float64]) -> float:
     origin = group.root.position
     spot = np.array([*(origin[:2] + offset), origin[2]])
     found = lower(
-        Group(tuple(member.shifted(-origin) for member in group.members)), spot, [carrier],
-        floor=float(carrier.low[2]), gap=GAP,
-    )  # fmt: skip
+        Group(tuple(member.shifted(-origin) for member in group.members)),
+        spot,
+        [carrier],
+        floor=float(carrier.low[2]),
+        gap=GAP,
+    )
     if found is None or found.low[2] <= carrier.low[2] + 2 * GAP:
         return -np.inf
     return support_margin(found, [carrier], gap=GAP)

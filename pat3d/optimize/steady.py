@@ -85,9 +85,11 @@ def deepest(points: NDArray[np.float64], inside: NDArray[np.float64]) -> tuple[N
         return middle, -float(np.linalg.norm(inside - middle))
     # Largest inscribed circle: maximise r with n x + c + r <= 0 for every edge.
     found = linprog(
-        [0.0, 0.0, -1.0], A_ub=np.column_stack([planes[:, :2], np.ones(len(planes))]), b_ub=-planes[:, 2],
+        [0.0, 0.0, -1.0],
+        A_ub=np.column_stack([planes[:, :2], np.ones(len(planes))]),
+        b_ub=-planes[:, 2],
         bounds=[(None, None), (None, None), (0.0, None)],
-    )  # fmt: skip
+    )
     middle = found.x[:2] if found.success else points.mean(axis=0)
     return middle, -float(np.max(planes[:, :2] @ inside + planes[:, 2]))
 

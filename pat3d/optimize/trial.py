@@ -105,12 +105,16 @@ class Optimized:
             "broken": [str(result.relation) for result in self.best.broken],
             "steadiness_degrees": self.best.steadiness,
             "trials": [
-                {"source": one.source, "loss": one.loss, "broken": len(one.broken), "at_rest": one.at_rest,
-                 "steadiness_degrees": one.steadiness}
+                {
+                    "source": one.source,
+                    "loss": one.loss,
+                    "broken": len(one.broken),
+                    "at_rest": one.at_rest,
+                    "steadiness_degrees": one.steadiness,
+                }
                 for one in self.trials
             ],
             "history": [
-                {"start": one.start, "epoch": one.epoch, "loss": one.loss, "broken": one.broken}
-                for one in self.history
+                {"start": one.start, "epoch": one.epoch, "loss": one.loss, "broken": one.broken} for one in self.history
             ],
-        }  # fmt: skip
+        }

@@ -19,9 +19,19 @@ from numpy.typing import NDArray
 from pat3d.errors import ExportError
 
 OWN = (
-    "scene.json", "assets", "mjcf", "usd", "urdf", "sdf", "report.json", "summary.json", "preview.png",
-    "trajectory.npz", "loss.png", "before_after.png",
-)  # fmt: skip
+    "scene.json",
+    "assets",
+    "mjcf",
+    "usd",
+    "urdf",
+    "sdf",
+    "report.json",
+    "summary.json",
+    "preview.png",
+    "trajectory.npz",
+    "loss.png",
+    "before_after.png",
+)
 """What a scene folder holds; anything else in it is the user's and is kept."""
 
 MAX_REPORT_BYTES = 16 * 2**20
@@ -169,9 +179,12 @@ def write_trajectory(
     """
     with path.open("wb") as file:
         np.savez_compressed(
-            file, names=np.array(names), states=np.asarray(states, dtype=np.float32), centres=centres,
+            file,
+            names=np.array(names),
+            states=np.asarray(states, dtype=np.float32),
+            centres=centres,
             time_step=np.float64(time_step),
-        )  # fmt: skip
+        )
 
 
 def read_trajectory(path: Path) -> dict[str, NDArray[Any]] | None:

@@ -143,9 +143,7 @@ class _Backward:
         self._outside.array.zero_()
         potential.candidates.flag_outside(start, end, self._outside.array)
         potential.assemble(self._end, end, potential.everywhere, self._worlds[0], potential._hessian)
-        wp.launch(
-            _negate, dim=self.model.bodies, device=self.model.device, inputs=[self.adjoint], outputs=[self._w]
-        )  # fmt: skip
+        wp.launch(_negate, dim=self.model.bodies, device=self.model.device, inputs=[self.adjoint], outputs=[self._w])
         self.solver.set_right_side(potential._hessian, self._w)
         self._outside.fetch()
 
@@ -156,31 +154,53 @@ class _Backward:
             buffer.zero_()
         self.solver.get_solution(self._w)
         wp.launch(
-            _select, dim=model.bodies, device=model.device,
-            inputs=[model.body_world, self._worlds[0]], outputs=[self._w],
-        )  # fmt: skip
+            _select,
+            dim=model.bodies,
+            device=model.device,
+            inputs=[model.body_world, self._worlds[0]],
+            outputs=[self._w],
+        )
         if self._by_reach:
             pull_back_reach(model, potential.contact, potential._end, self._w, self.reach)
         pull_back_lag(
-            model, friction, potential.candidates, potential._start, self.replay.lag_reach,
-            potential.contact.stiffness, self._end, self._w, self._recorded, self._moved, self._lagged,
-        )  # fmt: skip
+            model,
+            friction,
+            potential.candidates,
+            potential._start,
+            self.replay.lag_reach,
+            potential.contact.stiffness,
+            self._end,
+            self._w,
+            self._recorded,
+            self._moved,
+            self._lagged,
+        )
         if self._by_lag:
-            wp.launch(
-                _subtract, dim=model.worlds, device=model.device, inputs=[self._lagged], outputs=[self.reach]
-            )  # fmt: skip
+            wp.launch(_subtract, dim=model.worlds, device=model.device, inputs=[self._lagged], outputs=[self.reach])
         coefficient, friction.coefficient = friction.coefficient, self._one
         self._force.zero_()
         friction.add_value(self._end, self._worlds[0], self._energy, self._force)
         friction.coefficient = coefficient
         wp.launch(
-            _pull, dim=model.bodies, device=model.device,
+            _pull,
+            dim=model.bodies,
+            device=model.device,
             inputs=[
-                model.body_world, model.body_dof, model.body_mass, model.body_moment, potential.inertia.sigma,
-                self._worlds, self.replay.start, self._end, self._w, self._recorded, self._moved, self._force,
+                model.body_world,
+                model.body_dof,
+                model.body_mass,
+                model.body_moment,
+                potential.inertia.sigma,
+                self._worlds,
+                self.replay.start,
+                self._end,
+                self._w,
+                self._recorded,
+                self._moved,
+                self._force,
             ],
             outputs=[self.adjoint, self.anchored, self.mass, self.friction],
-        )  # fmt: skip
+        )
 
 
 @wp.kernel

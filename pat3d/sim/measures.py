@@ -64,10 +64,12 @@ class StepMeasures:
         potential.measure_residual(self._gradient, values[1])
         potential.friction.largest_slip(self.q, potential.everywhere, values[2])
         wp.launch(
-            _compare_steps, dim=model.bodies, device=model.device,
+            _compare_steps,
+            dim=model.bodies,
+            device=model.device,
             inputs=[model.body_world, self._radius, potential.inertia.start, self.q, self._last],
             outputs=[values[3], values[4]],
-        )  # fmt: skip
+        )
         self._launch_motion()
 
 

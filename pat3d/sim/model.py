@@ -197,11 +197,17 @@ class ModelBuilder:
                 raise SimulationError(f'body "{label}" has a part that is flat or inside out.')
         self._bodies.append(
             {
-                "world": self._world, "parts": tuple(parts), "mass": mass, "volume": volume,
-                "centre": np.asarray(centre, dtype=np.float64), "moment": np.asarray(second_moment, dtype=np.float64),
-                "pose": pose, "fixed": fixed, "label": label,
+                "world": self._world,
+                "parts": tuple(parts),
+                "mass": mass,
+                "volume": volume,
+                "centre": np.asarray(centre, dtype=np.float64),
+                "moment": np.asarray(second_moment, dtype=np.float64),
+                "pose": pose,
+                "fixed": fixed,
+                "label": label,
             }
-        )  # fmt: skip
+        )
         return len(self._bodies) - 1
 
     def add_attachment(

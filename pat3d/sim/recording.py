@@ -91,9 +91,15 @@ class RecordedRun(Run):
     def recorded(self) -> tuple[Recording, list[wp.array]]:
         """The record so far, and the kept states, shape (bodies, 4), vec3d each."""
         record = Recording(
-            model=self.model, options=self.options, friction=self.coefficient, kept=np.array(self.kept),
-            every=self.every, steps=self.kept_states.steps, calls=self.calls, references=self.references,
-        )  # fmt: skip
+            model=self.model,
+            options=self.options,
+            friction=self.coefficient,
+            kept=np.array(self.kept),
+            every=self.every,
+            steps=self.kept_states.steps,
+            calls=self.calls,
+            references=self.references,
+        )
         return record, self.kept_states.states
 
 

@@ -165,7 +165,9 @@ class _Steps(torch.autograd.Function):
         with threadpool_limits(limits=1, user_api="blas"):
             found = backward(ctx.record, states, losses, d_hat=ctx.needs_input_grad[4])
         results = (
-            found.q0.reshape(frames.shape[1:]), found.friction, found.mass.reshape(frames.shape[1:3]),
+            found.q0.reshape(frames.shape[1:]),
+            found.friction,
+            found.mass.reshape(frames.shape[1:3]),
             np.asarray(found.d_hat),
-        )  # fmt: skip
+        )
         return None, *(torch.from_numpy(x).to(device) for x, device in zip(results, ctx.devices, strict=True))

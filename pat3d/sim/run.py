@@ -159,10 +159,14 @@ class Run:
             self.tape.states.append(wp.clone(self.q))
             self.tape.steps.append(
                 StepRecord(
-                    active=active.copy(), sigma=sigma, d_hat=potential.contact.d_hat,
-                    lag_d_hat=self.lag_d_hat, epsilon=potential.friction.epsilon, reference=self.reference.copy(),
+                    active=active.copy(),
+                    sigma=sigma,
+                    d_hat=potential.contact.d_hat,
+                    lag_d_hat=self.lag_d_hat,
+                    epsilon=potential.friction.epsilon,
+                    reference=self.reference.copy(),
                 )
-            )  # fmt: skip
+            )
         return result
 
     def _halt(self, found: dict[int, Status]) -> None:
@@ -209,9 +213,13 @@ class Run:
             self.anchor(active)
             self.record_friction()
             self.step(
-                active, one, move_tolerance=0.1 * options.d_hat,
-                residual_tolerance=options.drop_residual, exact_below=EXACT_BELOW, max_iterations=100,
-            )  # fmt: skip
+                active,
+                one,
+                move_tolerance=0.1 * options.d_hat,
+                residual_tolerance=options.drop_residual,
+                exact_below=EXACT_BELOW,
+                max_iterations=100,
+            )
             move = self._measures.motion()
             self.frames += 1
             self._frames.append(wp.clone(self.q))
@@ -220,9 +228,14 @@ class Run:
             self.progress("settling", self.frames, float(move.max()))
 
     def relax(
-        self, d_hat: float, residual_tolerance: float, move_tolerance: float, slow: float, fast: float,
+        self,
+        d_hat: float,
+        residual_tolerance: float,
+        move_tolerance: float,
+        slow: float,
+        fast: float,
         among: NDArray[np.bool_] | None = None,
-    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:  # fmt: skip
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Converge to static equilibrium at a barrier of reach d_hat [m]; returns which worlds did, and residuals.
 
         Worlds that are not `among` those to relax, shape (worlds,), stay where they are and count as if they did not.
@@ -243,9 +256,13 @@ class Run:
         while self.polish_steps < limit and active.any():
             self.anchor(active & ~anchored)
             self.step(
-                active, weight, move_tolerance=np.inf, residual_tolerance=0.1 * residual_tolerance,
-                exact_below=EXACT_BELOW, max_iterations=60,
-            )  # fmt: skip
+                active,
+                weight,
+                move_tolerance=np.inf,
+                residual_tolerance=0.1 * residual_tolerance,
+                exact_below=EXACT_BELOW,
+                max_iterations=60,
+            )
             self.polish_steps += 1
             active &= self.running()
             # The next step's friction acts with the normal forces of this state, so rest is judged with them.

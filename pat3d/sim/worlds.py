@@ -24,7 +24,7 @@ def copy_worlds(model: Model, worlds: wp.array, source: wp.array, target: wp.arr
     """
     wp.launch(
         _copy_worlds, dim=model.bodies, device=model.device, inputs=[model.body_world, worlds, source], outputs=[target]
-    )  # fmt: skip
+    )
 
 
 @wp.kernel

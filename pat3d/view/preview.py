@@ -63,9 +63,7 @@ def side_by_side(
 ) -> Image.Image:
     """Captioned pictures in a row, seen by one camera that shows all; arguments as for `save_preview`."""
     camera = overlooking([items for _, items in panels], aspect=width / height)
-    sheet = _Sheet(
-        columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11)
-    )  # fmt: skip
+    sheet = _Sheet(columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11))
     for index, (caption, items) in enumerate(panels):
         sheet.put(index, render(items, camera=camera, width=width, height=height), caption)
     return sheet.image

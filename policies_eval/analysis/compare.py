@@ -72,8 +72,10 @@ def show_comparison(target: Any, found: PairedResult) -> None:
     for name, rate in zip(found.names, found.rates, strict=True):
         line(f"{name}: success {rate}")
     seen = found.comparison
-    line(f"both {seen.both}, only the first {seen.only_first}, only the second {seen.only_second}, "
-         f"neither {seen.neither}")  # fmt: skip
+    line(
+        f"both {seen.both}, only the first {seen.only_first}, only the second {seen.only_second}, "
+        f"neither {seen.neither}"
+    )
     line(f"difference {100 * seen.difference:+.1f} points, exact McNemar p = {seen.p_value:.3g}")
     line(verdict(found))
     if found.left_out:

@@ -78,10 +78,13 @@ def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, p
         if replayer is not None:
             replayer.close()
     parts = [
-        _head(evaluation, summary), _failures(summary), _tables(summary),
+        _head(evaluation, summary),
+        _failures(summary),
+        _tables(summary),
         _section("What it looked like", "".join([*films, *strips])) if films or strips else "",
-        _episodes(evaluation.results), _made_with(evaluation, summary),
-    ]  # fmt: skip
+        _episodes(evaluation.results),
+        _made_with(evaluation, summary),
+    ]
     page = (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'

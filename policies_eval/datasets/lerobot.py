@@ -121,10 +121,15 @@ class _Writer:
         if self._pending and self._bytes + size > DATA_BYTES:
             self._write_data()
         row: dict[str, Any] = {
-            "episode_index": number, "tasks": [one.instruction], "length": steps,
-            **_place("data", self._file), "dataset_from_index": self._frames, "dataset_to_index": self._frames + steps,
-            **_place("meta/episodes", 0), **self._film(pictures, steps),
-        }  # fmt: skip
+            "episode_index": number,
+            "tasks": [one.instruction],
+            "length": steps,
+            **_place("data", self._file),
+            "dataset_from_index": self._frames,
+            "dataset_to_index": self._frames + steps,
+            **_place("meta/episodes", 0),
+            **self._film(pictures, steps),
+        }
         for name, array in (values | pictures).items():
             row |= {f"stats/{name}/{kind}": found.tolist() for kind, found in _statistics(array).items()}
             self._totals.setdefault(name, _Totals()).add(array)
@@ -144,12 +149,20 @@ class _Writer:
         _write_table(pa.Table.from_pylist(self._episodes), self._root / _filled(EPISODES_PATH, 0))
         _write_table(_tasks_table(pa, self._tasks), self._root / TASKS_PATH)
         info = {
-            "codebase_version": VERSION, "robot_type": self._settings.robot.lower(),
-            "total_episodes": len(self._episodes), "total_frames": self._frames, "total_tasks": len(self._tasks),
-            "chunks_size": CHUNK, "data_files_size_in_mb": DATA_BYTES // 2**20, "video_files_size_in_mb": 200,
-            "fps": self._fps, "splits": {"train": f"0:{len(self._episodes)}"}, "data_path": DATA_PATH,
-            "video_path": VIDEO_PATH if self._films else None, "features": self._features,
-        }  # fmt: skip
+            "codebase_version": VERSION,
+            "robot_type": self._settings.robot.lower(),
+            "total_episodes": len(self._episodes),
+            "total_frames": self._frames,
+            "total_tasks": len(self._tasks),
+            "chunks_size": CHUNK,
+            "data_files_size_in_mb": DATA_BYTES // 2**20,
+            "video_files_size_in_mb": 200,
+            "fps": self._fps,
+            "splits": {"train": f"0:{len(self._episodes)}"},
+            "data_path": DATA_PATH,
+            "video_path": VIDEO_PATH if self._films else None,
+            "features": self._features,
+        }
         stats = {
             name: {kind: found.tolist() for kind, found in total.result().items()}
             for name, total in self._totals.items()
@@ -163,12 +176,20 @@ class _Writer:
         for name, array in pictures.items():
             height, width = array.shape[1:3]
             found[name] = {
-                "dtype": "video", "shape": [height, width, 3], "names": ["height", "width", "channels"],
+                "dtype": "video",
+                "shape": [height, width, 3],
+                "names": ["height", "width", "channels"],
                 "info": {
-                    "video.height": height, "video.width": width, "video.codec": "h264", "video.pix_fmt": "yuv420p",
-                    "video.is_depth_map": False, "video.fps": self._fps, "video.channels": 3, "has_audio": False,
+                    "video.height": height,
+                    "video.width": width,
+                    "video.codec": "h264",
+                    "video.pix_fmt": "yuv420p",
+                    "video.is_depth_map": False,
+                    "video.fps": self._fps,
+                    "video.channels": 3,
+                    "has_audio": False,
                 },
-            }  # fmt: skip
+            }
         for name, array in values.items():
             shape = list(array.shape[1:]) or [1]
             found[name] = {"dtype": str(array.dtype), "shape": shape, "names": _names(name, shape[0])}
@@ -230,9 +251,12 @@ class _Totals:
         variance = (weights * (stacked["std"] ** 2 + (stacked["mean"] - mean) ** 2)).sum(axis=0)
         found = {name: (weights * stacked[name]).sum(axis=0) for name in QUANTILES}
         return found | {
-            "min": stacked["min"].min(axis=0), "max": stacked["max"].max(axis=0), "mean": mean,
-            "std": np.sqrt(variance), "count": np.array([int(counts.sum())]),
-        }  # fmt: skip
+            "min": stacked["min"].min(axis=0),
+            "max": stacked["max"].max(axis=0),
+            "mean": mean,
+            "std": np.sqrt(variance),
+            "count": np.array([int(counts.sum())]),
+        }
 
 
 def _values_of(one: Demonstration) -> tuple[Values, Values]:
@@ -263,10 +287,12 @@ def _statistics(array: NDArray[Any]) -> dict[str, NDArray[Any]]:
         # A tenth of the pictures' lines says as much.
         values, axis = values[:, ::3, ::3] / 255.0, (0, 1, 2)  # type: ignore[assignment]
     found = {
-        "min": values.min(axis=axis), "max": values.max(axis=axis), "mean": values.mean(axis=axis),
+        "min": values.min(axis=axis),
+        "max": values.max(axis=axis),
+        "mean": values.mean(axis=axis),
         "std": values.std(axis=axis),
         **dict(zip(QUANTILES, np.quantile(values, list(QUANTILES.values()), axis=axis), strict=True)),
-    }  # fmt: skip
+    }
     shape = (3, 1, 1) if array.ndim == 4 else (-1,)
     return {name: np.asarray(value).reshape(shape) for name, value in found.items()} | {"count": np.array([len(array)])}
 
@@ -289,12 +315,14 @@ def _tasks_table(pa: Any, tasks: Mapping[str, int]) -> Any:
     table = pa.table({"task_index": pa.array(list(tasks.values()), pa.int64()), "task": pa.array(list(tasks))})
     kinds = {"task_index": ("int64", "int64"), "task": ("unicode", "object")}
     described = {
-        "index_columns": ["task"], "column_indexes": [], "pandas_version": "2.0.0",
+        "index_columns": ["task"],
+        "column_indexes": [],
+        "pandas_version": "2.0.0",
         "columns": [
             {"name": name, "field_name": name, "pandas_type": kind, "numpy_type": numpy_kind, "metadata": None}
             for name, (kind, numpy_kind) in kinds.items()
         ],
-    }  # fmt: skip
+    }
     return table.replace_schema_metadata({"pandas": json.dumps(described)})
 
 

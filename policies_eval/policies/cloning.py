@@ -39,10 +39,19 @@ def features(observation: Mapping[str, Any]) -> NDArray[np.float32]:
     hand_rotation, rotation = _matrix(observation["eef_quat"]), _matrix(target[3:7])
     away, goal = target[:3] - hand, target[7:10] - target[:3]
     fingers = np.asarray(observation["gripper_pos"], dtype=np.float64)[:2]
-    return np.concatenate([
-        away, rotation.T @ away, hand_rotation.T @ away, goal, [hand[2]], fingers, hand_rotation[:, :2].ravel(),
-        (rotation.T @ hand_rotation)[:, :2].ravel(), rotation[:, :2].ravel(),
-    ]).astype(np.float32)  # fmt: skip
+    return np.concatenate(
+        [
+            away,
+            rotation.T @ away,
+            hand_rotation.T @ away,
+            goal,
+            [hand[2]],
+            fingers,
+            hand_rotation[:, :2].ravel(),
+            (rotation.T @ hand_rotation)[:, :2].ravel(),
+            rotation[:, :2].ravel(),
+        ]
+    ).astype(np.float32)
 
 
 FEATURES = 33
@@ -110,8 +119,12 @@ def save(network: Any, file: str | Path, notes: Mapping[str, Any]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_suffix(f".{os.getpid()}.part")
     content = {
-        "kind": KIND, "format": FORMAT, "config": network.config, "weights": network.state_dict(), "notes": dict(notes)
-    }  # fmt: skip
+        "kind": KIND,
+        "format": FORMAT,
+        "config": network.config,
+        "weights": network.state_dict(),
+        "notes": dict(notes),
+    }
     try:
         torch.save(content, temporary)
         os.replace(temporary, path)
@@ -161,11 +174,13 @@ def load(file: str | Path) -> Any:
 
 def _matrix(quat_wxyz: Any) -> NDArray[np.float64]:
     w, x, y, z = (float(value) for value in quat_wxyz)
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def _torch() -> Any:

@@ -76,9 +76,10 @@ class LeRobotPolicy:
             self._policy = make.from_pretrained(str(folder), config=config)
             self._policy.eval()
             self._before, self._after = factory.make_pre_post_processors(
-                policy_cfg=config, pretrained_path=str(folder),
+                policy_cfg=config,
+                pretrained_path=str(folder),
                 preprocessor_overrides={"device_processor": {"device": config.device}},
-            )  # fmt: skip
+            )
         except Exception as error:
             # Whatever a checkpoint of another version makes the package raise.
             raise EvaluationError(f"{folder}: LeRobot cannot load it: {type(error).__name__}: {error}") from error

@@ -88,9 +88,14 @@ class ServerPolicy:
             try:
                 # Observations are pictures already; compressing them again costs more than it saves.
                 connection = client.connect(
-                    self._address, compression=None, max_size=wire.MAX_BYTES, proxy=None, open_timeout=OPEN_SECONDS,
-                    close_timeout=1.0, ping_interval=None,
-                )  # fmt: skip
+                    self._address,
+                    compression=None,
+                    max_size=wire.MAX_BYTES,
+                    proxy=None,
+                    open_timeout=OPEN_SECONDS,
+                    close_timeout=1.0,
+                    ping_interval=None,
+                )
                 self._socket = self._open.enter_context(connection)
                 break
             except (OSError, TimeoutError, websockets.exceptions.InvalidHandshake) as error:
@@ -146,9 +151,9 @@ def message_of(observation: Mapping[str, Any], prompt: str) -> dict[str, Any]:
         short = "image" if name == first else name
         message[f"observation/{short}"] = np.ascontiguousarray(value)
     if {"eef_pos", "eef_quat", "gripper_pos"} <= observation.keys():
-        message["observation/state"] = np.concatenate([
-            observation["eef_pos"], _axis_angle(observation["eef_quat"]), observation["gripper_pos"][:2]
-        ]).astype(np.float32)  # fmt: skip
+        message["observation/state"] = np.concatenate(
+            [observation["eef_pos"], _axis_angle(observation["eef_quat"]), observation["gripper_pos"][:2]]
+        ).astype(np.float32)
     return message
 
 

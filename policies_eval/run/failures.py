@@ -22,8 +22,16 @@ from typing import Any
 import numpy as np
 
 OUTCOMES = (
-    "success", "missed", "slipped", "dropped", "toppled", "collided", "timed_out", "policy_error", "simulation_error",
-)  # fmt: skip
+    "success",
+    "missed",
+    "slipped",
+    "dropped",
+    "toppled",
+    "collided",
+    "timed_out",
+    "policy_error",
+    "simulation_error",
+)
 
 LIFTED = 0.02
 """Higher than this above its start an object is in the air [m]."""

@@ -87,10 +87,16 @@ def result_of(row: dict[str, Any]) -> Result:
         actions = np.frombuffer(row["actions"], dtype="<f4").astype(np.float32)
         if row["outcome"] not in OUTCOMES or len(actions) > MAX_STEPS * max(size, 1):
             raise ValueError(f'outcome "{row["outcome"]}" of {len(actions)} numbers')
-        episode = Episode.from_json({
-            "index": row["index"], "scene": row["scene"], "task": row["task"], "seed": row["seed"],
-            "axes": json.loads(row["axes"]), "perturbation": json.loads(row["perturbation"]),
-        })  # fmt: skip
+        episode = Episode.from_json(
+            {
+                "index": row["index"],
+                "scene": row["scene"],
+                "task": row["task"],
+                "seed": row["seed"],
+                "axes": json.loads(row["axes"]),
+                "perturbation": json.loads(row["perturbation"]),
+            }
+        )
         return Result(
             episode=episode,
             outcome=str(row["outcome"]),
@@ -98,9 +104,14 @@ def result_of(row: dict[str, Any]) -> Result:
             steps=int(row["steps"]),
             reason=str(row["reason"]),
             events=Events(
-                grasped=bool(row["grasped"]), lifted=bool(row["lifted"]), slipped=bool(row["slipped"]),
-                dropped=bool(row["dropped"]), toppled=tuple(row["toppled"]), collided=tuple(row["collided"]),
-                closest=float(row["closest"]), highest=float(row["highest"]),
+                grasped=bool(row["grasped"]),
+                lifted=bool(row["lifted"]),
+                slipped=bool(row["slipped"]),
+                dropped=bool(row["dropped"]),
+                toppled=tuple(row["toppled"]),
+                collided=tuple(row["collided"]),
+                closest=float(row["closest"]),
+                highest=float(row["highest"]),
             ),
             progress=float(row["progress"]),
             instruction=str(row["instruction"]),
@@ -112,7 +123,7 @@ def result_of(row: dict[str, Any]) -> Result:
             policy_seconds=float(row["policy_seconds"]),
             physics_seconds=float(row["physics_seconds"]),
             wall_seconds=float(row["wall_seconds"]),
-        )  # fmt: skip
+        )
     except (KeyError, TypeError, ValueError) as error:
         raise EvaluationError(f"a record that cannot be read: {type(error).__name__}: {error}") from error
 

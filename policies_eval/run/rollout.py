@@ -128,10 +128,15 @@ class Runner:
         guard = _Guard(settings.act_seconds, clock, self._deadline)
         try:
             begin = EpisodeStart(
-                instruction=info["instruction"], task=info["task"], seed=episode.seed, robot=settings.robot,
-                control=settings.control, action_size=size, control_freq=settings.control_freq,
+                instruction=info["instruction"],
+                task=info["task"],
+                seed=episode.seed,
+                robot=settings.robot,
+                control=settings.control,
+                action_size=size,
+                control_freq=settings.control_freq,
                 env=env if getattr(policy, "privileged", False) else None,
-            )  # fmt: skip
+            )
             with guard:
                 guard.ask("reset", policy.reset, begin)
                 while len(recorder.actions) < settings.max_steps and not (success or broken):

@@ -40,6 +40,11 @@ class RolloutSettings:
 
         kinds: dict[str, Any] = {"robot": self.robot, "obs": self.obs, "control": self.control}
         return TabletopEnv(
-            scene=scene or None, task=task, control_freq=self.control_freq, max_objects=self.max_objects,
-            image_size=(self.image_size, self.image_size), **kinds, **more,
-        )  # fmt: skip
+            scene=scene or None,
+            task=task,
+            control_freq=self.control_freq,
+            max_objects=self.max_objects,
+            image_size=(self.image_size, self.image_size),
+            **kinds,
+            **more,
+        )

@@ -12,14 +12,26 @@ from pat3d.plan.grammar.vocabulary import Nouns
 
 # Sizes [mm], smallest first, and mass [g] as Calli et al. 2015 publish them for the YCB set.
 YCB = {
-    "cracker box": (60, 158, 210, 411), "sugar box": (38, 89, 175, 514), "tomato soup can": (66, 66, 101, 349),
-    "mustard bottle": (58, 95, 190, 603), "tuna fish can": (33, 85, 85, 171), "pudding box": (35, 89, 110, 187),
-    "gelatin box": (28, 73, 85, 97), "potted meat can": (50, 82, 97, 370), "master chef can": (102, 102, 139, 414),
-    "chips can": (75, 75, 250, 205), "bleach cleanser": (65, 98, 250, 1131), "wood block": (85, 85, 200, 729),
-    "foam brick": (50, 50, 75, 28), "golf ball": (42.7, 42.7, 42.7, 46), "racquetball": (55.3, 55.3, 55.3, 41),
-    "padlock": (24, 47, 65, 304), "timer": (40, 80, 85, 102), "tennis ball": (64.7, 64.7, 64.7, 58),
+    "cracker box": (60, 158, 210, 411),
+    "sugar box": (38, 89, 175, 514),
+    "tomato soup can": (66, 66, 101, 349),
+    "mustard bottle": (58, 95, 190, 603),
+    "tuna fish can": (33, 85, 85, 171),
+    "pudding box": (35, 89, 110, 187),
+    "gelatin box": (28, 73, 85, 97),
+    "potted meat can": (50, 82, 97, 370),
+    "master chef can": (102, 102, 139, 414),
+    "chips can": (75, 75, 250, 205),
+    "bleach cleanser": (65, 98, 250, 1131),
+    "wood block": (85, 85, 200, 729),
+    "foam brick": (50, 50, 75, 28),
+    "golf ball": (42.7, 42.7, 42.7, 46),
+    "racquetball": (55.3, 55.3, 55.3, 41),
+    "padlock": (24, 47, 65, 304),
+    "timer": (40, 80, 85, 102),
+    "tennis ball": (64.7, 64.7, 64.7, 58),
     "baseball": (75, 75, 75, 148),
-}  # fmt: skip
+}
 YCB_NAMES = (
     "banana", "strawberry", "apple", "lemon", "peach", "pear", "orange", "plum", "pitcher base", "windex bottle",
     "wine glass", "bowl", "mug", "sponge", "skillet", "skillet lid", "plate", "fork", "spoon", "knife", "spatula",

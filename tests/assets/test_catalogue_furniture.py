@@ -254,11 +254,24 @@ def test_round_bars_lie_on_flats_and_the_ball_on_a_face():
 
 def test_names_are_found_by_their_synonyms():
     for name, noun in {
-        "couch": "sofa", "nightstand": "bedside table", "bookcase": "bookshelf", "shelving unit": "shelf",
-        "trolley": "cart", "wheeled cart": "cart", "carpet": "rug", "throw pillow": "pillow", "potted plant": "plant",
-        "art piece": "sculpture", "smartphone": "phone", "pencil cup": "pen holder", "trash can": "bin",
-        "vintage radio": "radio", "end table": "side table", "television": "tv", "shelves": "shelf",
-    }.items():  # fmt: skip
+        "couch": "sofa",
+        "nightstand": "bedside table",
+        "bookcase": "bookshelf",
+        "shelving unit": "shelf",
+        "trolley": "cart",
+        "wheeled cart": "cart",
+        "carpet": "rug",
+        "throw pillow": "pillow",
+        "potted plant": "plant",
+        "art piece": "sculpture",
+        "smartphone": "phone",
+        "pencil cup": "pen holder",
+        "trash can": "bin",
+        "vintage radio": "radio",
+        "end table": "side table",
+        "television": "tv",
+        "shelves": "shelf",
+    }.items():
         found = find(name)
         assert found is not None
         assert found.noun == noun

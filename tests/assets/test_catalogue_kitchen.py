@@ -196,8 +196,14 @@ def test_two_bars_of_soap_fit_side_by_side_in_the_soap_dish():
         assert 2 * region.half_size[1] > 2 * max(size[1] for size in bars) + 2e-3
 
 
-NESTS = [("cup", "cup"), ("plate", "plate"), ("saucer", "saucer"), ("saucer", "teacup"), ("plate", "cake"),
-         ("vase", "bouquet")]  # fmt: skip
+NESTS = [
+    ("cup", "cup"),
+    ("plate", "plate"),
+    ("saucer", "saucer"),
+    ("saucer", "teacup"),
+    ("plate", "cake"),
+    ("vase", "bouquet"),
+]
 
 
 @pytest.mark.parametrize(("below", "above"), NESTS)
@@ -238,8 +244,15 @@ def test_words_for_shapes_are_honoured():
 
 def test_at_least_forty_five_nouns_with_their_synonyms_are_known():
     assert len(NOUNS) >= 45
-    for synonym, noun in {"coffee mug": "mug", "jug": "pitcher", "bar of soap": "soap", "tin": "can",
-                          "flowers": "bouquet", "knives": "knife", "loaf": "bread"}.items():  # fmt: skip
+    for synonym, noun in {
+        "coffee mug": "mug",
+        "jug": "pitcher",
+        "bar of soap": "soap",
+        "tin": "can",
+        "flowers": "bouquet",
+        "knives": "knife",
+        "loaf": "bread",
+    }.items():
         entry = find(synonym)
         assert entry is not None
         assert entry.noun == noun

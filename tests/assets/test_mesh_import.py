@@ -305,10 +305,16 @@ def test_unknown_format_missing_and_broken_files_are_one_line(tmp_path, write):
             import_mesh(tmp_path / name)
     whole = write(_box(), "box.glb").read_bytes()
     for name, data in (
-        ("empty.obj", b""), ("text.obj", b"hello"), ("cut.glb", whole[: len(whole) // 2]), ("zero.glb", bytes(100)),
-        ("noise.ply", bytes(range(256)) * 4), ("noise.stl", b"solid nothing"), ("bad.gltf", b"{"), ("x.off", b"OFF\n1"),
+        ("empty.obj", b""),
+        ("text.obj", b"hello"),
+        ("cut.glb", whole[: len(whole) // 2]),
+        ("zero.glb", bytes(100)),
+        ("noise.ply", bytes(range(256)) * 4),
+        ("noise.stl", b"solid nothing"),
+        ("bad.gltf", b"{"),
+        ("x.off", b"OFF\n1"),
         ("list.gltf", b"[1]"),
-    ):  # fmt: skip
+    ):
         (tmp_path / name).write_bytes(data)
         with pytest.raises(AssetError) as caught:
             import_mesh(tmp_path / name)
@@ -335,10 +341,15 @@ def test_nan_vertices_zero_area_and_wrong_indices_are_named(tmp_path):
         ("huge.stl", bytes(80) + struct.pack("<I", 10_000_000), 84 + 50 * 10_000_000),
         ("huge.ply", b"ply\nformat ascii 1.0\nelement vertex 3\nelement face 10000000\nend_header\n", 1000),
         ("huge.off", b"OFF # big\n5000000 10000000 0\n", 1000),
-        ("huge.gltf", json.dumps({"accessors": [{"count": 30_000_000}],
-                                  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}).encode(), None),
+        (
+            "huge.gltf",
+            json.dumps(
+                {"accessors": [{"count": 30_000_000}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}
+            ).encode(),
+            None,
+        ),
     ],
-)  # fmt: skip
+)
 def test_ten_million_triangles_are_refused_by_the_header(tmp_path, monkeypatch, name, head, size):
     monkeypatch.setattr(trimesh, "load_scene", lambda *a, **k: pytest.fail("the file was read"))
     path = tmp_path / name

@@ -118,9 +118,15 @@ def test_impossible_caps_are_an_asset_error():
 def test_faces_that_are_nearly_parallel_do_not_meet_in_a_needle():
     """A splinter of a mug's wall [mm]: the planes around its short edges meet 270 mm away, almost in the faces."""
     points = np.array(
-        [[0.81, 4.81, -38.75], [-3.39, 4.81, 27.17], [0.87, 4.81, 6.98], [0.87, 2.88, 7.29], [0.87, 2.46, 7.36],
-         [0.87, 0.45, 8.42]]
-    )  # fmt: skip
+        [
+            [0.81, 4.81, -38.75],
+            [-3.39, 4.81, 27.17],
+            [0.87, 4.81, 6.98],
+            [0.87, 2.88, 7.29],
+            [0.87, 2.46, 7.36],
+            [0.87, 0.45, 8.42],
+        ]
+    )
     part = reduce_hull(points)
     assert _outside(points, part) < 1e-9
     assert inflation(part, points).distance < 0.05 * np.ptp(points)

@@ -17,9 +17,11 @@ def _open_box(x, y, z, wall):
     side = shapes.box(wall, y, z), shapes.box(x, wall, z)
     return _parts(
         shapes.box(x, y, wall),
-        side[0].moved(x=(x - wall) / 2), side[0].moved(x=-(x - wall) / 2),
-        side[1].moved(y=(y - wall) / 2), side[1].moved(y=-(y - wall) / 2),
-    )  # fmt: skip
+        side[0].moved(x=(x - wall) / 2),
+        side[0].moved(x=-(x - wall) / 2),
+        side[1].moved(y=(y - wall) / 2),
+        side[1].moved(y=-(y - wall) / 2),
+    )
 
 
 def _free(region, parts, step=0.0005):

@@ -26,24 +26,40 @@ from tests.scenes import GAP, asset_of, placed, scene_of, tower
 MUJOCO = chosen(["mujoco"])[0]
 
 GOOD = {
-    "format": "pat3d-engine-run", "engine": "Stand-in", "version": "1", "settings": {"timestep": 0.002}, "warnings": [],
-    "wall_seconds": 0.1, "times": [0.0, 1.0], "names": ["box_1"], "poses": [[[0, 0, GAP, 1, 0, 0, 0]]] * 2,
-}  # fmt: skip
+    "format": "pat3d-engine-run",
+    "engine": "Stand-in",
+    "version": "1",
+    "settings": {"timestep": 0.002},
+    "warnings": [],
+    "wall_seconds": 0.1,
+    "times": [0.0, 1.0],
+    "names": ["box_1"],
+    "poses": [[[0, 0, GAP, 1, 0, 0, 0]]] * 2,
+}
 
 
 def _run(**changes):
     document = {**GOOD, **changes}
     return EngineRun(
-        engine="Stand-in", version="1", settings={}, warnings=(), wall_seconds=0.1,
-        times=np.array(document["times"], dtype=float), names=tuple(document["names"]),
+        engine="Stand-in",
+        version="1",
+        settings={},
+        warnings=(),
+        wall_seconds=0.1,
+        times=np.array(document["times"], dtype=float),
+        names=tuple(document["names"]),
         poses=np.array(document["poses"], dtype=float),
-    )  # fmt: skip
+    )
 
 
 def _engine(tmp_path, body, name="stand-in"):
     """An engine whose driver has the arguments in `out` and `seconds` and does `body`."""
-    lines = ["import json, os, sys, time, signal", "out = sys.argv[sys.argv.index('--out') + 1]",
-             f"good = {GOOD!r}", *body.splitlines()]  # fmt: skip
+    lines = [
+        "import json, os, sys, time, signal",
+        "out = sys.argv[sys.argv.index('--out') + 1]",
+        f"good = {GOOD!r}",
+        *body.splitlines(),
+    ]
     driver = tmp_path / "driver.py"
     driver.write_text("\n".join(lines) + "\n")
     return ScriptEngine(name=name, title="Stand-in", format="mjcf", driver=driver, environment=None)

@@ -91,8 +91,14 @@ def test_the_report_of_a_mended_scene_tells_of_its_optimisation(mended):
 
 def test_a_mended_folder_holds_a_whole_scene_and_two_pictures(mended):
     assert {entry.name for entry in mended.iterdir()} == {
-        "scene.json", "assets", "mjcf", "report.json", "preview.png", "trajectory.npz", *PICTURES
-    }  # fmt: skip
+        "scene.json",
+        "assets",
+        "mjcf",
+        "report.json",
+        "preview.png",
+        "trajectory.npz",
+        *PICTURES,
+    }
     assert [entry.name for entry in mended.parent.iterdir()] == ["mended"]
     for name in PICTURES:
         with Image.open(mended / name) as picture:
@@ -179,9 +185,12 @@ def falling_layouts(monkeypatch):
     monkeypatch.setattr(layouts, "arrange", arrange)
     ingredients = tuple(Ingredient(name=name, asset=asset) for name, asset in assets.items())
     return Order(
-        prompt="a plank on a block", names=tuple(assets), relations=relations, fingerprint="plank",
+        prompt="a plank on a block",
+        names=tuple(assets),
+        relations=relations,
+        fingerprint="plank",
         gather=lambda *_: ingredients,
-    )  # fmt: skip
+    )
 
 
 def made(order: Order, folder, **settings):

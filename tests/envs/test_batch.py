@@ -59,12 +59,17 @@ def mirrored(data: Any, control: Any = None) -> Any:
         return wp.array(np.ascontiguousarray(repeated), dtype=dtype, device="cpu")
 
     return SimpleNamespace(
-        nworld=WORLDS, qpos=array(data.qpos, wp.float32), qvel=array(data.qvel, wp.float32),
-        qfrc_bias=array(data.qfrc_bias, wp.float32), M=array(data.M[None], wp.float32),
+        nworld=WORLDS,
+        qpos=array(data.qpos, wp.float32),
+        qvel=array(data.qvel, wp.float32),
+        qfrc_bias=array(data.qfrc_bias, wp.float32),
+        M=array(data.M[None], wp.float32),
         ctrl=array(data.ctrl, wp.float32) if control is None else control,
-        site_xpos=array(data.site_xpos, wp.vec3), site_xmat=array(data.site_xmat.reshape(-1, 3, 3), wp.mat33),
-        xanchor=array(data.xanchor, wp.vec3), xaxis=array(data.xaxis, wp.vec3),
-    )  # fmt: skip
+        site_xpos=array(data.site_xpos, wp.vec3),
+        site_xmat=array(data.site_xmat.reshape(-1, 3, 3), wp.mat33),
+        xanchor=array(data.xanchor, wp.vec3),
+        xaxis=array(data.xaxis, wp.vec3),
+    )
 
 
 @pytest.mark.parametrize(

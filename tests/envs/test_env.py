@@ -249,9 +249,12 @@ def test_vector_environments_begin_anew_when_their_mode_says(vectorization, mode
     """Episodes of two steps: what follows the second is a reset, at once or at the next step, as the metadata tell."""
     wanted = gymnasium.vector.AutoresetMode[mode]
     vector = gymnasium.make_vec(
-        "PAT3D-v0", num_envs=2, vectorization_mode=vectorization, max_episode_steps=2,
+        "PAT3D-v0",
+        num_envs=2,
+        vectorization_mode=vectorization,
+        max_episode_steps=2,
         vector_kwargs={"autoreset_mode": wanted},
-    )  # fmt: skip
+    )
     assert vector.metadata["autoreset_mode"] == wanted
     start, _ = vector.reset(seed=[1, 2])
     away = np.full((2, 7), 0.8, dtype=np.float32)

@@ -16,9 +16,16 @@ from pat3d.scene.asset import Asset, Material, Region, VisualMesh
 from pat3d.scene.model import Scene, SceneObject
 
 GRIPPER = Gripper(
-    opening=0.08, closed=0.0, finger_thickness=0.015, finger_width=0.02, tip=0.01, palm=0.045, hand=(0.2, 0.06),
-    pad=0.02, closing_axis=(0.0, 1.0, 0.0),
-)  # fmt: skip
+    opening=0.08,
+    closed=0.0,
+    finger_thickness=0.015,
+    finger_width=0.02,
+    tip=0.01,
+    palm=0.045,
+    hand=(0.2, 0.06),
+    pad=0.02,
+    closing_axis=(0.0, 1.0, 0.0),
+)
 
 
 def bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
@@ -27,14 +34,20 @@ def bar(name: str, size, position=(0.0, 0.0), yaw: float = 0.0) -> SceneObject:
     part = convex_part(np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (0, 2)]) * half)
     visual = VisualMesh.from_face_colours(part.vertices, part.faces, np.full((len(part.faces), 3), 128, np.uint8))
     properties = MassProperties(
-        mass=0.1, volume=float(np.prod(size)), centre_of_mass=(0.0, 0.0, size[2] / 2),
+        mass=0.1,
+        volume=float(np.prod(size)),
+        centre_of_mass=(0.0, 0.0, size[2] / 2),
         inertia=((1e-4, 0.0, 0.0), (0.0, 1e-4, 0.0), (0.0, 0.0, 1e-4)),
-    )  # fmt: skip
+    )
     top = Region(kind="on", shape="rectangle", floor=(0.0, 0.0, size[2]), half_size=(size[0] / 2, size[1] / 2))
     asset = Asset(
-        noun="bar", regions=(top,), visual=visual, parts=(part,), mass_properties=properties,
+        noun="bar",
+        regions=(top,),
+        visual=visual,
+        parts=(part,),
+        mass_properties=properties,
         material=Material(name="wood", density=500.0, friction=0.5),
-    )  # fmt: skip
+    )
     pose = Pose.from_yaw(yaw, (*position, 0.0))
     return SceneObject(name=name, asset=asset, pose=pose, initial_pose=pose)
 

@@ -26,9 +26,11 @@ def mushroom(mass: float = 0.2) -> SceneObject:
     made = bar("mushroom", (0.16, 0.16, 0.22))
     parts = (block(0.04, 0.0, 0.01), block(0.01, 0.01, 0.2), block(0.08, 0.2, 0.22))
     properties = MassProperties(
-        mass=mass, volume=6e-4, centre_of_mass=(0.0, 0.0, 0.12),
+        mass=mass,
+        volume=6e-4,
+        centre_of_mass=(0.0, 0.0, 0.12),
         inertia=((1e-3, 0.0, 0.0), (0.0, 1e-3, 0.0), (0.0, 0.0, 1e-3)),
-    )  # fmt: skip
+    )
     return replace(made, asset=replace(made.asset, parts=parts, mass_properties=properties))
 
 

@@ -100,9 +100,11 @@ def test_what_can_only_be_held_far_from_its_middle_is_picked_up_and_not_put_anyw
 
     made = bar("beam", (0.5, 0.04, 0.05))
     heavy = MassProperties(
-        mass=1.2, volume=1e-3, centre_of_mass=(0.4, 0.0, 0.02),
+        mass=1.2,
+        volume=1e-3,
+        centre_of_mass=(0.4, 0.0, 0.02),
         inertia=((1e-2, 0.0, 0.0), (0.0, 1e-2, 0.0), (0.0, 0.0, 1e-2)),
-    )  # fmt: skip
+    )
     scene = Scene(objects=(replace(made, asset=replace(made.asset, mass_properties=heavy)),))
     assert min(torque(one, 1.2, (0.4, 0.0, 0.02)) for one in find_grasps(scene, "beam", GRIPPER)) > STEADY
     assert grasps_of(scene, ("beam",), "Panda", put=False, cleared=False)["beam"]

@@ -54,11 +54,15 @@ class Given(States):
         touching = random.random((worlds, count, count)) < 0.3
         self.qpos, self.xquat = random.standard_normal((worlds, model.nq)), xquat
         self.snapshot = Snapshot(
-            xpos=xpos, xmat=xmat, xipos=xipos,
+            xpos=xpos,
+            xmat=xmat,
+            xipos=xipos,
             qvel=random.standard_normal((worlds, model.nv)) * random.choice([1e-3, 0.03, 1.0], size=(worlds, 1)),
-            sites=random.standard_normal((worlds, model.nsite, 3)), touching=touching | touching.transpose(0, 2, 1),
-            pinched=random.random((worlds, 2, count)) < 0.5, **self._about,
-        )  # fmt: skip
+            sites=random.standard_normal((worlds, model.nsite, 3)),
+            touching=touching | touching.transpose(0, 2, 1),
+            pinched=random.random((worlds, 2, count)) < 0.5,
+            **self._about,
+        )
         return self
 
     def alone(self, number: int) -> Given:
@@ -66,8 +70,11 @@ class Given(States):
         one = Given(self.world, 1)
         own = slice(number, number + 1)
         one.qpos, one.xquat = self.qpos[own].copy(), self.xquat[own].copy()
-        kept = {name: value[own].copy() for name, value in self.snapshot._asdict().items()
-                if name not in ("bodies", "dofs", "hand", "surface")}  # fmt: skip
+        kept = {
+            name: value[own].copy()
+            for name, value in self.snapshot._asdict().items()
+            if name not in ("bodies", "dofs", "hand", "surface")
+        }
         one.snapshot = self.snapshot._replace(**kept)
         return one
 
@@ -153,8 +160,14 @@ def test_a_container_holds_up_to_thirty_degrees(env):
 
 
 def _judges(states: States):
-    for spec in ("pick:red mug", "place:green apple:blue bowl", "place:green apple:wooden tray", "stack:banana:red mug",
-                 "unload:wooden tray", "retrieve:wooden tray"):  # fmt: skip
+    for spec in (
+        "pick:red mug",
+        "place:green apple:blue bowl",
+        "place:green apple:wooden tray",
+        "stack:banana:red mug",
+        "unload:wooden tray",
+        "retrieve:wooden tray",
+    ):
         yield parse_task(spec).judge(states)
     yield SortJudge(states, {"green apple": "blue bowl", "banana": "red mug"})
 

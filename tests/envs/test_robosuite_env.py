@@ -17,9 +17,15 @@ from pat3d.envs.physics.loading import load  # noqa: E402
 @pytest.fixture(scope="module")
 def native():
     made = robosuite.make(
-        "PAT3DScene", robots="Panda", task="place:green apple:blue bowl", has_renderer=False,
-        has_offscreen_renderer=False, use_camera_obs=False, hard_reset=False, control_freq=20,
-    )  # fmt: skip
+        "PAT3DScene",
+        robots="Panda",
+        task="place:green apple:blue bowl",
+        has_renderer=False,
+        has_offscreen_renderer=False,
+        use_camera_obs=False,
+        hard_reset=False,
+        control_freq=20,
+    )
     yield made
     made.close()
 

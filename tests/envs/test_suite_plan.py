@@ -31,9 +31,17 @@ def test_unknown_names_are_answered_with_the_valid_ones():
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"tasks": ()}, {"tasks": ("pick", "pick")}, {"scenes": 0}, {"seed": -1}, {"objects": (9, 5)}, {"objects": (2, 3)},
-     {"objects": (5, 99)}, {"picture": 3}],
-)  # fmt: skip
+    [
+        {"tasks": ()},
+        {"tasks": ("pick", "pick")},
+        {"scenes": 0},
+        {"seed": -1},
+        {"objects": (9, 5)},
+        {"objects": (2, 3)},
+        {"objects": (5, 99)},
+        {"picture": 3},
+    ],
+)
 def test_requests_out_of_range_are_refused(wrong):
     with pytest.raises(SuiteError):
         replace(REQUEST, **wrong)

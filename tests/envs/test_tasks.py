@@ -184,11 +184,13 @@ def test_tasks_that_make_no_sense_are_refused_with_the_reason(breakfast, spec, m
 def test_a_base_that_is_narrow_or_covered_takes_nothing_more():
     scene = Scene(
         objects=(
-            bar("pole", (0.01, 0.01, 0.1), (0.3, 0.0)), bar("block", (0.1, 0.1, 0.05)),
-            bar("lid", (0.1, 0.1, 0.01), (0.0, 0.0)), bar("brick", (0.06, 0.1, 0.05), (-0.3, 0.0)),
+            bar("pole", (0.01, 0.01, 0.1), (0.3, 0.0)),
+            bar("block", (0.1, 0.1, 0.05)),
+            bar("lid", (0.1, 0.1, 0.01), (0.0, 0.0)),
+            bar("brick", (0.06, 0.1, 0.05), (-0.3, 0.0)),
         ),
         relations=(Relation(child="lid", kind="on", parent="block"),),
-    )  # fmt: skip
+    )
     with pytest.raises(TaskError, match="no top wide enough"):
         parse_task("stack:brick:pole").check(scene)
     with pytest.raises(TaskError, match='"lid" stands on "block" already'):
@@ -217,10 +219,13 @@ def test_sorting_pairs_objects_with_the_container_of_their_colour(breakfast):
 
     scene = Scene(
         objects=(
-            moved(bowl, "red bowl", -0.3), moved(bowl, "blue bowl", 0.3), moved(apple, "red apple", -0.05),
-            moved(banana, "blue banana", 0.1), moved(apple, "green apple", 0.5),
+            moved(bowl, "red bowl", -0.3),
+            moved(bowl, "blue bowl", 0.3),
+            moved(apple, "red apple", -0.05),
+            moved(banana, "blue banana", 0.1),
+            moved(apple, "green apple", 0.5),
         )
-    )  # fmt: skip
+    )
     task = parse_task("sort")
     task.check(scene)
     assert task.pairs(scene) == {"red apple": "red bowl", "blue banana": "blue bowl"}
@@ -290,11 +295,12 @@ def test_a_board_with_something_on_it_takes_more_as_long_as_there_is_room():
         lifted = Pose(position=(x, 0.0, 0.02), quat_wxyz=plum.pose.quat_wxyz)
         return Scene(
             objects=(
-                bar("board", (size, size, 0.02)), replace(plum, pose=lifted, initial_pose=lifted),
+                bar("board", (size, size, 0.02)),
+                replace(plum, pose=lifted, initial_pose=lifted),
                 bar("cube", (0.05, 0.05, 0.05), (0.5, 0.0)),
             ),
             relations=(Relation(child="plum", kind="on", parent="board"),),
-        )  # fmt: skip
+        )
 
     parse_task("place:cube:board").check(board(0.3, -0.1))
     with pytest.raises(TaskError, match='"plum" stands on "board" already and leaves no room for "cube"'):

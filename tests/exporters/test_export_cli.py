@@ -79,8 +79,22 @@ def _glb(path, sizes=(0.2, 0.1, 0.05)):
 def test_one_mesh_becomes_an_asset_folder_with_a_summary_and_a_picture(tmp_path, capfd):
     """A box of 0.3 kg, 20 x 5 x 10 cm once glTF's y is up: closed forms for inertia, volume, and fall."""
     _glb(tmp_path / "any.glb")
-    assert main(["export", str(tmp_path / "any.glb"), "--mass", "0.3", "--formats", "mjcf", "urdf", "--out",
-                 str(tmp_path / "asset")]) == 0  # fmt: skip
+    assert (
+        main(
+            [
+                "export",
+                str(tmp_path / "any.glb"),
+                "--mass",
+                "0.3",
+                "--formats",
+                "mjcf",
+                "urdf",
+                "--out",
+                str(tmp_path / "asset"),
+            ]
+        )
+        == 0
+    )
     found = json.loads((tmp_path / "asset" / "summary.json").read_text())
     assert found["mass_kg"] == pytest.approx(0.3, rel=1e-12)
     np.testing.assert_allclose(found["size_m"], [0.2, 0.05, 0.1], atol=1e-7)

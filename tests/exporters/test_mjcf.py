@@ -257,8 +257,9 @@ def test_every_object_loads_alone_and_attaches_with_its_mass_and_parts(scene, tm
         files = sorted((folder / "objects").iterdir())
         assert [file.stem for file in files] == ["ball", "pencil_co", "red_mug_1", "wooden_table"]
         models = [f'<model name="{file.stem}" file="{file}"/>' for file in files]
-        frames = [f'<frame pos="{k} 0 0"><attach model="{file.stem}" prefix="my_"/></frame>'
-                  for k, file in enumerate(files)]  # fmt: skip
+        frames = [
+            f'<frame pos="{k} 0 0"><attach model="{file.stem}" prefix="my_"/></frame>' for k, file in enumerate(files)
+        ]
         world = "".join(frames)
         alone = [mujoco.MjModel.from_xml_path(str(file)) for file in files]
         together = mujoco.MjModel.from_xml_string(

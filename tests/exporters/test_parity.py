@@ -61,14 +61,18 @@ PLANTED = [
     ("urdf", "objects/ball/part_000.obj", r"v (\S+) ", "volume of hulls"),
     ("urdf", "manifest.json", r'"position": \[\s*(0\.1),', "stands elsewhere"),
     ("urdf", "scene.dmd.yaml", r"translation: \[(0\.1),", "stands elsewhere"),
-    ("urdf", "scene.dmd.yaml", r"pencil_co:\s+translation: \S+ \S+ \S+\s+rotation: !AngleAxis {angle_deg: (\S+),",
-     "stands elsewhere"),
+    (
+        "urdf",
+        "scene.dmd.yaml",
+        r"pencil_co:\s+translation: \S+ \S+ \S+\s+rotation: !AngleAxis {angle_deg: (\S+),",
+        "stands elsewhere",
+    ),
     ("sdf", "scene.sdf", r'<model name="red_mug_1".*?<mass>(\S+)</mass>', "weighs"),
     ("sdf", "scene.sdf", r'<model name="red_mug_1">\s*<pose rotation_format="quat_xyzw">(\S+) ', "stands elsewhere"),
     ("sdf", "scene.sdf", r'<model name="pencil_co".*?<iyy>(\S+)</iyy>', "inertia"),
     ("sdf", "scene.sdf", r'<model name="red_mug_2".*?<mu>(\S+)</mu>', "friction"),
     ("sdf", "models/red_mug_1/meshes/part_000.obj", r"v (\S+) ", "volume of hulls"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("name", "file", "pattern", "words"), PLANTED)

@@ -43,8 +43,13 @@ def files(folder):
 
 def test_the_folder_holds_what_a_scene_folder_holds_and_nothing_lies_beside_it(folder):
     assert {entry.name for entry in folder.iterdir()} == {
-        "scene.json", "assets", "mjcf", "report.json", "preview.png", "trajectory.npz"
-    }  # fmt: skip
+        "scene.json",
+        "assets",
+        "mjcf",
+        "report.json",
+        "preview.png",
+        "trajectory.npz",
+    }
     assert [entry.name for entry in folder.parent.iterdir()] == ["mug"]
     assert (folder / "mjcf" / "scene.xml").is_file()
 
@@ -213,10 +218,14 @@ def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
     command = [sys.executable, "-m", "pat3d", "generate", PROMPT, "--out", str(tmp_path / "scene")]
     path = os.pathsep.join([str(Path(pat3d.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": path},
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": path},
         # A test run in the background inherits an ignored interrupt.
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
-    )  # fmt: skip
+    )
     end = time.monotonic() + 60
     while process.poll() is None and not any(tmp_path.iterdir()) and time.monotonic() < end:
         time.sleep(0.01)

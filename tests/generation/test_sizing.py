@@ -24,9 +24,12 @@ def test_a_tray_that_is_too_small_for_what_is_on_it_is_made_larger_and_says_so()
 
 @pytest.mark.parametrize(
     "prompt",
-    ["A small tray with a teapot, two cups and a plate.", "A 35 cm tray with a teapot, two cups and a plate.",
-     "A tray with two cups."],
-)  # fmt: skip
+    [
+        "A small tray with a teapot, two cups and a plate.",
+        "A 35 cm tray with a teapot, two cups and a plate.",
+        "A tray with two cups.",
+    ],
+)
 def test_a_tray_of_a_given_size_or_with_room_keeps_its_size(prompt):
     plan = GrammarPlanner().plan(prompt)
     tray = tray_of(plan)

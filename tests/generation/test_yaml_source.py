@@ -21,9 +21,18 @@ def test_words_that_old_yaml_takes_for_booleans_stay_words(write):
 
 @pytest.mark.parametrize(
     ("text", "value"),
-    [("1e3", 1000.0), ("010", 10), ("-2", -2), ("+.5", 0.5), ("1:30", "1:30"), ("1_000", "1_000"), ('"1"', "1"),
-     ("2020-01-01", "2020-01-01"), ("- 1", [1])],
-)  # fmt: skip
+    [
+        ("1e3", 1000.0),
+        ("010", 10),
+        ("-2", -2),
+        ("+.5", 0.5),
+        ("1:30", "1:30"),
+        ("1_000", "1_000"),
+        ('"1"', "1"),
+        ("2020-01-01", "2020-01-01"),
+        ("- 1", [1]),
+    ],
+)
 def test_numbers_are_read_as_json_reads_them(write, text, value):
     found = read_yaml(write(text)).document
     assert found == value

@@ -62,8 +62,11 @@ def small_scenes(draw):
             below = [other for other in assets if other.startswith("box")]
             x, y, z = draw(sizes), draw(sizes), draw(sizes)
             assets[name] = block(x, y, z)
-            roomy = [other for other in below if np.all(assets[other].size[:2] >= [x, y]) and not
-                     any(r.parent == other for r in relations)]  # fmt: skip
+            roomy = [
+                other
+                for other in below
+                if np.all(assets[other].size[:2] >= [x, y]) and not any(r.parent == other for r in relations)
+            ]
             parent = draw(st.sampled_from([*hosts, *roomy]))
         else:
             assets[name] = ball(draw(st.floats(0.01, 0.02))) if kind == "ball" else vessel(0.09, 0.07)
@@ -84,9 +87,12 @@ def test_random_trees_are_laid_out_without_contact(scene):
 def test_layout_is_a_function_of_its_seed():
     assets = {"table": table(), "mug": mug(), "pen 1": pen(), "pen 2": pen(), "a": block(), "b": block()}
     relations = (
-        rel("mug", "on", "table"), rel("pen 1", "in", "mug"), rel("pen 2", "in", "mug"),
-        rel("a", "on", "table"), rel("b", "on", "a"),
-    )  # fmt: skip
+        rel("mug", "on", "table"),
+        rel("pen 1", "in", "mug"),
+        rel("pen 2", "in", "mug"),
+        rel("a", "on", "table"),
+        rel("b", "on", "a"),
+    )
     first, again, other = (arrange(assets, relations, seed=seed) for seed in (3, 3, 4))
     assert first.poses == again.poses
     assert first.poses != other.poses

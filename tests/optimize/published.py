@@ -30,11 +30,15 @@ def ingredients(prompt: str, seed: int = 0) -> tuple[dict[str, Asset], tuple[Rel
     plan = GrammarPlanner().plan(prompt)
     assets = {
         obj.name: make(
-            obj.noun, colours=obj.colours, material=obj.material, scale=obj.scale, adjectives=obj.adjectives,
+            obj.noun,
+            colours=obj.colours,
+            material=obj.material,
+            scale=obj.scale,
+            adjectives=obj.adjectives,
             seed=100 * seed + k,
         )
         for k, obj in enumerate(plan.objects)
-    }  # fmt: skip
+    }
     return assets, plan.relations
 
 

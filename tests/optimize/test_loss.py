@@ -22,14 +22,30 @@ def rel(child: str, kind: str, parent: str) -> Relation:
 
 def crowded():
     """Things on a table with every kind of relation between them."""
-    assets = {"table": table(), "bowl": vessel(0.1, 0.08), "ball": ball(), "mug": mug(), "pen": pen(), "a": block(),
-              "b": block(), "c": block(0.1, 0.04, 0.03), "d": block(), "e": block(0.04, 0.04, 0.04)}  # fmt: skip
+    assets = {
+        "table": table(),
+        "bowl": vessel(0.1, 0.08),
+        "ball": ball(),
+        "mug": mug(),
+        "pen": pen(),
+        "a": block(),
+        "b": block(),
+        "c": block(0.1, 0.04, 0.03),
+        "d": block(),
+        "e": block(0.04, 0.04, 0.04),
+    }
     on = ("bowl", "mug", "a", "b", "c", "d")
     relations = (
-        *(rel(name, "on", "table") for name in on), rel("ball", "in", "bowl"), rel("pen", "in", "mug"),
-        rel("e", "on", "a"), rel("a", "left_of", "bowl"), rel("b", "around", "bowl"), rel("c", "around", "bowl"),
-        rel("d", "around", "bowl"), rel("mug", "behind", "a"),
-    )  # fmt: skip
+        *(rel(name, "on", "table") for name in on),
+        rel("ball", "in", "bowl"),
+        rel("pen", "in", "mug"),
+        rel("e", "on", "a"),
+        rel("a", "left_of", "bowl"),
+        rel("b", "around", "bowl"),
+        rel("c", "around", "bowl"),
+        rel("d", "around", "bowl"),
+        rel("mug", "behind", "a"),
+    )
     return assets, relations
 
 
@@ -84,9 +100,12 @@ def test_worlds_are_independent():
 
 @settings(max_examples=150, deadline=None)
 @given(
-    kind=st.sampled_from(LATERALS), x=st.floats(-1.0, 1.0), y=st.floats(-1.0, 1.0), yaw=st.floats(-3.0, 3.0),
+    kind=st.sampled_from(LATERALS),
+    x=st.floats(-1.0, 1.0),
+    y=st.floats(-1.0, 1.0),
+    yaw=st.floats(-3.0, 3.0),
     lift=st.sampled_from([0.0, 0.05, 0.15, 0.3]),
-)  # fmt: skip
+)
 def test_lateral_loss_is_positive_where_the_predicate_fails_and_zero_where_it_holds_clearly(kind, x, y, yaw, lift):
     assets = {"child": block(0.12, 0.05, 0.04), "parent": block(0.2, 0.1, 0.1)}
     relations = (rel("child", kind, "parent"),)

@@ -211,13 +211,17 @@ def test_pinned_objects_settle_but_always_start_where_they_are():
 def lamp_on_a_gallows() -> tuple[dict, tuple[Relation, ...]]:
     """A weight that hangs from the arm of a post on a table."""
     post = shapes.join(
-        shapes.box(0.2, 0.2, 0.1), shapes.box(0.04, 0.04, 0.5), shapes.box(0.3, 0.04, 0.04).moved(x=0.13, z=0.46),
-    )  # fmt: skip
+        shapes.box(0.2, 0.2, 0.1),
+        shapes.box(0.04, 0.04, 0.5),
+        shapes.box(0.3, 0.04, 0.04).moved(x=0.13, z=0.46),
+    )
     assets = {"table": table(), "gallows": asset("gallows", post), "weight": block(0.05, 0.05, 0.05), "cup": block()}
     return assets, (
-        on("gallows", "table"), on("weight", "gallows", "hangs_from"), on("cup", "table"),
+        on("gallows", "table"),
+        on("weight", "gallows", "hangs_from"),
+        on("cup", "table"),
         on("cup", "gallows", "left_of"),
-    )  # fmt: skip
+    )
 
 
 def apart(found, poses) -> float:

@@ -105,13 +105,19 @@ def test_unknown_adjective_is_kept_not_refused(planner: GrammarPlanner):
 @pytest.mark.parametrize(
     ("prompt", "why"),
     [
-        ("", "empty"), ("  \n", "empty"), ("mug " * 600, "2000"), ("61 mugs", "60"), ("40 mugs and 40 plates", "60"),
-        ("zero mugs", "1 to 60"), ("the background is plain white", "no object"),
+        ("", "empty"),
+        ("  \n", "empty"),
+        ("mug " * 600, "2000"),
+        ("61 mugs", "60"),
+        ("40 mugs and 40 plates", "60"),
+        ("zero mugs", "1 to 60"),
+        ("the background is plain white", "no object"),
         ("a mug on the mug", "rest on itself"),
-        ("a lamp on a table. The table is on the lamp.", "rest on itself"), ("99999999999999999999 mugs", "60"),
+        ("a lamp on a table. The table is on the lamp.", "rest on itself"),
+        ("99999999999999999999 mugs", "60"),
         ("...", "no object"),
     ],
-)  # fmt: skip
+)
 def test_impossible_prompts_are_refused_with_the_reason(planner: GrammarPlanner, prompt: str, why: str):
     with pytest.raises(PromptError, match=why):
         planner.plan(prompt)
@@ -155,10 +161,16 @@ def test_groups_listed_in_each_other_end_the_reading(planner: GrammarPlanner, li
 
 @pytest.mark.parametrize(
     ("prompt", "noun"),
-    [("a bowl with a pear", "fruit bowl"), ("a bowl of fruit", "fruit bowl"), ("a bowl with three eggs", "fruit bowl"),
-     ("a bowl with two eggs", "bowl"), ("a pear beside a bowl", "bowl"), ("a pear on a plate", None),
-     ("two bowls with four eggs", "bowl")],
-)  # fmt: skip
+    [
+        ("a bowl with a pear", "fruit bowl"),
+        ("a bowl of fruit", "fruit bowl"),
+        ("a bowl with three eggs", "fruit bowl"),
+        ("a bowl with two eggs", "bowl"),
+        ("a pear beside a bowl", "bowl"),
+        ("a pear on a plate", None),
+        ("two bowls with four eggs", "bowl"),
+    ],
+)
 def test_a_bowl_with_fruit_or_more_than_two_things_is_a_fruit_bowl(
     planner: GrammarPlanner, prompt: str, noun: str | None
 ):
@@ -175,9 +187,16 @@ def test_rooms_are_background(planner: GrammarPlanner, words: str):
 
 @pytest.mark.parametrize(
     "rest",
-    ["standing beside a table", "sitting on a chair", "lying on a rug", "leaning against a tree", "holding red balls",
-     "seated at a desk", "wearing hats"],
-)  # fmt: skip
+    [
+        "standing beside a table",
+        "sitting on a chair",
+        "lying on a rug",
+        "leaning against a tree",
+        "holding red balls",
+        "seated at a desk",
+        "wearing hats",
+    ],
+)
 def test_an_unknown_noun_is_blamed_not_what_it_does(planner: GrammarPlanner, rest: str):
     with pytest.raises(PromptError, match=r'^"gnome" is not in the catalogue \(word 2\)'):
         planner.plan(f"a gnome {rest}")

@@ -19,9 +19,12 @@ SMALL = ("mug", "book", "apple", "candle", "teapot", "razor", "turtle")
 SUPPORTS = {"table": "on", "desk": "on", "bench": "on", "basket": "in", "crate": "in", "tray": "on"}
 FORWARD = {"on": ("on", "atop", "on top of", "standing on", "resting on"), "in": ("in", "inside", "placed in")}
 LATERAL = {
-    "next_to": ("beside", "next to", "near"), "left_of": ("to the left of",), "right_of": ("to the right of",),
-    "in_front_of": ("in front of", "standing in front of"), "behind": ("behind",),
-}  # fmt: skip
+    "next_to": ("beside", "next to", "near"),
+    "left_of": ("to the left of",),
+    "right_of": ("to the right of",),
+    "in_front_of": ("in front of", "standing in front of"),
+    "behind": ("behind",),
+}
 
 groups = st.tuples(st.integers(1, 5), st.sampled_from(COLOURS), st.sampled_from(SMALL))
 
@@ -71,8 +74,13 @@ def test_list_after_its_support(items, support, data):
 
 
 @settings(deadline=None)
-@given(st.sampled_from(COLOURS), st.sampled_from(SMALL), st.sampled_from(("sofa", "bed", "chair", "tree")),
-       st.sampled_from(sorted(LATERAL)), st.data())  # fmt: skip
+@given(
+    st.sampled_from(COLOURS),
+    st.sampled_from(SMALL),
+    st.sampled_from(("sofa", "bed", "chair", "tree")),
+    st.sampled_from(sorted(LATERAL)),
+    st.data(),
+)
 def test_lateral_relation_keeps_its_direction(colour, noun, place, kind, data):
     words = data.draw(st.sampled_from(LATERAL[kind]))
     child = f"{colour} {noun}"
@@ -90,8 +98,11 @@ def test_stack_is_a_chain_as_high_as_said(count, noun, support):
     relations = {f"{above} on {below}" for below, above in zip(chain, chain[1:], strict=False)} | {
         f"{chain[0]} on {support}"
     }
-    for prompt in (f"a stack of {count} {plural} on a {support}", f"{count} {plural} stacked on a {support}",
-                   f"{count} stacked {plural} on a {support}"):  # fmt: skip
+    for prompt in (
+        f"a stack of {count} {plural} on a {support}",
+        f"{count} {plural} stacked on a {support}",
+        f"{count} stacked {plural} on a {support}",
+    ):
         assert found(prompt) == ([*chain, support], relations)
 
 

@@ -23,17 +23,25 @@ def only(planner: GrammarPlanner, prompt: str) -> PlannedObject:
 @pytest.mark.parametrize(
     ("prompt", "metres", "axis"),
     [
-        ("A 20 cm tall vase.", 0.2, "height"), ("a vase 20 cm tall", 0.2, "height"),
+        ("A 20 cm tall vase.", 0.2, "height"),
+        ("a vase 20 cm tall", 0.2, "height"),
         ("a 20-cm-tall vase", 0.2, "height"),
-        ("a vase with a height of 25 cm", 0.25, "height"), ("The vase is 20 cm high.", 0.2, "height"),
-        ("a 3½ cm block", 0.035, None), ("a 1/2 inch block", 0.0127, None),
-        ("a 5cm block", 0.05, None), ("a 50 mm block", 0.05, None), ("a ten centimetre block", 0.1, None),
-        ("a 30 cm wide plate", 0.3, "width"), ("a 1.2 m long table", 1.2, "length"),
+        ("a vase with a height of 25 cm", 0.25, "height"),
+        ("The vase is 20 cm high.", 0.2, "height"),
+        ("a 3½ cm block", 0.035, None),
+        ("a 1/2 inch block", 0.0127, None),
+        ("a 5cm block", 0.05, None),
+        ("a 50 mm block", 0.05, None),
+        ("a ten centimetre block", 0.1, None),
+        ("a 30 cm wide plate", 0.3, "width"),
+        ("a 1.2 m long table", 1.2, "length"),
         ("a 3 foot long table", 0.9144, "length"),
-        ("a 12-inch ruler", 0.3048, None), ("a plate 25 cm in diameter", 0.25, "length"),
-        ("a 20 cm tall, blue vase", 0.2, "height"), ("a table that is 1.5 m long", 1.5, "length"),
+        ("a 12-inch ruler", 0.3048, None),
+        ("a plate 25 cm in diameter", 0.25, "length"),
+        ("a 20 cm tall, blue vase", 0.2, "height"),
+        ("a table that is 1.5 m long", 1.5, "length"),
     ],
-)  # fmt: skip
+)
 def test_a_length_sets_the_size_of_one_object(planner: GrammarPlanner, prompt: str, metres: float, axis: str | None):
     extent = only(planner, prompt).extent
     assert extent is not None
@@ -63,10 +71,15 @@ def test_a_box_of_three_lengths_has_the_longest_and_says_so(planner: GrammarPlan
 
 @pytest.mark.parametrize(
     ("prompt", "size", "factor"),
-    [("a 20 cm tall vase", (0.1, 0.1, 0.4), 0.5), ("a 20 cm wide vase", (0.1, 0.2, 0.4), 2.0),
-     ("a 20 cm deep box", (0.1, 0.4, 0.8), 0.5), ("a 20 cm long box", (0.1, 0.4, 0.8), 0.5),
-     ("a 2 cm thick book", (0.2, 0.3, 0.04), 0.5), ("a 20 cm box", (0.1, 0.4, 0.8), 0.25)],
-)  # fmt: skip
+    [
+        ("a 20 cm tall vase", (0.1, 0.1, 0.4), 0.5),
+        ("a 20 cm wide vase", (0.1, 0.2, 0.4), 2.0),
+        ("a 20 cm deep box", (0.1, 0.4, 0.8), 0.5),
+        ("a 20 cm long box", (0.1, 0.4, 0.8), 0.5),
+        ("a 2 cm thick book", (0.2, 0.3, 0.04), 0.5),
+        ("a 20 cm box", (0.1, 0.4, 0.8), 0.25),
+    ],
+)
 def test_an_extent_scales_the_side_that_it_names(
     planner: GrammarPlanner, prompt: str, size: tuple[float, float, float], factor: float
 ):
@@ -139,9 +152,15 @@ def test_what_a_plan_does_not_have_is_noted(planner: GrammarPlanner, prompt: str
 
 @pytest.mark.parametrize(
     "prompt",
-    ["Three bottles standing upright", "A mug on the left, a bowl on the right", "A ball on one of two boxes",
-     "A block and a ball to the right", "A dog beside a 40 cm tall box", "two cushions on two chairs"],
-)  # fmt: skip
+    [
+        "Three bottles standing upright",
+        "A mug on the left, a bowl on the right",
+        "A ball on one of two boxes",
+        "A block and a ball to the right",
+        "A dog beside a 40 cm tall box",
+        "two cushions on two chairs",
+    ],
+)
 def test_what_a_plan_has_is_not_noted(planner: GrammarPlanner, prompt: str):
     assert planner.plan(prompt).notes == ()
 
@@ -149,10 +168,14 @@ def test_what_a_plan_has_is_not_noted(planner: GrammarPlanner, prompt: str):
 @pytest.mark.parametrize(
     ("prompt", "why"),
     [
-        ("A tower of boxes in a pyramid.",
-         r'"pyramid" \(word 7\) is an arrangement that cannot be planned: every object'),
-        ("A pyramid of six cups.", r'"pyramid" \(word 2\)'), ("A pyramid of cups on a tray.", r'"pyramid" \(word 2\)'),
-        ("A bridge made of three blocks.", r'"bridge" \(word 2\)'), ("Five balls in a circle.", r'"circle" \(word 5\)'),
+        (
+            "A tower of boxes in a pyramid.",
+            r'"pyramid" \(word 7\) is an arrangement that cannot be planned: every object',
+        ),
+        ("A pyramid of six cups.", r'"pyramid" \(word 2\)'),
+        ("A pyramid of cups on a tray.", r'"pyramid" \(word 2\)'),
+        ("A bridge made of three blocks.", r'"bridge" \(word 2\)'),
+        ("Five balls in a circle.", r'"circle" \(word 5\)'),
         ("Four blocks forming a square.", r'"square" \(word 5\)'),
         ("A box on top of two other boxes.", '"A box" cannot be carried by "two other boxes" together'),
         ("A ruler across two boxes with a ball on it.", '"A ruler" cannot be carried by "two boxes" together'),
@@ -161,13 +184,14 @@ def test_what_a_plan_has_is_not_noted(planner: GrammarPlanner, prompt: str):
         ("A ball in two baskets", "carried by one other"),
         ("The robot should sort 3 cups and 2 bottles into a basket.", r'"sort" \(word 4\) tells a robot what to do'),
         ("Pick up the mug and place it on the plate.", r'"pick" \(word 1\)'),
-        ("A mug on a table. Open the box.", r'"open" \(word 6\)'), ("You must grasp the mug.", r'"grasp" \(word 3\)'),
+        ("A mug on a table. Open the box.", r'"open" \(word 6\)'),
+        ("You must grasp the mug.", r'"grasp" \(word 3\)'),
         ("The mug is not on the plate but on the tray.", r'"not" \(word 4\)'),
         ("Neither a mug nor a bowl.", r'"neither" \(word 1\)'),
         ("A lamp on a lamp stand.", r'"stand" is not in the catalogue \(word 6\)'),
         ("Six cups in two rows of four.", '"Six cups" are 6 objects and cannot stand as 8'),
     ],
-)  # fmt: skip
+)
 def test_what_no_scene_can_be_is_refused(planner: GrammarPlanner, prompt: str, why: str):
     with pytest.raises(PromptError, match=why):
         planner.plan(prompt)
@@ -175,9 +199,15 @@ def test_what_no_scene_can_be_is_refused(planner: GrammarPlanner, prompt: str, w
 
 @pytest.mark.parametrize(
     "prompt",
-    ["An open box on a desk", "You can see a mug on a table.", "A lamp and a radio stand on a desk",
-     "A mug in a square box", "Please put two mugs on the shelf.", "A statue of a dog"],
-)  # fmt: skip
+    [
+        "An open box on a desk",
+        "You can see a mug on a table.",
+        "A lamp and a radio stand on a desk",
+        "A mug in a square box",
+        "Please put two mugs on the shelf.",
+        "A statue of a dog",
+    ],
+)
 def test_what_only_looks_like_an_instruction_or_a_shape_is_planned(planner: GrammarPlanner, prompt: str):
     assert planner.plan(prompt).objects
 

@@ -51,9 +51,12 @@ def test_a_network_learns_to_move_towards_the_object():
     actions = np.zeros((400, 7), dtype=np.float32)
     actions[:, :3], actions[:, 6] = np.tanh(3 * away), np.sign(away[:, 2])
     shown = Demonstration(
-        episode=Episode(index=0, scene="", task="pick:a", seed=0), instruction="",
-        observations={name: np.stack([one[name] for one in seen]) for name in seen[0]}, actions=actions, done=actions,
-    )  # fmt: skip
+        episode=Episode(index=0, scene="", task="pick:a", seed=0),
+        instruction="",
+        observations={name: np.stack([one[name] for one in seen]) for name in seen[0]},
+        actions=actions,
+        done=actions,
+    )
     _, error = fit([shown], epochs=60)
     assert error < 0.02 < float(actions.var())
 

@@ -26,10 +26,12 @@ WORDS = ("pick up the mug", "please pick up the mug", "pick up the mug")
 def demonstration(number, *, pictures=False, joints=7):
     random, steps = np.random.default_rng(number), LENGTHS[number]
     seen = {
-        "joint_pos": random.normal(size=(steps, joints)), "joint_vel": random.normal(size=(steps, joints)),
-        "gripper_pos": random.normal(size=(steps, 2)), "eef_pos": random.normal(size=(steps, 3)),
+        "joint_pos": random.normal(size=(steps, joints)),
+        "joint_vel": random.normal(size=(steps, joints)),
+        "gripper_pos": random.normal(size=(steps, 2)),
+        "eef_pos": random.normal(size=(steps, 3)),
         "eef_quat": random.normal(size=(steps, 4)),
-    }  # fmt: skip
+    }
     if pictures:
         # A brightness for every frame, so that a film says which frame it shows.
         frames = (20 + 14 * (sum(LENGTHS[:number]) + np.arange(steps))).astype(np.uint8)
@@ -38,9 +40,12 @@ def demonstration(number, *, pictures=False, joints=7):
         seen["target"] = random.normal(size=(steps, 10))
     actions = random.uniform(-1, 1, (steps, 7)).astype(np.float32)
     return Demonstration(
-        episode=Episode(index=number, scene="", task="pick:mug", seed=number), instruction=WORDS[number],
-        observations=seen, actions=actions, done=actions / 2,
-    )  # fmt: skip
+        episode=Episode(index=number, scene="", task="pick:mug", seed=number),
+        instruction=WORDS[number],
+        observations=seen,
+        actions=actions,
+        done=actions / 2,
+    )
 
 
 @pytest.fixture

@@ -79,10 +79,12 @@ def lerobot(monkeypatch):
         return Model
 
     modules = {
-        "lerobot": {}, "lerobot.configs": {}, "lerobot.configs.policies": {"PreTrainedConfig": Config},
+        "lerobot": {},
+        "lerobot.configs": {},
+        "lerobot.configs.policies": {"PreTrainedConfig": Config},
         "lerobot.policies": {},
         "lerobot.policies.factory": {"get_policy_class": policy_class, "make_pre_post_processors": processors},
-    }  # fmt: skip
+    }
     for name, content in modules.items():
         module = types.ModuleType(name)
         vars(module).update(content)
@@ -106,9 +108,12 @@ def start(instruction="pick up the mug"):
 
 def seen(**more):
     return {
-        "joint_pos": np.arange(7, dtype=np.float32) / 10, "gripper_pos": np.zeros(2, np.float32),
-        "eef_pos": np.ones(3, np.float32), "eef_quat": np.zeros(4, np.float32), **more,
-    }  # fmt: skip
+        "joint_pos": np.arange(7, dtype=np.float32) / 10,
+        "gripper_pos": np.zeros(2, np.float32),
+        "eef_pos": np.ones(3, np.float32),
+        "eef_quat": np.zeros(4, np.float32),
+        **more,
+    }
 
 
 def test_observations_come_under_the_names_of_our_datasets_and_actions_through_the_pipelines(lerobot, tmp_path):
@@ -124,8 +129,10 @@ def test_observations_come_under_the_names_of_our_datasets_and_actions_through_t
     assert not model.training
     assert model.resets == 1
     assert {name: tuple(batch[name].shape) for name in inputs} == {
-        "observation.state": (1, 16), "observation.images.wrist": (1, 3, 8, 6), "observation.environment_state": (1, 10)
-    }  # fmt: skip
+        "observation.state": (1, 16),
+        "observation.images.wrist": (1, 3, 8, 6),
+        "observation.environment_state": (1, 10),
+    }
     assert batch["observation.images.wrist"][0, 1, 2, 5] == 1.0
     assert batch["observation.images.wrist"].sum() == 1.0
     assert batch["task"] == ["pick up the mug"]

@@ -56,8 +56,14 @@ def test_folders_that_are_not_ours_to_replace_are_refused(tmp_path, monkeypatch)
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "cat.jpg").write_text("x")
     monkeypatch.chdir(tmp_path)
-    for out, words in (("file", "is a file"), ("photos", "no scene.json"), (".", "inside it"), ("/", "inside it"),
-                       ("file/deeper", "not a folder"), ("x" * 300, "File name too long")):  # fmt: skip
+    for out, words in (
+        ("file", "is a file"),
+        ("photos", "no scene.json"),
+        (".", "inside it"),
+        ("/", "inside it"),
+        ("file/deeper", "not a folder"),
+        ("x" * 300, "File name too long"),
+    ):
         with pytest.raises(ExportError, match=words):
             check_target(out)
     (tmp_path / "empty").mkdir()

@@ -54,8 +54,12 @@ def test_everything_reads_back_bit_for_bit(scene, tmp_path):
     assert read.provenance == scene.provenance
     for new, old in zip(read.objects, scene.objects, strict=True):
         assert (new.name, new.phrase, new.pose, new.initial_pose, new.fixed) == (
-            old.name, old.phrase, old.pose, old.initial_pose, old.fixed,
-        )  # fmt: skip
+            old.name,
+            old.phrase,
+            old.pose,
+            old.initial_pose,
+            old.fixed,
+        )
         a, b = new.asset, old.asset
         assert (a.noun, a.mass_properties, a.material, a.regions) == (b.noun, b.mass_properties, b.material, b.regions)
         for name in ("vertices", "faces", "uv", "texture"):
@@ -193,9 +197,14 @@ def test_a_link_out_of_the_folder_is_refused(scene, tmp_path):
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("v 0 0 nan\nf 1 1 1\n", "finite"), ("v 0 0 0\nf 1 2 3\n", "names vertex 3 of 1"), ("v 0 0\nf 1 1 1\n", "line"),
-     ("", "needs both"), ("v 0 0 0\nf 0 1 1\n", "indices start at 1")],
-)  # fmt: skip
+    [
+        ("v 0 0 nan\nf 1 1 1\n", "finite"),
+        ("v 0 0 0\nf 1 2 3\n", "names vertex 3 of 1"),
+        ("v 0 0\nf 1 1 1\n", "line"),
+        ("", "needs both"),
+        ("v 0 0 0\nf 0 1 1\n", "indices start at 1"),
+    ],
+)
 def test_a_broken_mesh_file_is_refused(scene, tmp_path, text, message):
     save_scene(scene, tmp_path / "s")
     (tmp_path / "s" / "assets" / "red_mug_1" / "parts" / "part_000.obj").write_text(text)

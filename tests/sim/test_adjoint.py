@@ -113,9 +113,13 @@ def test_an_anchor_that_stays_behind_carries_its_share_of_the_gradient(scene):
         for _ in range(4):
             recorded.record_friction()
             recorded.step(
-                everything, np.ones(1), move_tolerance=1e-5, residual_tolerance=1e-9, exact_below=1e-2,
+                everything,
+                np.ones(1),
+                move_tolerance=1e-5,
+                residual_tolerance=1e-9,
+                exact_below=1e-2,
                 max_iterations=100,
-            )  # fmt: skip
+            )
         record, states = recorded.recorded()
         return record, np.stack([state.numpy() for state in states])
 

@@ -98,9 +98,13 @@ def test_attached_bodies_still_collide_with_one_another():
 
 @pytest.mark.parametrize(
     ("first", "second", "message"),
-    [((0, 0), (0, 0), "two different bodies"), ((0, 0), (3, 0), "below 3"), ((0, 0), (2, np.nan), "3 finite numbers"),
-     ((0, 0), (1, 0), "both fixed")],
-)  # fmt: skip
+    [
+        ((0, 0), (0, 0), "two different bodies"),
+        ((0, 0), (3, 0), "below 3"),
+        ((0, 0), (2, np.nan), "3 finite numbers"),
+        ((0, 0), (1, 0), "both fixed"),
+    ],
+)
 def test_impossible_attachments_are_refused(first, second, message):
     builder = ModelBuilder()
     for z, fixed in ((0.1, True), (0.3, True), (0.5, False)):

@@ -34,9 +34,14 @@ def torus() -> ConvexPart:
 def add(builder: ModelBuilder, part: ConvexPart, pose: Pose, fixed: bool = False) -> int:
     properties = mass_properties(part.vertices, part.faces, density=500.0)
     return builder.add_body(
-        [part], mass=properties.mass, volume=properties.volume, centre=np.array(properties.centre_of_mass),
-        second_moment=properties.second_moment, pose=pose, fixed=fixed,
-    )  # fmt: skip
+        [part],
+        mass=properties.mass,
+        volume=properties.volume,
+        centre=np.array(properties.centre_of_mass),
+        second_moment=properties.second_moment,
+        pose=pose,
+        fixed=fixed,
+    )
 
 
 def pair_of_lumps(gap: float = 0.001) -> ModelBuilder:

@@ -49,9 +49,12 @@ def test_many_random_drops_never_intersect_and_nearly_all_rest(kind):
     seen, moving = [], []
 
     @settings(
-        max_examples=max(1, SCENES // (BATCH * len(KINDS))), deadline=None, database=None, phases=[Phase.generate],
+        max_examples=max(1, SCENES // (BATCH * len(KINDS))),
+        deadline=None,
+        database=None,
+        phases=[Phase.generate],
         suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example],
-    )  # fmt: skip
+    )
     @given(st.lists(st.integers(0, 2**32 - 1), min_size=BATCH, max_size=BATCH, unique=True))
     def drop(seeds: list[int]) -> None:
         wrong, restless = check(kind, seeds)

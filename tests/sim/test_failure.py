@@ -91,9 +91,13 @@ def body(label: str) -> dict:
     part = convex_part(box_points(0.1, 0.1, 0.1))
     properties = mass_properties(part.vertices, part.faces, density=500.0)
     return {
-        "parts": [part], "mass": properties.mass, "volume": properties.volume, "label": label,
-        "centre": np.array(properties.centre_of_mass), "second_moment": properties.second_moment,
-    }  # fmt: skip
+        "parts": [part],
+        "mass": properties.mass,
+        "volume": properties.volume,
+        "label": label,
+        "centre": np.array(properties.centre_of_mass),
+        "second_moment": properties.second_moment,
+    }
 
 
 def test_a_blocked_world_stops_and_the_others_go_on():

@@ -153,7 +153,7 @@ def test_worlds_have_their_own_friction():
         ({"every": 0}, "every=0"),
         ({"until": "done"}, "until must be"),
     ],
-)  # fmt: skip
+)
 def test_impossible_requests_are_refused(given, message):
     model = stack()
     with pytest.raises(SimulationError, match=message):

@@ -46,9 +46,13 @@ def test_ball_hides_the_sky_by_its_form_factor():
     glow = np.ones_like(geometry.face_colours)
     level = np.full(3, 0.0, dtype=np.float32)
     black = light.Studio(
-        key_direction=STUDIO.key_direction, fill_direction=STUDIO.fill_direction,
-        key=level, fill=level, zenith=level, horizon=level,
-    )  # fmt: skip
+        key_direction=STUDIO.key_direction,
+        fill_direction=STUDIO.fill_direction,
+        key=level,
+        fill=level,
+        zenith=level,
+        horizon=level,
+    )
     found = light.sky_light(geometry, black, glow, None, points, up, TILES, seed=0)
     assert abs(found.mean() - 0.25) < 0.02
 

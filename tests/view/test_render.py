@@ -169,8 +169,10 @@ def test_nothing_to_draw_and_bad_sizes_are_refused():
     with pytest.raises(SpecError, match="8 to 8192"):
         render([(block(), Pose())], width=100_000)
     empty = VisualMesh(
-        vertices=np.zeros((0, 3)), faces=np.zeros((0, 3), dtype=np.int32), uv=np.zeros((0, 3, 2)),
+        vertices=np.zeros((0, 3)),
+        faces=np.zeros((0, 3), dtype=np.int32),
+        uv=np.zeros((0, 3, 2)),
         texture=np.zeros((4, 4, 3), dtype=np.uint8),
-    )  # fmt: skip
+    )
     with pytest.raises(SpecError, match="no triangles"):
         render([(empty, Pose())])

@@ -19,8 +19,13 @@ def walled(height):
     """The ball between four walls, 0.3 m apart."""
     along, across = block((0.3, 0.01, height)), block((0.01, 0.3, height))
     low = height / 2.0
-    return [BALL, (along, at(0, -0.15, low)), (along, at(0, 0.15, low)), (across, at(-0.15, 0, low)),
-            (across, at(0.15, 0, low))]  # fmt: skip
+    return [
+        BALL,
+        (along, at(0, -0.15, low)),
+        (along, at(0, 0.15, low)),
+        (across, at(-0.15, 0, low)),
+        (across, at(0.15, 0, low)),
+    ]
 
 
 def elevation(camera):

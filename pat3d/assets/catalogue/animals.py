@@ -159,8 +159,13 @@ def cat(style: Style) -> Build:
     )
 
 
-@entry("cow", family="animals", synonyms=("cow figurine", "toy cow", "cow figure", "cattle", "bull",
-       "small cow figurine"), colours=("white", "brown"), accents=("black",))  # fmt: skip
+@entry(
+    "cow",
+    family="animals",
+    synonyms=("cow figurine", "toy cow", "cow figure", "cattle", "bull", "small cow figurine"),
+    colours=("white", "brown"),
+    accents=("black",),
+)
 def cow(style: Style) -> Build:
     """A patched toy cow with horns and an udder, 13 cm long."""
     coat, patch = style.colour(), style.colour(1)

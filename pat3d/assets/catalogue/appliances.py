@@ -42,8 +42,12 @@ def _units(style: Style, x: float, y: float, z: float, columns: int) -> tuple[tu
     foot = span((-x / 2 + 0.01, x / 2 - 0.01), (front + 0.05, y / 2), (0.0, plinth + 0.002))
     handles = [_bar(sum(across) / 2, front, sum(up) / 2, 0.14) for across, up in drawers]
     handles += [_bar(sum(across) / 2, front, up[1] - 0.05, 0.14) for across, up in doors]
-    return ((body, style.shade(colour, 0.72)), (foot, style.shade(colour, 0.5)), (fronts, colour),
-            (join(*handles), style.colour(1)))  # fmt: skip
+    return (
+        (body, style.shade(colour, 0.72)),
+        (foot, style.shade(colour, 0.5)),
+        (fronts, colour),
+        (join(*handles), style.colour(1)),
+    )
 
 
 @entry("counter", family="appliances", material="wood", colours=("white", "gray", "navy", "wood"), accents=("steel",
@@ -85,10 +89,12 @@ def sink(style: Style) -> Build:
     hole = ((front[1]), back[0])
     low = z - deep - 0.03
     slabs = [
-        span((-x / 2, x / 2), front, (low, z)), span((-x / 2, x / 2), back, (low, z)),
-        span((-x / 2, left[0]), hole, (low, z)), span(right, hole, (low, z)),
+        span((-x / 2, x / 2), front, (low, z)),
+        span((-x / 2, x / 2), back, (low, z)),
+        span((-x / 2, left[0]), hole, (low, z)),
+        span(right, hole, (low, z)),
         span(left, hole, (low, z - deep)),
-    ]  # fmt: skip
+    ]
     body = join(*slabs)
     parts = _units(style, x, y, low + 0.001, 2)
     lip = Shape(join(*slabs[:4]).solid ^ box(2, 2, rim).moved(z=z - rim).solid, ())
@@ -98,8 +104,13 @@ def sink(style: Style) -> Build:
         box(0.3 * x, 0.006, 0.004).moved(x / 2 - 0.2 * x, hole[0] + 0.05 + 0.055 * k, z - 0.002) for k in range(7)
     ]
     middle = (left[0] + left[1]) / 2
-    path = [(middle, back[0] + 0.08, z), (middle, back[0] + 0.08, z + 0.2), (middle, back[0] + 0.01, z + 0.29),
-            (middle, back[0] - 0.08, z + 0.27), (middle, back[0] - 0.1, z + 0.2)]  # fmt: skip
+    path = [
+        (middle, back[0] + 0.08, z),
+        (middle, back[0] + 0.08, z + 0.2),
+        (middle, back[0] + 0.01, z + 0.29),
+        (middle, back[0] - 0.08, z + 0.27),
+        (middle, back[0] - 0.1, z + 0.2),
+    ]
     tap = tube(curve(path, 33), 0.012, 6, up=(1, 0, 0))
     base = cylinder(0.026, 0.03).moved(middle, back[0] + 0.08, z - 0.002)
     lever = box(0.07, 0.014, 0.014).moved(middle + 0.045, back[0] + 0.08, z + 0.04)
@@ -181,8 +192,10 @@ def fridge(style: Style) -> Build:
     body = span((-x / 2, x / 2), (front, y / 2), (0.0, z))
     doors = [span((-x / 2, x / 2), (-y / 2, front - 0.008), up) for up in ((0.05, 0.36 * z), (0.36 * z + 0.01, z))]
     core = span((-x / 2 + 0.015, x / 2 - 0.015), (front - 0.01, front), (0.06, z - 0.01))
-    handles = [span((-x / 2 + 0.04, -x / 2 + 0.065), (-y / 2 - 0.035, -y / 2 + 0.001), up)
-               for up in ((0.2 * z, 0.34 * z), (0.4 * z, 0.62 * z))]  # fmt: skip
+    handles = [
+        span((-x / 2 + 0.04, -x / 2 + 0.065), (-y / 2 - 0.035, -y / 2 + 0.001), up)
+        for up in ((0.2 * z, 0.34 * z), (0.4 * z, 0.62 * z))
+    ]
     return Build(
         parts=(
             (body, style.shade(colour, 0.88)),
@@ -276,8 +289,12 @@ def tv_stand(style: Style) -> Build:
     parts: list[tuple[Shape, RGB]] = []
     for side in (-1, 1):
         across = (bay, x / 2) if side > 0 else (-x / 2, -bay)
-        body, door = fronted(across, (front, y / 2), (foot, z - thick), [((across[0] + 0.01, across[1] - 0.01),
-                             (foot + 0.01, z - thick - 0.01))])  # fmt: skip
+        body, door = fronted(
+            across,
+            (front, y / 2),
+            (foot, z - thick),
+            [((across[0] + 0.01, across[1] - 0.01), (foot + 0.01, z - thick - 0.01))],
+        )
         knob = box(0.014, 0.03, 0.1).moved(side * (bay + 0.05), front - 0.01, (foot + z) / 2 - 0.04)
         parts += [(body, style.shade(colour, 0.7)), (door, colour), (knob, style.colour(1))]
     top = box(x + 0.02, y, thick).moved(z=z - thick)
@@ -317,8 +334,11 @@ def ironing_board(style: Style) -> Build:
     board = extruded([(a, b) for a, b in nose], 0.04, sides=16).moved(z=z - 0.04)
     reach = 0.36 * x
 
-    bars = [strut((s * reach, t * 0.13), (-s * reach * 0.8, t * (0.1 if s > 0 else 0.06)), (0.0, z - 0.04), 0.012)
-            for s in (-1, 1) for t in (-1, 1)]  # fmt: skip
+    bars = [
+        strut((s * reach, t * 0.13), (-s * reach * 0.8, t * (0.1 if s > 0 else 0.06)), (0.0, z - 0.04), 0.012)
+        for s in (-1, 1)
+        for t in (-1, 1)
+    ]
     feet = [box(0.04, y, 0.025).moved(s * reach) for s in (-1, 1)]
     return Build(
         parts=((board, style.colour()), (join(*bars, *feet), style.colour(1))),
@@ -341,9 +361,13 @@ def conveyor_belt(style: Style) -> Build:
     stand = legs(x - 0.2, y - 0.005, z - 0.06, 0.04)
     seams = [span((at, at + 0.004), (-0.45 * y, 0.45 * y), (z - 0.002, z + 0.001)) for at in (-0.3 * x, 0.0, 0.3 * x)]
     return Build(
-        parts=((join(*rails), style.colour()), (join(stand, *struts), style.shade(style.colour(), 0.75)),
-               (belt, style.colour(1)), (join(*rollers), STEEL)),
+        parts=(
+            (join(*rails), style.colour()),
+            (join(stand, *struts), style.shade(style.colour(), 0.75)),
+            (belt, style.colour(1)),
+            (join(*rollers), STEEL),
+        ),
         paint=((drawn(together(seams)), GRAY),),
         regions=(shelf_top(x / 2 - 0.02, y / 2 - 0.045, z),),
         mass=style.vary(38.0),
-    )  # fmt: skip
+    )

@@ -11,8 +11,13 @@ from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
 from pat3d.assets.shapes import box, convex, cylinder, ellipsoid, join, soft_box, turned_solid
 
 
-@entry("backpack", family="wear", synonyms=("rucksack", "school bag", "schoolbag", "bookbag"), material="fabric",
-       colours=("blue", "red", "green", "navy"))  # fmt: skip
+@entry(
+    "backpack",
+    family="wear",
+    synonyms=("rucksack", "school bag", "schoolbag", "bookbag"),
+    material="fabric",
+    colours=("blue", "red", "green", "navy"),
+)
 def backpack(style: Style) -> Build:
     """A standing school backpack with a front pocket, a top handle and shoulder straps."""
     colour = style.colour()
@@ -103,9 +108,14 @@ def sunglasses(style: Style) -> Build:
     )
 
 
-@entry("gift", family="wear", synonyms=("gift box", "present", "wrapped gift", "birthday present",
-       "christmas present"), material="cardboard",
-       colours=("red", "blue", "green", "purple"), accents=("gold",))  # fmt: skip
+@entry(
+    "gift",
+    family="wear",
+    synonyms=("gift box", "present", "wrapped gift", "birthday present", "christmas present"),
+    material="cardboard",
+    colours=("red", "blue", "green", "purple"),
+    accents=("gold",),
+)
 def gift(style: Style) -> Build:
     """A wrapped box with a crossed ribbon and a bow."""
     colour, ribbon = style.colour(), style.colour(1)

@@ -10,8 +10,13 @@ from pat3d.assets.rounded import hollow, lathe, ring_of, slab, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, join, tray
 
 
-@entry("utensil holder", family="kitchen", synonyms=("utensil crock", "utensil pot", "cutlery holder", "caddy"),
-       material="ceramic", colours=("white", "teal", "gray"))  # fmt: skip
+@entry(
+    "utensil holder",
+    family="kitchen",
+    synonyms=("utensil crock", "utensil pot", "cutlery holder", "caddy"),
+    material="ceramic",
+    colours=("white", "teal", "gray"),
+)
 def utensil_holder(style: Style) -> Build:
     """An open crock for spoons and spatulas."""
     r, h = style.vary(0.062), height(style, 0.155)
@@ -26,8 +31,13 @@ def utensil_holder(style: Style) -> Build:
     )
 
 
-@entry("baking tray", family="kitchen", synonyms=("baking sheet", "cookie sheet", "oven tray", "baking pan",
-       "sheet pan"), material="steel", colours=("gray", "black", "steel"))  # fmt: skip
+@entry(
+    "baking tray",
+    family="kitchen",
+    synonyms=("baking sheet", "cookie sheet", "oven tray", "baking pan", "sheet pan"),
+    material="steel",
+    colours=("gray", "black", "steel"),
+)
 def baking_tray(style: Style) -> Build:
     """A flat metal tray with a low flared edge."""
     x, y, h, floor = length(style, 0.38, 0.03), style.vary(0.27, 0.03), 0.024, 0.003
@@ -40,9 +50,14 @@ def baking_tray(style: Style) -> Build:
     )
 
 
-@entry("baking dish", family="kitchen", synonyms=("casserole dish", "casserole", "oven dish", "loaf pan", "cake pan",
-       "lasagna dish", "roasting pan"), plurals=("baking dishes", "casserole dishes"), material="ceramic",
-       colours=("white", "red", "blue"))  # fmt: skip
+@entry(
+    "baking dish",
+    family="kitchen",
+    synonyms=("casserole dish", "casserole", "oven dish", "loaf pan", "cake pan", "lasagna dish", "roasting pan"),
+    plurals=("baking dishes", "casserole dishes"),
+    material="ceramic",
+    colours=("white", "red", "blue"),
+)
 def baking_dish(style: Style) -> Build:
     """A deep rectangular dish with two grips."""
     x, y, h, wall, floor = length(style, 0.27), style.vary(0.19), style.vary(0.065), 0.007, 0.008
@@ -55,8 +70,13 @@ def baking_dish(style: Style) -> Build:
     )
 
 
-@entry("ramekin", family="kitchen", synonyms=("souffle dish", "dip bowl", "small dish", "pudding dish"),
-       material="porcelain", colours=("white", "blue", "red"))  # fmt: skip
+@entry(
+    "ramekin",
+    family="kitchen",
+    synonyms=("souffle dish", "dip bowl", "small dish", "pudding dish"),
+    material="porcelain",
+    colours=("white", "blue", "red"),
+)
 def ramekin(style: Style) -> Build:
     """A small straight dish with ribs around it."""
     r, h = style.vary(0.045), height(style, 0.045)
@@ -96,8 +116,13 @@ def egg_carton(style: Style) -> Build:
     )
 
 
-@entry("mortar", family="kitchen", synonyms=("mortar and pestle", "pestle and mortar"), material="stone",
-       colours=("gray", "white"))  # fmt: skip
+@entry(
+    "mortar",
+    family="kitchen",
+    synonyms=("mortar and pestle", "pestle and mortar"),
+    material="stone",
+    colours=("gray", "white"),
+)
 def mortar(style: Style) -> Build:
     """A heavy stone bowl, its pestle left out."""
     r, h = style.vary(0.065), height(style, 0.085)
@@ -105,13 +130,20 @@ def mortar(style: Style) -> Build:
     outer = [(0.68 * r, 0), (0.72 * r, 0.1 * h), (0.94 * r, 0.55 * h), (r, h)]
     body = hollow(outer, inner, levels=(0.55 * h,), segments=8)
     return Build(
-        parts=((body, style.colour()),), regions=(cavity(inner, 8, (0.55 * h,)),),
-        paint=((unseen(box(1, 1, 0.006).moved(z=0.9 * h)), style.shade(style.colour(), 0.75)),), mass=1.3,
-    )  # fmt: skip
+        parts=((body, style.colour()),),
+        regions=(cavity(inner, 8, (0.55 * h,)),),
+        paint=((unseen(box(1, 1, 0.006).moved(z=0.9 * h)), style.shade(style.colour(), 0.75)),),
+        mass=1.3,
+    )
 
 
-@entry("funnel", family="kitchen", synonyms=("kitchen funnel", "plastic funnel"), material="plastic", colours=("red",
-       "blue", "steel"))  # fmt: skip
+@entry(
+    "funnel",
+    family="kitchen",
+    synonyms=("kitchen funnel", "plastic funnel"),
+    material="plastic",
+    colours=("red", "blue", "steel"),
+)
 def funnel(style: Style) -> Build:
     """A funnel standing on its rim, its spout upwards, closed to contact."""
     r, h = style.vary(0.06), height(style, 0.075)

@@ -30,8 +30,13 @@ def cardboard_box(style: Style) -> Build:
     )
 
 
-@entry("block", family="basics", material="wood", colours=TOY,
-       synonyms=("toy block", "building block", "wooden block", "play block"))  # fmt: skip
+@entry(
+    "block",
+    family="basics",
+    material="wood",
+    colours=TOY,
+    synonyms=("toy block", "building block", "wooden block", "play block"),
+)
 def block(style: Style) -> Build:
     """A child's wooden block, longer than wide or a cube as the seed will."""
     side = style.vary(0.05, 0.03)
@@ -84,16 +89,26 @@ def pyramid(style: Style) -> Build:
     return Build(parts=((convex([*base, (0.0, 0.0, height)]), style.colour()),))
 
 
-@entry("plank", family="basics", material="wood", colours=("wood", "tan", "brown"),
-       synonyms=("board", "wooden board", "wood plank", "wooden plank"))  # fmt: skip
+@entry(
+    "plank",
+    family="basics",
+    material="wood",
+    colours=("wood", "tan", "brown"),
+    synonyms=("board", "wooden board", "wood plank", "wooden plank"),
+)
 def plank(style: Style) -> Build:
     """A sawn board."""
     x, y, z = style.vary(0.5), style.vary(0.12), style.vary(0.02)
     return Build(parts=((box(x, y, z), style.colour()),), regions=(shelf_top(x / 2, y / 2, z),))
 
 
-@entry("ball", family="basics", material="plastic", colours=("red", "blue", "turquoise", "white"),
-       synonyms=("plastic ball", "toy ball", "play ball", "small ball", "sphere"))  # fmt: skip
+@entry(
+    "ball",
+    family="basics",
+    material="plastic",
+    colours=("red", "blue", "turquoise", "white"),
+    synonyms=("plastic ball", "toy ball", "play ball", "small ball", "sphere"),
+)
 def ball(style: Style) -> Build:
     """A hollow play ball; with a white band when striped."""
     radius = style.vary(0.035)

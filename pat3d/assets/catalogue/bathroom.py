@@ -64,8 +64,9 @@ def razor(style: Style) -> Build:
     radius = np.interp(x, [0, 0.06, 0.3, 0.7, 1.0], [0.004, 0.0062, 0.0068, 0.0048, 0.004])
     rise = 0.012 * np.clip(x - 0.6, 0, 1) ** 2
     handle = tube(np.column_stack([n * (x - 1.0), 0 * x, 0.8 * radius + rise]), radius, 3, flatness=0.8)
-    head = convex([(x, y, z) for x, z in ((-0.002, 0), (0.011, 0), (0.013, 0.009), (0.002, 0.011))
-                   for y in (-0.021, 0.021)])  # fmt: skip
+    head = convex(
+        [(x, y, z) for x, z in ((-0.002, 0), (0.011, 0), (0.013, 0.009), (0.002, 0.011)) for y in (-0.021, 0.021)]
+    )
     blades = unseen(join(*(box(0.0012, 0.036, 0.1).moved(x=at, z=0.004) for at in (0.0045, 0.0075, 0.0105))))
     ribs = unseen(join(*(box(0.0018, 0.1, 0.1).moved(x=-n * part, z=0.005) for part in (0.55, 0.6, 0.65, 0.7, 0.75))))
     return Build(
@@ -75,9 +76,14 @@ def razor(style: Style) -> Build:
     )
 
 
-@entry("soap", family="bathroom", synonyms=("bar of soap", "soap bar", "bar soap", "bar"),
-       plurals=("bars of soap", "soap bars"),
-       material="soap", colours=("white", "beige", "mint", "pink"))  # fmt: skip
+@entry(
+    "soap",
+    family="bathroom",
+    synonyms=("bar of soap", "soap bar", "bar soap", "bar"),
+    plurals=("bars of soap", "soap bars"),
+    material="soap",
+    colours=("white", "beige", "mint", "pink"),
+)
 def soap(style: Style) -> Build:
     """A rounded bar with a stamped oval."""
     x, y, z = style.vary(0.08, 0.04), style.vary(0.052, 0.04), style.vary(0.024, 0.06)
@@ -155,9 +161,14 @@ def towel(style: Style) -> Build:
     return Build(parts=((Shape(cloth.solid, cover.hulls), style.colour()),), paint=((border, other),))
 
 
-@entry("toilet paper", family="bathroom", synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper"),
-       plurals=("rolls of toilet paper",), material="foam",
-       colours=("white",))  # fmt: skip
+@entry(
+    "toilet paper",
+    family="bathroom",
+    synonyms=("toilet roll", "toilet paper roll", "roll of toilet paper"),
+    plurals=("rolls of toilet paper",),
+    material="foam",
+    colours=("white",),
+)
 def toilet_paper(style: Style) -> Build:
     """A roll standing on its end, its cardboard core showing."""
     r, h = style.vary(0.056), height(style, 0.098)
@@ -238,8 +249,12 @@ def bucket(style: Style) -> Build:
     tilt = 0.42
     turn = np.radians(np.linspace(180, 360, 41))
     out = r + 0.012
-    bail = tube(np.column_stack([out * np.cos(turn), 1.02 * out * np.sin(turn), h - 0.03 + tilt * out * np.sin(turn)]),
-                0.0032, 4, up=(0, -tilt, 1))  # fmt: skip
+    bail = tube(
+        np.column_stack([out * np.cos(turn), 1.02 * out * np.sin(turn), h - 0.03 + tilt * out * np.sin(turn)]),
+        0.0032,
+        4,
+        up=(0, -tilt, 1),
+    )
     lugs = join(*(box(0.018, 0.02, 0.03).moved(x=s * (r + 0.005), z=h - 0.046) for s in (-1, 1)))
     return Build(
         parts=((body, style.colour()), (rim, style.colour()), (bail, style.colour(1)), (lugs, style.colour())),

@@ -22,8 +22,13 @@ from pat3d.assets.rounded import curve, lathe, lobed, slab, tube, unseen
 from pat3d.assets.shapes import Shape, box, convex, cylinder, join, soft_box
 
 
-@entry("mouse pad", family="desk", material="rubber", colours=("black", "blue", "gray"), synonyms=("mousepad",
-       "mouse mat", "desk mat"))  # fmt: skip
+@entry(
+    "mouse pad",
+    family="desk",
+    material="rubber",
+    colours=("black", "blue", "gray"),
+    synonyms=("mousepad", "mouse mat", "desk mat"),
+)
 def mouse_pad(style: Style) -> Build:
     """A thin soft mat with a stitched edge, lying flat."""
     x, y, z = style.vary(0.24), style.vary(0.2), 0.004
@@ -38,8 +43,13 @@ def mouse_pad(style: Style) -> Build:
     )
 
 
-@entry("wallet", family="desk", material="leather", colours=("brown", "black", "tan"), synonyms=("billfold",
-       "purse wallet", "card holder"))  # fmt: skip
+@entry(
+    "wallet",
+    family="desk",
+    material="leather",
+    colours=("brown", "black", "tan"),
+    synonyms=("billfold", "purse wallet", "card holder"),
+)
 def wallet(style: Style) -> Build:
     """A folded wallet lying flat, stitched along its edge, notes showing at the back."""
     x, y, z = style.vary(0.11), style.vary(0.09), style.vary(0.02)
@@ -74,8 +84,9 @@ def watch(style: Style) -> Build:
     moved = strap.moved(z=max(low, 0.0))
     return Build(
         parts=((join(moved, base).scaled(k), style.colour()), (join(case, crown).scaled(k), STEEL)),
-        paint=((face.scaled(k), style.colour(1)), (unseen(hands).scaled(k), BLACK)), mass=0.075,
-    )  # fmt: skip
+        paint=((face.scaled(k), style.colour(1)), (unseen(hands).scaled(k), BLACK)),
+        mass=0.075,
+    )
 
 
 @entry("matchbox", family="desk", material="cardboard", colours=("red", "blue", "yellow"), accents=("white", "brown"),
@@ -142,13 +153,19 @@ def magnifying_glass(style: Style) -> Build:
     neck = box(0.02, 0.009, 0.009).moved(r + 0.004)
     return Build(
         parts=((join(rim, neck), STEEL), (grip, style.colour())),
-        paint=((pane, style.colour(1)),), mass=0.11,
-    )  # fmt: skip
+        paint=((pane, style.colour(1)),),
+        mass=0.11,
+    )
 
 
-@entry("pencil case", family="desk", material="fabric", colours=("blue", "pink", "black", "green"),
-       accents=("silver",), synonyms=("pencil pouch", "pencil bag", "glasses case", "cosmetic bag",
-       "toiletry bag"))  # fmt: skip
+@entry(
+    "pencil case",
+    family="desk",
+    material="fabric",
+    colours=("blue", "pink", "black", "green"),
+    accents=("silver",),
+    synonyms=("pencil pouch", "pencil bag", "glasses case", "cosmetic bag", "toiletry bag"),
+)
 def pencil_case(style: Style) -> Build:
     """A soft closed case lying on its base, a zip along its top."""
     n, y, z = style.vary(0.21), style.vary(0.07), style.vary(0.055)
@@ -156,8 +173,11 @@ def pencil_case(style: Style) -> Build:
     zip_ = join(span((-0.42 * n, 0.42 * n), (-0.003, 0.003), (z - 0.002, 1)))
     pull = slab(0.026, 0.008, 0.005, 0.003).moved(-0.34 * n, 0.006, z - 0.001)
     tab = box(0.012, 0.022, 0.004).moved(n / 2 + 0.003, 0.0, 0.5 * z)
-    return Build(parts=((body, style.colour()), (join(pull), style.colour(1)), (tab, style.shade(style.colour(), 0.7))),
-                 paint=((drawn(zip_), style.colour(1)),), mass=0.13)  # fmt: skip
+    return Build(
+        parts=((body, style.colour()), (join(pull), style.colour(1)), (tab, style.shade(style.colour(), 0.7))),
+        paint=((drawn(zip_), style.colour(1)),),
+        mass=0.13,
+    )
 
 
 @entry("pencil sharpener", family="desk", material="plastic", colours=("red", "blue", "silver"), accents=("steel",),
@@ -215,8 +235,9 @@ def hole_punch(style: Style) -> Build:
     slot = span((-1, 1), (-1, -0.048), (0.004, 0.006))
     return Build(
         parts=((base, style.shade(style.colour(), 0.75)), (join(*cheeks), style.colour(1)), (lever, style.colour())),
-        paint=((drawn(slot), BLACK),), mass=0.32,
-    )  # fmt: skip
+        paint=((drawn(slot), BLACK),),
+        mass=0.32,
+    )
 
 
 @entry("binder clip", family="desk", material="steel", colours=("black", "red", "blue"), accents=("steel",),
@@ -285,5 +306,6 @@ def newspaper(style: Style) -> Build:
     return Build(
         parts=((box(x, y, z), style.colour()),),
         paint=((drawn(title), (60, 60, 66)), (drawn(photo), style.colour(1)), (drawn(together(lines)), ink)),
-        regions=(shelf_top(x / 2, y / 2, z),), mass=0.2,
-    )  # fmt: skip
+        regions=(shelf_top(x / 2, y / 2, z),),
+        mass=0.2,
+    )

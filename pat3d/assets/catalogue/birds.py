@@ -68,8 +68,13 @@ def blue_jay(style: Style) -> Build:
     )
 
 
-@entry("bird", family="animals", synonyms=("songbird", "small bird", "robin", "sparrow", "canary",
-       "toy bird", "parrot"), material="wool", colours=("yellow", "red", "teal", "brown"))  # fmt: skip
+@entry(
+    "bird",
+    family="animals",
+    synonyms=("songbird", "small bird", "robin", "sparrow", "canary", "toy bird", "parrot"),
+    material="wool",
+    colours=("yellow", "red", "teal", "brown"),
+)
 def bird(style: Style) -> Build:
     """A small songbird with a light breast."""
     coat = style.colour()
@@ -93,8 +98,13 @@ def _duck_body(style: Style, coat: RGB, wing: RGB, head: RGB) -> tuple[list, Sha
     return parts, skull, size, at
 
 
-@entry("rubber duck", family="toys", synonyms=("rubber ducky", "bath duck", "rubber duckie", "toy duck",
-       "yellow duck"), material="rubber", colours=("yellow",))  # fmt: skip
+@entry(
+    "rubber duck",
+    family="toys",
+    synonyms=("rubber ducky", "bath duck", "rubber duckie", "toy duck", "yellow duck"),
+    material="rubber",
+    colours=("yellow",),
+)
 def rubber_duck(style: Style) -> Build:
     """A hollow bath duck, 11 cm long."""
     coat = style.colour()

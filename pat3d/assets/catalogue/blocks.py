@@ -35,13 +35,20 @@ def wood_block(style: Style) -> Build:
         for r in np.arange(0.008, 0.09, 0.009)
     ]
     return Build(
-        parts=((box(x, x, z), style.colour()),), paint=((together(rings), style.shade(style.colour(), 0.85)),),
-        regions=(shelf_top(x / 2, x / 2, z),), mass=0.729,
-    )  # fmt: skip
+        parts=((box(x, x, z), style.colour()),),
+        paint=((together(rings), style.shade(style.colour(), 0.85)),),
+        regions=(shelf_top(x / 2, x / 2, z),),
+        mass=0.729,
+    )
 
 
-@entry("foam brick", family="basics", material="foam", colours=("red", "terracotta", "blue"), synonyms=("foam block",
-       "sponge brick", "toy foam brick", "soft brick"))  # fmt: skip
+@entry(
+    "foam brick",
+    family="basics",
+    material="foam",
+    colours=("red", "terracotta", "blue"),
+    synonyms=("foam block", "sponge brick", "toy foam brick", "soft brick"),
+)
 def foam_brick(style: Style) -> Build:
     """The foam brick of the YCB set, lying: 75 by 50 by 50 mm, 28 g, with three holes to the eye."""
     x, y, z = style.vary(0.075, 0.01), style.vary(0.05, 0.01), style.vary(0.05, 0.01)
@@ -54,8 +61,13 @@ def foam_brick(style: Style) -> Build:
     )
 
 
-@entry("triangular prism", family="basics", material="wood", colours=TOY, synonyms=("triangle block", "triangle",
-       "prism", "wedge block", "roof block"))  # fmt: skip
+@entry(
+    "triangular prism",
+    family="basics",
+    material="wood",
+    colours=TOY,
+    synonyms=("triangle block", "triangle", "prism", "wedge block", "roof block"),
+)
 def triangular_prism(style: Style) -> Build:
     """A roof-shaped block lying on its widest side."""
     x, y, z = style.vary(0.06), style.vary(0.035), style.vary(0.035)
@@ -63,8 +75,9 @@ def triangular_prism(style: Style) -> Build:
     return Build(parts=((convex(points), style.colour()),))
 
 
-@entry("hexagonal prism", family="basics", material="wood", colours=TOY, synonyms=("hexagon block", "hexagon",
-       "hex block"))  # fmt: skip
+@entry(
+    "hexagonal prism", family="basics", material="wood", colours=TOY, synonyms=("hexagon block", "hexagon", "hex block")
+)
 def hexagonal_prism(style: Style) -> Build:
     """A six-sided block standing on its end."""
     r, z = style.vary(0.028), style.vary(0.04)
@@ -97,16 +110,26 @@ def cross_block(style: Style) -> Build:
     return Build(parts=((join(box(n, w, z), box(w, n, z)), style.colour()),))
 
 
-@entry("l-shaped block", family="basics", material="wood", colours=TOY, synonyms=("l block", "l shape", "l-shape",
-       "l shaped block"))  # fmt: skip
+@entry(
+    "l-shaped block",
+    family="basics",
+    material="wood",
+    colours=TOY,
+    synonyms=("l block", "l shape", "l-shape", "l shaped block"),
+)
 def l_block(style: Style) -> Build:
     """An L lying flat: two arms of equal thickness."""
     n, w, z = style.vary(0.075), style.vary(0.025), style.vary(0.025)
     return Build(parts=((join(box(n, w, z), box(w, 0.8 * n, z).moved(-(n - w) / 2, 0.4 * n - w / 2)), style.colour()),))
 
 
-@entry("t-shaped block", family="basics", material="wood", colours=TOY, synonyms=("t block", "t shape", "t-shape",
-       "push-t block", "push t block", "t-block", "t shaped block"))  # fmt: skip
+@entry(
+    "t-shaped block",
+    family="basics",
+    material="wood",
+    colours=TOY,
+    synonyms=("t block", "t shape", "t-shape", "push-t block", "push t block", "t-block", "t shaped block"),
+)
 def t_block(style: Style) -> Build:
     """The T of the pushing task, lying flat: a bar of 120 mm and a stem of 90 mm, 30 mm wide."""
     k, z = style.vary(1.0, 0.02), style.vary(0.03)
@@ -114,8 +137,13 @@ def t_block(style: Style) -> Build:
     return Build(parts=((join(bar, stem), style.colour()),))
 
 
-@entry("star", family="basics", material="wood", colours=("yellow", "gold", "red", "blue"), synonyms=("star block",
-       "star shape", "wooden star"))  # fmt: skip
+@entry(
+    "star",
+    family="basics",
+    material="wood",
+    colours=("yellow", "gold", "red", "blue"),
+    synonyms=("star block", "star shape", "wooden star"),
+)
 def star(style: Style) -> Build:
     """A five-pointed star lying flat."""
     r, z = style.vary(0.035), style.vary(0.022)
@@ -133,8 +161,13 @@ def star(style: Style) -> Build:
     return Build(parts=((Shape(solid, tuple(hulls)), style.colour()),))
 
 
-@entry("ring", family="basics", material="wood", colours=TOY, synonyms=("toy ring", "wooden ring", "torus", "ring toy",
-       "hoop"))  # fmt: skip
+@entry(
+    "ring",
+    family="basics",
+    material="wood",
+    colours=TOY,
+    synonyms=("toy ring", "wooden ring", "torus", "ring toy", "hoop"),
+)
 def ring(style: Style) -> Build:
     """A thick ring lying flat, open in its middle: it goes over a peg."""
     big, small = style.vary(0.034), style.vary(0.0105)
@@ -144,16 +177,26 @@ def ring(style: Style) -> Build:
     return Build(parts=((body, style.colour()),))
 
 
-@entry("peg", family="basics", material="wood", colours=("wood", *TOY[:4]), synonyms=("wooden peg", "round peg",
-       "dowel pin"))  # fmt: skip
+@entry(
+    "peg",
+    family="basics",
+    material="wood",
+    colours=("wood", *TOY[:4]),
+    synonyms=("wooden peg", "round peg", "dowel pin"),
+)
 def peg(style: Style) -> Build:
     """A round peg standing on its end."""
     r, z = style.vary(0.0125), style.vary(0.08)
     return Build(parts=((cylinder(r, z), style.colour()),), regions=(disc_top(r, z),))
 
 
-@entry("rod", family="basics", material="wood", colours=("wood", "red", "blue"), synonyms=("stick", "dowel",
-       "wooden stick", "wooden rod", "baton", "bar stick"))  # fmt: skip
+@entry(
+    "rod",
+    family="basics",
+    material="wood",
+    colours=("wood", "red", "blue"),
+    synonyms=("stick", "dowel", "wooden stick", "wooden rod", "baton", "bar stick"),
+)
 def rod(style: Style) -> Build:
     """A round stick lying on a flat of its convex part."""
     r, n = style.vary(0.01), style.vary(0.25)
@@ -173,8 +216,13 @@ def disc_(style: Style) -> Build:
     )
 
 
-@entry("peg board", family="basics", material="wood", colours=("wood", "tan"), synonyms=("pegboard", "peg stand",
-       "peg base"))  # fmt: skip
+@entry(
+    "peg board",
+    family="basics",
+    material="wood",
+    colours=("wood", "tan"),
+    synonyms=("pegboard", "peg stand", "peg base"),
+)
 def peg_board(style: Style) -> Build:
     """A board with three upright pegs in a row, for rings and nuts."""
     x, y, z = style.vary(0.3, 0.03), style.vary(0.12, 0.03), 0.02
@@ -185,8 +233,13 @@ def peg_board(style: Style) -> Build:
     return Build(parts=((slab(x, y, z, 0.012), style.colour()), *pegs), mass=0.5)
 
 
-@entry("cube tray", family="basics", material="wood", colours=("wood", "tan", "white"), synonyms=("sorting tray",
-       "kit tray", "parts tray", "kitting tray", "parts bin", "sorting box"))  # fmt: skip
+@entry(
+    "cube tray",
+    family="basics",
+    material="wood",
+    colours=("wood", "tan", "white"),
+    synonyms=("sorting tray", "kit tray", "parts tray", "kitting tray", "parts bin", "sorting box"),
+)
 def cube_tray(style: Style) -> Build:
     """An open tray of two equal compartments, as used for sorting."""
     x, y, h, wall, floor = style.vary(0.36, 0.02), style.vary(0.2, 0.02), style.vary(0.05), 0.008, 0.008
@@ -224,8 +277,13 @@ def chessboard(style: Style) -> Build:
     )
 
 
-@entry("jenga tower", family="basics", material="wood", colours=("tan", "wood"), synonyms=("jenga", "block tower",
-       "wooden block tower"))  # fmt: skip
+@entry(
+    "jenga tower",
+    family="basics",
+    material="wood",
+    colours=("tan", "wood"),
+    synonyms=("jenga", "block tower", "wooden block tower"),
+)
 def jenga_tower(style: Style) -> Build:
     """A glued tower of crossed blocks, six layers high."""
     n, z = style.vary(0.075, 0.02), 0.015
@@ -244,8 +302,13 @@ def jenga_tower(style: Style) -> Build:
     return Build(parts=tuple(parts), regions=(shelf_top(n / 2, n / 2, 6 * z),), mass=0.33)
 
 
-@entry("jenga block", family="basics", material="wood", colours=("tan", "wood"), synonyms=("jenga piece",
-       "wooden plank block"))  # fmt: skip
+@entry(
+    "jenga block",
+    family="basics",
+    material="wood",
+    colours=("tan", "wood"),
+    synonyms=("jenga piece", "wooden plank block"),
+)
 def jenga_block(style: Style) -> Build:
     """One block of the tower, lying flat."""
     x, y, z = style.vary(0.075, 0.02), style.vary(0.025, 0.02), style.vary(0.015, 0.02)
@@ -294,8 +357,13 @@ def golf_ball(style: Style) -> Build:
     )
 
 
-@entry("racquetball", family="basics", material="rubber", colours=("blue", "black"), synonyms=("squash ball",
-       "rubber ball"))  # fmt: skip
+@entry(
+    "racquetball",
+    family="basics",
+    material="rubber",
+    colours=("blue", "black"),
+    synonyms=("squash ball", "rubber ball"),
+)
 def racquetball(style: Style) -> Build:
     """A hollow rubber ball: 55.3 mm, 41 g, with its seam."""
     r = style.vary(0.02765, 0.005)
@@ -305,8 +373,9 @@ def racquetball(style: Style) -> Build:
     )
 
 
-@entry("ping pong ball", family="basics", material="plastic", colours=("white", "orange"),
-       synonyms=("table tennis ball",))  # fmt: skip
+@entry(
+    "ping pong ball", family="basics", material="plastic", colours=("white", "orange"), synonyms=("table tennis ball",)
+)
 def ping_pong_ball(style: Style) -> Build:
     """A table tennis ball: 40 mm, 2.7 g."""
     r = style.vary(0.02, 0.005)

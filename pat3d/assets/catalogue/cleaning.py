@@ -87,8 +87,10 @@ def dustpan(style: Style) -> Build:
 def spray_bottle(style: Style) -> Build:
     """A full bottle with a trigger head that points to the left."""
     r, h = style.vary(0.043, 0.03), height(style, 0.19, 0.03)
-    body = lathe([(0.95 * r, 0), (r, 0.006), (r, 0.55 * h), (0.75 * r, 0.78 * h), (0.34 * r, 0.93 * h), (0.34 * r, h)],
-                 cuts=(0.55 * h, 0.9 * h)).scaled(1, 0.78, 1)  # fmt: skip
+    body = lathe(
+        [(0.95 * r, 0), (r, 0.006), (r, 0.55 * h), (0.75 * r, 0.78 * h), (0.34 * r, 0.93 * h), (0.34 * r, h)],
+        cuts=(0.55 * h, 0.9 * h),
+    ).scaled(1, 0.78, 1)
     collar = cylinder(0.017, 0.022, sides=12).moved(z=h - 0.004)
     head = convex(
         [
@@ -230,8 +232,13 @@ def hair_dryer(style: Style) -> Build:
     )
 
 
-@entry("toothbrush holder", family="household", synonyms=("tooth brush holder", "bathroom tumbler", "toothbrush cup"),
-       material="ceramic", colours=("white", "teal", "gray"))  # fmt: skip
+@entry(
+    "toothbrush holder",
+    family="household",
+    synonyms=("tooth brush holder", "bathroom tumbler", "toothbrush cup"),
+    material="ceramic",
+    colours=("white", "teal", "gray"),
+)
 def toothbrush_holder(style: Style) -> Build:
     """An open bathroom tumbler with a band."""
     r, h = style.vary(0.037), height(style, 0.108)

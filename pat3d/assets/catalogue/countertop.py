@@ -76,9 +76,14 @@ def toaster_oven(style: Style) -> Build:
     )
 
 
-@entry("coffee machine", family="appliances", material="plastic", colours=("black", "steel", "red", "white"),
-       accents=("steel",), synonyms=("coffee maker", "coffeemaker", "espresso machine", "espresso maker",
-       "drip coffee maker"))  # fmt: skip
+@entry(
+    "coffee machine",
+    family="appliances",
+    material="plastic",
+    colours=("black", "steel", "red", "white"),
+    accents=("steel",),
+    synonyms=("coffee maker", "coffeemaker", "espresso machine", "espresso maker", "drip coffee maker"),
+)
 def coffee_machine(style: Style) -> Build:
     """A machine with an open bay for a cup on its drip tray, below the spout."""
     x, y, z = style.vary(0.22, 0.03), style.vary(0.34, 0.03), style.vary(0.34, 0.03)
@@ -89,8 +94,10 @@ def coffee_machine(style: Style) -> Build:
     top = span((-x / 2, x / 2), (-y / 2 + 0.02, -y / 2 + bay + 0.001), (head, z))
     spout = box(0.05, 0.045, 0.036).moved(y=-y / 2 + 0.5 * bay, z=head - 0.035)
     wand = box(0.012, 0.012, 0.11).moved(x / 2 - 0.022, -y / 2 + 0.07, head - 0.109)
-    grid = [span((-0.42 * x, 0.42 * x), (at, at + 0.006), (tray - 0.002, tray + 0.001))
-            for at in (-y / 2 + 0.02 + 0.018 * k for k in range(6))]  # fmt: skip
+    grid = [
+        span((-0.42 * x, 0.42 * x), (at, at + 0.006), (tray - 0.002, tray + 0.001))
+        for at in (-y / 2 + 0.02 + 0.018 * k for k in range(6))
+    ]
     panel = span((-0.3 * x, 0.3 * x), (-y, -y / 2 + 0.022), (0.78 * z, 0.93 * z))
     lamp = span((0.2 * x, 0.24 * x), (-y, -y / 2 + 0.022), (0.84 * z, 0.87 * z))
     room = head - 0.036 - tray
@@ -103,7 +110,7 @@ def coffee_machine(style: Style) -> Build:
             shelf_top(x / 2, y / 2 - 0.01, z, at=(0.0, 0.01)),
         ),
         mass=style.vary(4.5),
-    )  # fmt: skip
+    )
 
 
 @entry("blender", family="appliances", material="plastic", colours=("red", "black", "white", "mint"),
@@ -134,8 +141,13 @@ def stand_mixer(style: Style) -> Build:
     """A tilt-head mixer facing left, its steel bowl under the beater."""
     k, colour = style.vary(1.0, 0.04), style.colour()
     foot = slab(0.34, 0.2, 0.035, 0.07)
-    column = convex([(x, s * y, z) for s in (-1, 1) for x, y, z in
-                     ((0.06, 0.055, 0.03), (0.15, 0.055, 0.03), (0.07, 0.05, 0.26), (0.15, 0.05, 0.26))])  # fmt: skip
+    column = convex(
+        [
+            (x, s * y, z)
+            for s in (-1, 1)
+            for x, y, z in ((0.06, 0.055, 0.03), (0.15, 0.055, 0.03), (0.07, 0.05, 0.26), (0.15, 0.05, 0.26))
+        ]
+    )
     head = soft_box(0.34, 0.12, 0.12, 0.05).moved(-0.005, 0.0, 0.235)
     bowl = hollow([(0.06, 0), (0.1, 0.06), (0.105, 0.13)], [(0.056, 0.005), (0.097, 0.06), (0.102, 0.13)], segments=8)
     beater = cylinder(0.012, 0.06, 8).moved(-0.085, 0.0, 0.18)
@@ -256,8 +268,13 @@ def coffee_pot(style: Style) -> Build:
     """An open glass carafe with coffee in its colour band and a black handle on its right."""
     r, z = style.vary(0.062, 0.04), style.vary(0.15, 0.04)
     outer = [(0.86 * r, 0), (r, 0.25 * z), (r, 0.45 * z), (0.7 * r, 0.86 * z), (0.74 * r, z)]
-    inner = [(0.82 * r, 0.006), (r - 0.004, 0.26 * z), (r - 0.004, 0.45 * z), (0.7 * r - 0.004, 0.86 * z),
-             (0.74 * r - 0.004, z)]  # fmt: skip
+    inner = [
+        (0.82 * r, 0.006),
+        (r - 0.004, 0.26 * z),
+        (r - 0.004, 0.45 * z),
+        (0.7 * r - 0.004, 0.86 * z),
+        (0.74 * r - 0.004, z),
+    ]
     levels = (0.48 * z, 0.86 * z)
     body = hollow(outer, inner, levels=levels, segments=8)
     handle = ear(0.72 * r, 0.3 * z, 0.95 * z, 0.9 * r, 0.016)

@@ -35,9 +35,14 @@ def _daisy(r: float, colour: RGB, heart: RGB) -> tuple[tuple[Shape, RGB], ...]:
     return ((petals, colour), (spot(0.3 * r, 0.3 * r, 0.17 * r, 16).moved(z=0.04 * r), heart))
 
 
-@entry("bouquet", family="decor", synonyms=("bouquet of flowers", "flowers", "bunch of flowers", "flower bouquet",
-       "bunch"), plurals=("bouquets of flowers", "bunches of flowers"), material="foliage",
-       colours=("pink", "yellow", "red", "purple"))  # fmt: skip
+@entry(
+    "bouquet",
+    family="decor",
+    synonyms=("bouquet of flowers", "flowers", "bunch of flowers", "flower bouquet", "bunch"),
+    plurals=("bouquets of flowers", "bunches of flowers"),
+    material="foliage",
+    colours=("pink", "yellow", "red", "purple"),
+)
 def bouquet(style: Style) -> Build:
     """Blossoms and leaves above a tied bunch of stems that goes into a vase."""
     n, r = style.vary(0.228, 0.02), style.vary(0.085, 0.04)
@@ -93,8 +98,13 @@ def flower(style: Style) -> Build:
     )
 
 
-@entry("candle", family="decor", synonyms=("pillar candle", "wax candle"), material="wax",
-       colours=("cream", "white", "red", "lavender"))  # fmt: skip
+@entry(
+    "candle",
+    family="decor",
+    synonyms=("pillar candle", "wax candle"),
+    material="wax",
+    colours=("cream", "white", "red", "lavender"),
+)
 def candle(style: Style) -> Build:
     """A pillar candle with a wick, a hollow of molten wax and, when lit, a flame."""
     r, h = style.vary(0.032), height(style, 0.11)

@@ -33,8 +33,9 @@ def _bound(x: float, y: float, z: float, board: float, cover: RGB, style: Style)
 
 def _page_lines(x: float, y: float, z: float, count: int) -> Shape:
     """Thin slices around a page block [m], to paint as edges of pages."""
-    return together([span((-x / 2 + 0.004, x), (-y, y), (t, t + 0.0006))
-                     for t in ((k + 1) * z / (count + 1) for k in range(count))])  # fmt: skip
+    return together(
+        [span((-x / 2 + 0.004, x), (-y, y), (t, t + 0.0006)) for t in ((k + 1) * z / (count + 1) for k in range(count))]
+    )
 
 
 @entry(
@@ -129,8 +130,13 @@ def notebook(style: Style) -> Build:
     )
 
 
-@entry("magazine", family="desk", material="paper", colours=("red", "coral", "turquoise", "yellow"),
-       synonyms=("comic", "comic book", "brochure", "booklet", "catalog"))  # fmt: skip
+@entry(
+    "magazine",
+    family="desk",
+    material="paper",
+    colours=("red", "coral", "turquoise", "yellow"),
+    synonyms=("comic", "comic book", "brochure", "booklet", "catalog"),
+)
 def magazine(style: Style) -> Build:
     """A glossy magazine: title bar, cover picture, lines of text."""
     x, y, z = style.vary(0.21, 0.03), style.vary(0.28, 0.03), 0.006
@@ -183,8 +189,13 @@ def pen_holder(style: Style) -> Build:
     )
 
 
-@entry("paper tray", family="desk", material="plastic", colours=("black", "gray", "white", "blue"),
-       synonyms=("letter tray", "document tray", "inbox", "desk tray", "file tray"))  # fmt: skip
+@entry(
+    "paper tray",
+    family="desk",
+    material="plastic",
+    colours=("black", "gray", "white", "blue"),
+    synonyms=("letter tray", "document tray", "inbox", "desk tray", "file tray"),
+)
 def paper_tray(style: Style) -> Build:
     """An open tray for A4 sheets."""
     x, y, z, wall = style.vary(0.26, 0.02), style.vary(0.34, 0.02), style.vary(0.06), 0.004
@@ -199,8 +210,13 @@ def paper_tray(style: Style) -> Build:
     )
 
 
-@entry("binder", family="desk", material="cardboard", colours=("navy", "red", "black", "green"),
-       synonyms=("ring binder", "folder", "file folder", "file"))  # fmt: skip
+@entry(
+    "binder",
+    family="desk",
+    material="cardboard",
+    colours=("navy", "red", "black", "green"),
+    synonyms=("ring binder", "folder", "file folder", "file"),
+)
 def binder(style: Style) -> Build:
     """A ring binder lying closed, a label on its spine and papers inside."""
     x, y, z = style.vary(0.28, 0.03), style.vary(0.315, 0.02), style.vary(0.055)
@@ -217,8 +233,13 @@ def binder(style: Style) -> Build:
     )
 
 
-@entry("envelope", family="desk", material="paper", colours=("cream", "white", "tan", "pink"),
-       synonyms=("letter", "mail", "post card", "postcard"))  # fmt: skip
+@entry(
+    "envelope",
+    family="desk",
+    material="paper",
+    colours=("cream", "white", "tan", "pink"),
+    synonyms=("letter", "mail", "post card", "postcard"),
+)
 def envelope(style: Style) -> Build:
     """A sealed envelope, its flap and a wax seal up."""
     x, y, z = style.vary(0.22, 0.03), style.vary(0.11, 0.03), 0.003
@@ -249,8 +270,10 @@ def paper_stack(style: Style) -> Build:
     colour = style.colour()
     turns = [0.0, style.rng.uniform(-4, 4), style.rng.uniform(-2, 2)]
     layers = [box(x, y, z / 3).turned("z", turn).moved(z=k * z / 3) for k, turn in enumerate(turns)]
-    rows = [span((-0.38 * x, (0.38 if k % 4 else 0.1) * x), (t, t + 0.004), (-0.0005, 0.01))
-            for k, t in enumerate(0.12 - 0.011 * n for n in range(18))]  # fmt: skip
+    rows = [
+        span((-0.38 * x, (0.38 if k % 4 else 0.1) * x), (t, t + 0.004), (-0.0005, 0.01))
+        for k, t in enumerate(0.12 - 0.011 * n for n in range(18))
+    ]
     text = together(rows).turned("z", turns[2]).moved(z=z)
     grooves = [box(1.0, 1.0, 0.0006).moved(z=(k + 0.5) * z / 12) for k in range(12)]
     return Build(
@@ -266,8 +289,10 @@ def clipboard(style: Style) -> Build:
     x, y, z = style.vary(0.23, 0.03), style.vary(0.32, 0.03), 0.005
     colour = style.colour()
     sheet = span((-0.44 * x, 0.44 * x), (-0.46 * y, 0.42 * y), (z - 0.001, z + 0.01))
-    rows = [span((-0.36 * x, 0.3 * x), (t * y, (t + 0.012) * y), (z - 0.001, z + 0.01))
-            for t in (0.24, 0.18, 0.12, 0.06, 0.0, -0.06, -0.16, -0.22)]  # fmt: skip
+    rows = [
+        span((-0.36 * x, 0.3 * x), (t * y, (t + 0.012) * y), (z - 0.001, z + 0.01))
+        for t in (0.24, 0.18, 0.12, 0.06, 0.0, -0.06, -0.16, -0.22)
+    ]
     clip = convex(
         [
             (s * w * x, t * y, h)
@@ -288,14 +313,21 @@ def clipboard(style: Style) -> Build:
     )
 
 
-@entry("sticky note", family="desk", material="paper", colours=("yellow", "pink", "mint"),
-       synonyms=("post-it", "post it note", "note pad", "memo pad", "memo block"))  # fmt: skip
+@entry(
+    "sticky note",
+    family="desk",
+    material="paper",
+    colours=("yellow", "pink", "mint"),
+    synonyms=("post-it", "post it note", "note pad", "memo pad", "memo block"),
+)
 def sticky_notes(style: Style) -> Build:
     """A block of sticky notes with a few words on the first."""
     x, z = style.vary(0.076, 0.03), style.vary(0.016, 0.3)
     colour = style.colour()
-    words = [span((-0.36 * x, e * x), (t * x, (t + 0.04) * x), (z - 0.0005, z + 0.01))
-             for t, e in ((0.25, 0.3), (0.1, 0.36), (-0.05, 0.15))]  # fmt: skip
+    words = [
+        span((-0.36 * x, e * x), (t * x, (t + 0.04) * x), (z - 0.0005, z + 0.01))
+        for t, e in ((0.25, 0.3), (0.1, 0.36), (-0.05, 0.15))
+    ]
     sides = [box(1.0, 1.0, 0.0008).moved(z=(k + 0.5) * z / 6) for k in range(6)]
     return Build(
         parts=((box(x, x, z), colour),),
@@ -323,6 +355,9 @@ def bookend(style: Style) -> Build:
     x, z = style.vary(0.12), style.vary(0.15)
     back = box(0.004, x, z).moved(-0.058)
     foot = box(0.12, x, 0.003)
-    brace = convex([(-0.058, s * 0.01, 0.002) for s in (-1, 1)] + [(0.03, s * 0.01, 0.002) for s in (-1, 1)]
-                   + [(-0.058, s * 0.01, 0.6 * z) for s in (-1, 1)])  # fmt: skip
+    brace = convex(
+        [(-0.058, s * 0.01, 0.002) for s in (-1, 1)]
+        + [(0.03, s * 0.01, 0.002) for s in (-1, 1)]
+        + [(-0.058, s * 0.01, 0.6 * z) for s in (-1, 1)]
+    )
     return Build(parts=((join(back, foot), style.colour()), (brace, style.colour())), mass=style.vary(0.5))

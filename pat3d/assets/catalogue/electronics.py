@@ -44,8 +44,13 @@ def _keys(x: float, y: float, rows: int, columns: int, top: float, deep: float) 
     return keys
 
 
-@entry("laptop", family="electronics", material="electronics", colours=("silver", "gray", "black"),
-       synonyms=("laptop computer", "notebook computer", "macbook"))  # fmt: skip
+@entry(
+    "laptop",
+    family="electronics",
+    material="electronics",
+    colours=("silver", "gray", "black"),
+    synonyms=("laptop computer", "notebook computer", "macbook"),
+)
 def laptop(style: Style) -> Build:
     """An open laptop, its screen tilted back."""
     x, y, z = style.vary(0.33), style.vary(0.23), 0.018
@@ -72,8 +77,13 @@ def laptop(style: Style) -> Build:
     )
 
 
-@entry("monitor", family="electronics", material="electronics", colours=("black", "silver", "white"),
-       synonyms=("computer monitor", "computer screen", "display", "screen", "desktop monitor"))  # fmt: skip
+@entry(
+    "monitor",
+    family="electronics",
+    material="electronics",
+    colours=("black", "silver", "white"),
+    synonyms=("computer monitor", "computer screen", "display", "screen", "desktop monitor"),
+)
 def monitor(style: Style) -> Build:
     """A flat monitor on its stand."""
     x, h = style.vary(0.54), style.vary(0.32)
@@ -90,8 +100,13 @@ def monitor(style: Style) -> Build:
     )
 
 
-@entry("tv", family="electronics", material="electronics", colours=("black",),
-       synonyms=("television", "tv set", "flat screen tv", "television set", "flatscreen"))  # fmt: skip
+@entry(
+    "tv",
+    family="electronics",
+    material="electronics",
+    colours=("black",),
+    synonyms=("television", "tv set", "flat screen tv", "television set", "flatscreen"),
+)
 def tv(style: Style) -> Build:
     """A flat television on two feet, showing a sunset."""
     x, h = style.vary(0.98), style.vary(0.56)
@@ -112,8 +127,13 @@ def tv(style: Style) -> Build:
     )
 
 
-@entry("keyboard", family="electronics", material="electronics", colours=("black", "white", "gray"),
-       synonyms=("computer keyboard",))  # fmt: skip
+@entry(
+    "keyboard",
+    family="electronics",
+    material="electronics",
+    colours=("black", "white", "gray"),
+    synonyms=("computer keyboard",),
+)
 def keyboard(style: Style) -> Build:
     """A computer keyboard with keys in relief."""
     x, y, z = style.vary(0.43, 0.04), style.vary(0.135, 0.04), 0.022
@@ -176,8 +196,13 @@ def phone(style: Style) -> Build:
     return _slab(style, 0.073, 0.15, 0.009, 0.004, 0.18)
 
 
-@entry("tablet", family="electronics", material="electronics", colours=("black", "silver", "white"),
-       synonyms=("tablet computer", "ipad", "e-reader", "ereader"))  # fmt: skip
+@entry(
+    "tablet",
+    family="electronics",
+    material="electronics",
+    colours=("black", "silver", "white"),
+    synonyms=("tablet computer", "ipad", "e-reader", "ereader"),
+)
 def tablet(style: Style) -> Build:
     """A tablet computer lying with its screen lit."""
     return _slab(style, 0.18, 0.25, 0.008, 0.009, 0.5)
@@ -191,8 +216,12 @@ def headphones(style: Style) -> Build:
     angles = [math.radians(-8 + 196 * k / 9) for k in range(10)]
     bars = []
     for a, b in zip(angles, angles[1:], strict=False):
-        ring = [(q * r * math.cos(t), q * 1.05 * r * math.sin(t), h)
-                for q in (0.92, 1.0) for t in (a - 0.02, b + 0.02) for h in (0.0, 0.024)]  # fmt: skip
+        ring = [
+            (q * r * math.cos(t), q * 1.05 * r * math.sin(t), h)
+            for q in (0.92, 1.0)
+            for t in (a - 0.02, b + 0.02)
+            for h in (0.0, 0.024)
+        ]
         bars.append(convex(ring))
     cups = [dial(0.5 * z, 0.026, 12).turned("z", s * 90).moved(s * 1.02 * r, -0.03, z / 2) for s in (-1, 1)]
     pads = [dial(0.44 * z, 0.028, 12).turned("z", s * 90).moved(s * 0.79 * r, -0.03, z / 2) for s in (-1, 1)]
@@ -201,8 +230,13 @@ def headphones(style: Style) -> Build:
     )
 
 
-@entry("speaker", family="electronics", material="wood", colours=("black", "brown", "white"),
-       synonyms=("loudspeaker", "bookshelf speaker", "stereo speaker"))  # fmt: skip
+@entry(
+    "speaker",
+    family="electronics",
+    material="wood",
+    colours=("black", "brown", "white"),
+    synonyms=("loudspeaker", "bookshelf speaker", "stereo speaker"),
+)
 def speaker(style: Style) -> Build:
     """A box loudspeaker with a woofer and a tweeter."""
     x, y, z = style.vary(0.18), style.vary(0.2), style.vary(0.3)
@@ -240,8 +274,10 @@ def radio(style: Style) -> Build:
         span((-0.44 * x, 0.06 * x), (-y, f), (t * z, (t + 0.025) * z)) for t in (0.25, 0.36, 0.47, 0.58, 0.69, 0.8)
     ]
     scale = span((0.12 * x, 0.44 * x), (-y, f), (0.56 * z, 0.88 * z))
-    marks = [span((t * x, (t + 0.006) * x), (-y, f), (0.64 * z, (0.76 if k % 2 else 0.7) * z))
-             for k, t in enumerate(0.15 + 0.035 * n for n in range(8))]  # fmt: skip
+    marks = [
+        span((t * x, (t + 0.006) * x), (-y, f), (0.64 * z, (0.76 if k % 2 else 0.7) * z))
+        for k, t in enumerate(0.15 + 0.035 * n for n in range(8))
+    ]
     needle = span((0.3 * x, 0.307 * x), (-y, f), (0.58 * z, 0.86 * z))
     knobs = [dial(0.085 * z, 0.02, 12).moved(t * x, -y / 2 + 0.003, 0.32 * z) for t in (0.19, 0.37)]
     return Build(
@@ -270,8 +306,10 @@ def camera(style: Style) -> Build:
     hump = convex([(a * w * x, b * y, z + h) for a in (-1, 1) for w, b, h in ends])
     lens = dial(0.4 * z, 0.04, 16).moved(0.08 * x, -y / 2 + 0.004, 0.47 * z)
     button = cylinder(0.007, 0.006, 8).moved(-0.36 * x, -0.004, z - 0.001)
-    rings = [(dial(t * z, 0.02).moved(0.08 * x, -y / 2 - 0.034, 0.47 * z), tint)
-             for t, tint in ((0.34, BLACK), (0.26, (54, 66, 104)), (0.1, (150, 170, 220)))]  # fmt: skip
+    rings = [
+        (dial(t * z, 0.02).moved(0.08 * x, -y / 2 - 0.034, 0.47 * z), tint)
+        for t, tint in ((0.34, BLACK), (0.26, (54, 66, 104)), (0.1, (150, 170, 220)))
+    ]
     band = span((-x, x), (-1.0, 1.0), (0.2 * z, 0.72 * z))
     ring = dial(0.42 * z, 2.0).moved(0.08 * x, 0.0, 0.47 * z)
     return Build(
@@ -281,8 +319,13 @@ def camera(style: Style) -> Build:
     )
 
 
-@entry("remote control", family="electronics", material="plastic", colours=("black", "gray"),
-       synonyms=("remote", "tv remote", "remote controller"))  # fmt: skip
+@entry(
+    "remote control",
+    family="electronics",
+    material="plastic",
+    colours=("black", "gray"),
+    synonyms=("remote", "tv remote", "remote controller"),
+)
 def remote_control(style: Style) -> Build:
     """A remote control lying, its buttons up."""
     x, y, z = style.vary(0.048), style.vary(0.17), 0.018
@@ -299,21 +342,34 @@ def remote_control(style: Style) -> Build:
     )
 
 
-@entry("game controller", family="electronics", material="plastic", colours=("black", "white", "blue", "red"),
-       synonyms=("gamepad", "controller", "joystick", "video game controller"))  # fmt: skip
+@entry(
+    "game controller",
+    family="electronics",
+    material="plastic",
+    colours=("black", "white", "blue", "red"),
+    synonyms=("gamepad", "controller", "joystick", "video game controller"),
+)
 def game_controller(style: Style) -> Build:
     """A game controller lying flat: two grips, two sticks, a cross and four buttons."""
     k, colour = style.vary(1.0), style.colour()
     body = padded(0.11 * k, 0.066 * k, 0.03 * k, 0.011 * k).moved(z=0.006 * k)
-    grips = [trimmed(ellipsoid(0.026 * k, 0.056 * k, 0.021 * k), -0.018 * k).turned("z", s * 18)
-             .moved(s * 0.056 * k, -0.022 * k, 0.018 * k) for s in (-1, 1)]  # fmt: skip
+    grips = [
+        trimmed(ellipsoid(0.026 * k, 0.056 * k, 0.021 * k), -0.018 * k)
+        .turned("z", s * 18)
+        .moved(s * 0.056 * k, -0.022 * k, 0.018 * k)
+        for s in (-1, 1)
+    ]
     sticks = [cylinder(0.009 * k, 0.012 * k, 12).moved(s * 0.024 * k, -0.012 * k, 0.033 * k) for s in (-1, 1)]
     top = 0.03 * k
-    cross = join(box(0.02 * k, 0.006 * k, 0.02).moved(-0.04 * k, 0.012 * k, top),
-                 box(0.006 * k, 0.02 * k, 0.02).moved(-0.04 * k, 0.012 * k, top))  # fmt: skip
+    cross = join(
+        box(0.02 * k, 0.006 * k, 0.02).moved(-0.04 * k, 0.012 * k, top),
+        box(0.006 * k, 0.02 * k, 0.02).moved(-0.04 * k, 0.012 * k, top),
+    )
     spots = [(1, 0, "red"), (-1, 0, "blue"), (0, 1, "yellow"), (0, -1, "green")]
-    buttons = [(spot(0.004 * k, 0.02).moved((0.04 + 0.0085 * a) * k, (0.012 + 0.0085 * b) * k, top), COLOURS[tint])
-               for a, b, tint in spots]  # fmt: skip
+    buttons = [
+        (spot(0.004 * k, 0.02).moved((0.04 + 0.0085 * a) * k, (0.012 + 0.0085 * b) * k, top), COLOURS[tint])
+        for a, b, tint in spots
+    ]
     return Build(
         parts=((join(body, *grips), colour), (join(*sticks), GRAY)),
         paint=((cross, GRAY), *buttons),
@@ -347,14 +403,27 @@ def typewriter(style: Style) -> Build:
     k, colour = style.vary(1.0), style.colour()
     x = 0.3 * k
     base = box(x, 0.3 * k, 0.035 * k)
-    rear = convex([(s * x / 2, py * k, pz * k) for s in (-1, 1) for py, pz in
-                   ((-0.01, 0.03), (0.15, 0.03), (0.04, 0.11), (0.15, 0.11))])  # fmt: skip
-    ramp = convex([(s * 0.46 * x, py * k, pz * k) for s in (-1, 1) for py, pz in
-                   ((-0.15, 0.03), (-0.15, 0.042), (0.02, 0.075), (0.02, 0.03))])  # fmt: skip
+    rear = convex(
+        [
+            (s * x / 2, py * k, pz * k)
+            for s in (-1, 1)
+            for py, pz in ((-0.01, 0.03), (0.15, 0.03), (0.04, 0.11), (0.15, 0.11))
+        ]
+    )
+    ramp = convex(
+        [
+            (s * 0.46 * x, py * k, pz * k)
+            for s in (-1, 1)
+            for py, pz in ((-0.15, 0.03), (-0.15, 0.042), (0.02, 0.075), (0.02, 0.03))
+        ]
+    )
     roller = cylinder(0.02 * k, 1.2 * x, 12).turned("z", 15).turned("y", 90).moved(-0.6 * x, 0.1 * k, 0.122 * k)
     sheet = box(0.21 * k, 0.003, 0.13 * k).turned("x", -10).moved(0.0, 0.1 * k, 0.12 * k)
-    keys = [spot(0.0085 * k, 0.05).moved((i - 4.5) * 0.026 * k + 0.006 * j * k, (-0.125 + 0.032 * j) * k, 0.03)
-            for j in range(4) for i in range(10)]  # fmt: skip
+    keys = [
+        spot(0.0085 * k, 0.05).moved((i - 4.5) * 0.026 * k + 0.006 * j * k, (-0.125 + 0.032 * j) * k, 0.03)
+        for j in range(4)
+        for i in range(10)
+    ]
     return Build(
         parts=((join(base, rear, ramp), colour), (roller, BLACK), (sheet, WHITE)),
         paint=((Shape(together(keys).solid ^ ramp.solid.translate((0, 0, 0.0005)), ()), style.colour(1)),),

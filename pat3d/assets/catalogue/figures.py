@@ -191,8 +191,13 @@ def snowman(style: Style) -> Build:
     )
 
 
-@entry("figurine", family="toys", synonyms=("statuette", "small statue", "action figure"),
-       material="ceramic", colours=("white", "bronze", "gray"))  # fmt: skip
+@entry(
+    "figurine",
+    family="toys",
+    synonyms=("statuette", "small statue", "action figure"),
+    material="ceramic",
+    colours=("white", "bronze", "gray"),
+)
 def figurine(style: Style) -> Build:
     """A small statue of a standing figure in a long gown on a round plinth, 24 cm tall."""
     colour = style.colour()

@@ -171,8 +171,9 @@ def pancake(style: Style) -> Build:
     edge = arc(0.5 * h, -80, 80, 9) + (r - 0.5 * h, 0.5 * h)
     edge[:, 1] = (edge[:, 1] - edge[0, 1]) * h / (edge[-1, 1] - edge[0, 1])
     pale = unseen(box(0.4, 0.4, 0.5 * h).moved(z=0.25 * h))
-    return Build(parts=((lathe(edge, angles=(0.0,)), style.colour()),), regions=(disc("on", h, r),),
-                 paint=((pale, CRUMB),))  # fmt: skip
+    return Build(
+        parts=((lathe(edge, angles=(0.0,)), style.colour()),), regions=(disc("on", h, r),), paint=((pale, CRUMB),)
+    )
 
 
 @entry("cookie", family="food", synonyms=("biscuit", "chocolate chip cookie"), material="bread", colours=("bread",))
@@ -196,8 +197,9 @@ def macaron(style: Style) -> Build:
     profile = [*half, *((x, h - z) for x, z in reversed(half))]
     body = lathe(profile)
     filling = unseen(box(0.1, 0.1, 0.21 * h).moved(z=0.395 * h))
-    return Build(parts=((body, style.colour()),), regions=(disc("on", h, 0.8 * r),),
-                 paint=((filling, style.colour(1)),))  # fmt: skip
+    return Build(
+        parts=((body, style.colour()),), regions=(disc("on", h, 0.8 * r),), paint=((filling, style.colour(1)),)
+    )
 
 
 @entry("pizza", family="food", material="bread", colours=("bread",))
@@ -243,8 +245,13 @@ def sandwich(style: Style) -> Build:
     """A triangular toast sandwich, its ham, cheese and lettuce showing at the cut."""
     tip, slice_ = length(style, 0.075), style.vary(0.013)
     layers, z = [], 0.0
-    for colour, thick, grow in ((style.colour(), slice_, 0.97), (LEAF, 0.004, 1.0), ((226, 138, 130), 0.005, 0.95),
-                                (CHEESE, 0.004, 0.99), (style.colour(), slice_, 0.97)):  # fmt: skip
+    for colour, thick, grow in (
+        (style.colour(), slice_, 0.97),
+        (LEAF, 0.004, 1.0),
+        ((226, 138, 130), 0.005, 0.95),
+        (CHEESE, 0.004, 0.99),
+        (style.colour(), slice_, 0.97),
+    ):
         layers.append((_triangle(tip * grow, thick).moved(z=z), colour))
         z += thick
     shapes = covered([shape for shape, _ in layers], _triangle(tip, z))

@@ -16,8 +16,13 @@ def _round(r: float, squash: float = 1.0, dent: float = 0.0) -> Shape:
     profile = np.column_stack([r * np.cos(angle), r * squash * (np.sin(angle) / np.sin(angle[-1]) + 1.0)])
     if dent:
         high = 2 * r * squash
-        profile = np.concatenate([[(0, dent * r), (0.1 * r, 0.2 * dent * r)], profile,
-                                  [(0.1 * r, high - 0.5 * dent * r), (0, high - dent * r)]])  # fmt: skip
+        profile = np.concatenate(
+            [
+                [(0, dent * r), (0.1 * r, 0.2 * dent * r)],
+                profile,
+                [(0.1 * r, high - 0.5 * dent * r), (0, high - dent * r)],
+            ]
+        )
     return lathe(profile)
 
 
@@ -38,8 +43,9 @@ def _star(z: float, r: float, count: int = 5) -> Shape:
     return unseen(ring_of(blade, 0.0, count, 20).moved(z=z))
 
 
-@entry("apple", family="food", synonyms=("red apple", "green apple"), material="fruit",
-       colours=("red", "crimson", "lime"))  # fmt: skip
+@entry(
+    "apple", family="food", synonyms=("red apple", "green apple"), material="fruit", colours=("red", "crimson", "lime")
+)
 def apple(style: Style) -> Build:
     """An apple with a dimple, a stalk and a leaf."""
     r = style.vary(0.038)
@@ -54,8 +60,13 @@ def apple(style: Style) -> Build:
     )
 
 
-@entry("orange", family="food", synonyms=("tangerine", "clementine", "mandarin", "grapefruit"), material="fruit",
-       colours=("orange",))  # fmt: skip
+@entry(
+    "orange",
+    family="food",
+    synonyms=("tangerine", "clementine", "mandarin", "grapefruit"),
+    material="fruit",
+    colours=("orange",),
+)
 def orange(style: Style) -> Build:
     """An orange with the small star of its stalk."""
     r = style.vary(0.037)
@@ -164,8 +175,10 @@ def banana(style: Style) -> Build:
     radius = r * np.clip(1.0 - 0.35 * np.abs(t) ** 4 - 0.42 * np.clip(np.abs(t) - 0.8, 0, 1) / 0.2, 0.2, 1)
     body = tube(np.column_stack([path, radius]), radius, 5)
     stem = tube(np.column_stack([arc(bend, 29, 36, 4), np.full(4, 0.009)]), 0.0042, 1)
-    tips = join(box(0.02, 0.1, 0.1).moved(x=path[-1, 0], y=path[-1, 1] - 0.045),
-                box(0.014, 0.1, 0.1).moved(x=stem_end(bend), y=path[0, 1] - 0.06))  # fmt: skip
+    tips = join(
+        box(0.02, 0.1, 0.1).moved(x=path[-1, 0], y=path[-1, 1] - 0.045),
+        box(0.014, 0.1, 0.1).moved(x=stem_end(bend), y=path[0, 1] - 0.06),
+    )
     return Build(parts=((body, style.colour()), (stem, style.shade(style.colour(), 0.8))), paint=((tips, STALK),))
 
 
@@ -219,8 +232,13 @@ def carrot(style: Style) -> Build:
     )
 
 
-@entry("bell pepper", family="food", synonyms=("sweet pepper", "paprika", "capsicum"), material="fruit",
-       colours=("red", "yellow", "green"))  # fmt: skip
+@entry(
+    "bell pepper",
+    family="food",
+    synonyms=("sweet pepper", "paprika", "capsicum"),
+    material="fruit",
+    colours=("red", "yellow", "green"),
+)
 def bell_pepper(style: Style) -> Build:
     """A four-lobed pepper standing on its base."""
     r, h = style.vary(0.037), style.vary(0.078)
@@ -314,8 +332,7 @@ def onion(style: Style) -> Build:
     )
 
 
-@entry("grapes", family="food", synonyms=("bunch of grapes", "grape"), material="fruit",
-       colours=("purple", "lime"))  # fmt: skip
+@entry("grapes", family="food", synonyms=("bunch of grapes", "grape"), material="fruit", colours=("purple", "lime"))
 def grapes(style: Style) -> Build:
     """A bunch of grapes lying down."""
     r = style.vary(0.0105)

@@ -62,29 +62,49 @@ def _pedestal(style: Style, radius: float, z: float, thick: float) -> Build:
     )
 
 
-@entry("table", family="furniture", material="wood", colours=("wood",),
-       synonyms=("dining table", "kitchen table", "dinner table", "tabletop"))  # fmt: skip
+@entry(
+    "table",
+    family="furniture",
+    material="wood",
+    colours=("wood",),
+    synonyms=("dining table", "kitchen table", "dinner table", "tabletop"),
+)
 def table(style: Style) -> Build:
     """A dining table; on a pedestal when round."""
     return _four_legged(style, 1.2, 0.7, 0.74, thick=0.035)
 
 
-@entry("coffee table", family="furniture", material="wood", colours=WOODS,
-       synonyms=("cocktail table", "low table", "tea table"))  # fmt: skip
+@entry(
+    "coffee table",
+    family="furniture",
+    material="wood",
+    colours=WOODS,
+    synonyms=("cocktail table", "low table", "tea table"),
+)
 def coffee_table(style: Style) -> Build:
     """A low table with a board for magazines below."""
     return _four_legged(style, 1.0, 0.55, 0.42, thick=0.03, shelf=0.35)
 
 
-@entry("side table", family="furniture", material="wood", colours=WOODS,
-       synonyms=("end table", "accent table", "lamp table"))  # fmt: skip
+@entry(
+    "side table",
+    family="furniture",
+    material="wood",
+    colours=WOODS,
+    synonyms=("end table", "accent table", "lamp table"),
+)
 def side_table(style: Style) -> Build:
     """A small table to stand beside a seat."""
     return _four_legged(style, 0.46, 0.46, 0.55, thick=0.025, shelf=0.3)
 
 
-@entry("bedside table", family="furniture", material="wood", colours=WOODS,
-       synonyms=("nightstand", "night stand", "night table", "bedside cabinet", "beside table"))  # fmt: skip
+@entry(
+    "bedside table",
+    family="furniture",
+    material="wood",
+    colours=WOODS,
+    synonyms=("nightstand", "night stand", "night table", "bedside cabinet", "beside table"),
+)
 def bedside_table(style: Style) -> Build:
     """A night stand with two drawers on short legs."""
     x, y, z = style.vary(0.45), style.vary(0.4), style.vary(0.52)
@@ -116,8 +136,10 @@ def desk(style: Style) -> Build:
     drawers = grid(right, (0.04, z - 0.03), 1, 3, 0.014)
     pedestal, fronts = fronted(right, (-y / 2 + 0.03, y / 2 - 0.02), (0.0, z - 0.03), drawers)
     back = span((-x / 2 + 0.04, right[0] + 0.01), (y / 2 - 0.06, y / 2 - 0.04), (0.35, z - 0.03))
-    feet = [span((-x / 2 + 0.02, -x / 2 + 0.07), bounds, (0.0, z - 0.03))
-            for bounds in ((-y / 2 + 0.03, -y / 2 + 0.08), (y / 2 - 0.07, y / 2 - 0.02))]  # fmt: skip
+    feet = [
+        span((-x / 2 + 0.02, -x / 2 + 0.07), bounds, (0.0, z - 0.03))
+        for bounds in ((-y / 2 + 0.03, -y / 2 + 0.08), (y / 2 - 0.07, y / 2 - 0.02))
+    ]
     middle, reach = sum(right) / 2, (-y / 2 + 0.008, -y / 2 + 0.035)
     handles = [span((middle - 0.06, middle + 0.06), reach, (high - 0.075, high - 0.06)) for _, (_, high) in drawers]
     return Build(
@@ -155,8 +177,13 @@ def workbench(style: Style) -> Build:
     )
 
 
-@entry("chair", family="furniture", material="wood", colours=("wood", "brown", "tan"),
-       synonyms=("dining chair", "kitchen chair", "side chair", "desk chair", "office chair"))  # fmt: skip
+@entry(
+    "chair",
+    family="furniture",
+    material="wood",
+    colours=("wood", "brown", "tan"),
+    synonyms=("dining chair", "kitchen chair", "side chair", "desk chair", "office chair"),
+)
 def chair(style: Style) -> Build:
     """A wooden chair with a slatted back."""
     x, y, seat, top = style.vary(0.44), style.vary(0.43), style.vary(0.45, 0.03), style.vary(0.88, 0.03)
@@ -166,8 +193,10 @@ def chair(style: Style) -> Build:
     rail = box(x - 0.05, y - 0.05, 0.05).moved(z=seat - 0.07)
     count = int(style.rng.integers(2, 4))
     gap = (top - seat - 0.1) / count
-    slats = [box(x - thick, 0.02, 0.5 * gap + 0.02).moved(y=(y - thick) / 2, z=top - 0.02 - k * gap - 0.5 * gap - 0.02)
-             for k in range(count)]  # fmt: skip
+    slats = [
+        box(x - thick, 0.02, 0.5 * gap + 0.02).moved(y=(y - thick) / 2, z=top - 0.02 - k * gap - 0.5 * gap - 0.02)
+        for k in range(count)
+    ]
     board = box(x + 0.01, y - thick, 0.025).moved(y=-thick / 2 - 0.005, z=seat - 0.025)
     return Build(
         parts=((join(*front, *back, rail), style.shade(colour, 0.85)), (join(board, *slats), colour)),
@@ -188,10 +217,16 @@ def _couch(style: Style, width: float, cushions: int, mass: float) -> Build:
     cushion = width / cushions
     bench = span((-width / 2, width / 2), (y0 - 0.02, y1 + 0.02), (seat - 0.16, seat))
     rest = span((-width / 2, width / 2), (y1, y1 + thick), (seat - 0.1, high))
-    seats = [padded(cushion, depth + 0.04, 0.16, 0.035).moved((k - (cushions - 1) / 2) * cushion, (y0 + y1) / 2,
-             seat - 0.16) for k in range(cushions)]  # fmt: skip
-    backs = [padded(cushion, thick, high - seat + 0.1, 0.045).moved((k - (cushions - 1) / 2) * cushion, y1 + thick / 2,
-             seat - 0.1) for k in range(cushions)]  # fmt: skip
+    seats = [
+        padded(cushion, depth + 0.04, 0.16, 0.035).moved((k - (cushions - 1) / 2) * cushion, (y0 + y1) / 2, seat - 0.16)
+        for k in range(cushions)
+    ]
+    backs = [
+        padded(cushion, thick, high - seat + 0.1, 0.045).moved(
+            (k - (cushions - 1) / 2) * cushion, y1 + thick / 2, seat - 0.1
+        )
+        for k in range(cushions)
+    ]
     arms = [padded(arm, depth + thick, seat + 0.1, 0.05).moved(s * (width + arm) / 2, 0.0, 0.08) for s in (-1, 1)]
     feet = legs(whole - 0.08, depth + thick - 0.1, 0.1, 0.05)
     return Build(
@@ -213,15 +248,25 @@ def sofa(style: Style) -> Build:
     return _couch(style, 1.95, 3, 45.0)
 
 
-@entry("armchair", family="furniture", material="upholstery", colours=FABRICS,
-       synonyms=("arm chair", "easy chair", "lounge chair", "club chair", "recliner"))  # fmt: skip
+@entry(
+    "armchair",
+    family="furniture",
+    material="upholstery",
+    colours=FABRICS,
+    synonyms=("arm chair", "easy chair", "lounge chair", "club chair", "recliner"),
+)
 def armchair(style: Style) -> Build:
     """An upholstered chair for one."""
     return _couch(style, 0.62, 1, 22.0)
 
 
-@entry("stool", family="furniture", material="wood", colours=("wood", "tan", "white"),
-       synonyms=("bar stool", "barstool", "step stool", "footstool"))  # fmt: skip
+@entry(
+    "stool",
+    family="furniture",
+    material="wood",
+    colours=("wood", "tan", "white"),
+    synonyms=("bar stool", "barstool", "step stool", "footstool"),
+)
 def stool(style: Style) -> Build:
     """A stool with splayed legs; round unless asked to be square."""
     radius, z = style.vary(0.17), style.vary(0.46) * stretch(style)[2]
@@ -256,8 +301,13 @@ def bench(style: Style) -> Build:
     )
 
 
-@entry("ottoman", family="furniture", material="upholstery", colours=FABRICS,
-       synonyms=("footrest", "foot rest", "hassock", "upholstered bench"))  # fmt: skip
+@entry(
+    "ottoman",
+    family="furniture",
+    material="upholstery",
+    colours=FABRICS,
+    synonyms=("footrest", "foot rest", "hassock", "upholstered bench"),
+)
 def ottoman(style: Style) -> Build:
     """An upholstered footrest on wooden feet."""
     x, y, z = style.vary(0.6), style.vary(0.45), style.vary(0.42)
@@ -300,8 +350,9 @@ def bed(style: Style) -> Build:
     )
 
 
-@entry("piano", family="furniture", material="wood", colours=("black", "brown"),
-       synonyms=("upright piano",), accents=())  # fmt: skip
+@entry(
+    "piano", family="furniture", material="wood", colours=("black", "brown"), synonyms=("upright piano",), accents=()
+)
 def piano(style: Style) -> Build:
     """An upright piano with its keyboard towards the front."""
     x, z = style.vary(1.48, 0.02), style.vary(1.2, 0.03)
@@ -315,8 +366,11 @@ def piano(style: Style) -> Build:
     key = (x - 0.22) / count
     ivory = span((left, -left), (-0.33, -0.095), (0.69, 0.71))
     gaps = [box(0.004, 0.3, 0.05).moved(left + k * key, -0.22, 0.68) for k in range(1, count)]
-    sharps = [span((left + k * key - 0.3 * key, left + k * key + 0.3 * key), (-0.24, -0.095), (0.68, 0.71))
-              for k in range(1, count) if k % 7 not in (3, 0)]  # fmt: skip
+    sharps = [
+        span((left + k * key - 0.3 * key, left + k * key + 0.3 * key), (-0.24, -0.095), (0.68, 0.71))
+        for k in range(1, count)
+        if k % 7 not in (3, 0)
+    ]
     pedals = box(0.3, 0.1, 0.05).moved(y=-0.1, z=0.05)
     return Build(
         parts=((join(body, lid, shelf, *front, *cheeks), colour),),

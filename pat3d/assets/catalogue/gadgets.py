@@ -44,9 +44,14 @@ def charger(style: Style) -> Build:
     )
 
 
-@entry("power strip", family="electronics", synonyms=("extension lead", "socket strip", "multi-socket",
-       "surge protector", "outlet strip"), material="plastic", colours=("white", "black"),
-       accents=("red",))  # fmt: skip
+@entry(
+    "power strip",
+    family="electronics",
+    synonyms=("extension lead", "socket strip", "multi-socket", "surge protector", "outlet strip"),
+    material="plastic",
+    colours=("white", "black"),
+    accents=("red",),
+)
 def power_strip(style: Style) -> Build:
     """A strip of five sockets with a switch, its cable coming out at the left."""
     n, y, z = style.vary(0.3), 0.052, 0.038
@@ -244,9 +249,14 @@ def light_bulb(style: Style) -> Build:
     )
 
 
-@entry("power bank", family="electronics", synonyms=("powerbank", "portable charger", "hard drive",
-       "external hard drive", "hard disk", "ssd"), material="plastic", colours=("black", "blue", "white", "silver"),
-       accents=("gray",))  # fmt: skip
+@entry(
+    "power bank",
+    family="electronics",
+    synonyms=("powerbank", "portable charger", "hard drive", "external hard drive", "hard disk", "ssd"),
+    material="plastic",
+    colours=("black", "blue", "white", "silver"),
+    accents=("gray",),
+)
 def power_bank(style: Style) -> Build:
     """A flat rounded block with sockets in front."""
     x, y, z = style.vary(0.075), style.vary(0.12), style.vary(0.018)
@@ -315,8 +325,9 @@ def microphone(style: Style) -> Build:
     mesh = join(*(box(1, 1, 0.002).moved(z=h) for h in np.arange(0.194, 0.236, 0.007)))
     return Build(
         parts=((join(foot, stem, body).scaled(k), style.colour()), (grille.scaled(k), other)),
-        paint=((unseen(mesh).scaled(k), style.shade(other, 0.7)),), mass=style.vary(0.6),
-    )  # fmt: skip
+        paint=((unseen(mesh).scaled(k), style.shade(other, 0.7)),),
+        mass=style.vary(0.6),
+    )
 
 
 @entry("vr headset", family="electronics", synonyms=("virtual reality headset", "vr goggles"), material="plastic",

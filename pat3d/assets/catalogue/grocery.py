@@ -324,13 +324,23 @@ def _shaker(product: Product, style: Style) -> Build:
 
 
 _FORMS: tuple[tuple[Callable[[Product, Style], Build], str, tuple[Product, ...]], ...] = (
-    (_box, "cardboard", BOXES), (_can, "steel", CANS), (_tin, "steel", TINS), (_bottle, "plastic", BOTTLES),
-    (_round_bottle, "glass", ROUND_BOTTLES), (_tub, "plastic", TUBS), (_shaker, "plastic", SHAKERS),
-)  # fmt: skip
+    (_box, "cardboard", BOXES),
+    (_can, "steel", CANS),
+    (_tin, "steel", TINS),
+    (_bottle, "plastic", BOTTLES),
+    (_round_bottle, "glass", ROUND_BOTTLES),
+    (_tub, "plastic", TUBS),
+    (_shaker, "plastic", SHAKERS),
+)
 
 for _make, _material, _products in _FORMS:
     for _product in _products:
         entry(
-            _product.noun, family="grocery", material=_material, colours=_product.colours, accents=_product.accents,
-            synonyms=_product.synonyms, plurals=_product.plurals,
-        )(partial(_make, _product))  # fmt: skip
+            _product.noun,
+            family="grocery",
+            material=_material,
+            colours=_product.colours,
+            accents=_product.accents,
+            synonyms=_product.synonyms,
+            plurals=_product.plurals,
+        )(partial(_make, _product))

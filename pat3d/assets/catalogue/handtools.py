@@ -108,8 +108,9 @@ def axe(style: Style) -> Build:
     )
 
 
-@entry("crowbar", family="tools", synonyms=("pry bar", "wrecking bar"), material="steel", colours=("red", "blue",
-       "black"))  # fmt: skip
+@entry(
+    "crowbar", family="tools", synonyms=("pry bar", "wrecking bar"), material="steel", colours=("red", "blue", "black")
+)
 def crowbar(style: Style) -> Build:
     """A flat pry bar lying down, its hook to the back."""
     n, t = style.vary(0.4), 0.018

@@ -35,21 +35,30 @@ def _ring(outer: float, inner: float, z: float, sides: int) -> Shape:
     turn = [2 * math.pi * k / sides for k in range(sides + 1)]
     reach = outer / math.cos(math.pi / sides)
     shrunk = inner * math.cos(math.pi / sides)
-    hulls = [np.array([(r * math.cos(a), r * math.sin(a), h) for a in pair for r in (shrunk, reach) for h in (0.0, z)])
-             for pair in zip(turn, turn[1:], strict=False)]  # fmt: skip
+    hulls = [
+        np.array([(r * math.cos(a), r * math.sin(a), h) for a in pair for r in (shrunk, reach) for h in (0.0, z)])
+        for pair in zip(turn, turn[1:], strict=False)
+    ]
     return Shape(solid, tuple(hulls))
 
 
-@entry("nut", family="tools", synonyms=("hex nut", "steel nut", "hexagon nut", "metal nut"), material="steel",
-       colours=("steel", "gold"))  # fmt: skip
+@entry(
+    "nut",
+    family="tools",
+    synonyms=("hex nut", "steel nut", "hexagon nut", "metal nut"),
+    material="steel",
+    colours=("steel", "gold"),
+)
 def nut(style: Style) -> Build:
     """An M20 hexagon nut lying flat, its hole open."""
     across, z = style.vary(0.03, 0.02), style.vary(0.018, 0.02)
     turn = np.arange(7) * math.pi / 3
     bore = 0.0102
     corner, inner = across / math.sqrt(3), bore * math.cos(math.pi / 6)
-    hulls = [np.array([(r * math.cos(a), r * math.sin(a), h) for a in pair for r in (inner, corner) for h in (0.0, z)])
-             for pair in zip(turn, turn[1:], strict=False)]  # fmt: skip
+    hulls = [
+        np.array([(r * math.cos(a), r * math.sin(a), h) for a in pair for r in (inner, corner) for h in (0.0, z)])
+        for pair in zip(turn, turn[1:], strict=False)
+    ]
     solid = _hexagon(across, z).solid - cylinder(bore, 1).moved(z=-0.5).solid
     thread = join(*(cylinder(bore + 0.0006, 0.001).moved(z=h) for h in np.arange(0.002, z - 0.001, 0.003)))
     return Build(
@@ -59,8 +68,13 @@ def nut(style: Style) -> Build:
     )
 
 
-@entry("bolt", family="tools", synonyms=("hex bolt", "steel bolt", "metal bolt", "machine screw"), material="steel",
-       colours=("steel", "gold"))  # fmt: skip
+@entry(
+    "bolt",
+    family="tools",
+    synonyms=("hex bolt", "steel bolt", "metal bolt", "machine screw"),
+    material="steel",
+    colours=("steel", "gold"),
+)
 def bolt(style: Style) -> Build:
     """An M20 bolt standing on its hexagon head."""
     across, n = style.vary(0.03, 0.02), style.vary(0.06, 0.05)
@@ -94,8 +108,13 @@ def nail(style: Style) -> Build:
     return Build(parts=((join(head, shank), style.colour()),), mass=0.014)
 
 
-@entry("gear", family="tools", synonyms=("cog", "cogwheel", "gear wheel", "spur gear"), material="steel",
-       colours=("steel", "gray", "gold", "red"))  # fmt: skip
+@entry(
+    "gear",
+    family="tools",
+    synonyms=("cog", "cogwheel", "gear wheel", "spur gear"),
+    material="steel",
+    colours=("steel", "gray", "gold", "red"),
+)
 def gear(style: Style) -> Build:
     """A spur gear lying flat: sixteen teeth around an open bore."""
     r, z = style.vary(0.04, 0.03), style.vary(0.015)
@@ -113,15 +132,25 @@ def gear(style: Style) -> Build:
     )
 
 
-@entry("steel washer", family="tools", synonyms=("metal washer", "flat washer", "washer ring"), material="steel",
-       colours=("steel", "gold"))  # fmt: skip
+@entry(
+    "steel washer",
+    family="tools",
+    synonyms=("metal washer", "flat washer", "washer ring"),
+    material="steel",
+    colours=("steel", "gold"),
+)
 def steel_washer(style: Style) -> Build:
     """A flat ring for an M20 bolt."""
     return Build(parts=((_ring(style.vary(0.0185, 0.03), 0.0105, 0.003, 8), style.colour()),), mass=0.017)
 
 
-@entry("pipe", family="tools", synonyms=("steel pipe", "metal pipe", "pvc pipe", "metal tube", "plastic pipe"),
-       material="steel", colours=("steel", "gray", "orange"))  # fmt: skip
+@entry(
+    "pipe",
+    family="tools",
+    synonyms=("steel pipe", "metal pipe", "pvc pipe", "metal tube", "plastic pipe"),
+    material="steel",
+    colours=("steel", "gray", "orange"),
+)
 def pipe(style: Style) -> Build:
     """A short pipe standing on its end, open through."""
     r, n = style.vary(0.03), style.vary(0.15)
@@ -148,9 +177,14 @@ def clamp(style: Style) -> Build:
     return Build(parts=tuple((shape.scaled(k), colour) for shape, colour in shapes), mass=style.vary(0.42))
 
 
-@entry("spring clamp", family="tools", synonyms=("hand clamp", "plastic clamp", "medium clamp", "small clamp", "clip",
-       "clothespin", "clothes peg"), material="plastic", colours=("black", "orange", "red"), accents=("orange",
-       "black"))  # fmt: skip
+@entry(
+    "spring clamp",
+    family="tools",
+    synonyms=("hand clamp", "plastic clamp", "medium clamp", "small clamp", "clip", "clothespin", "clothes peg"),
+    material="plastic",
+    colours=("black", "orange", "red"),
+    accents=("orange", "black"),
+)
 def spring_clamp(style: Style) -> Build:
     """A spring clamp lying flat, its jaws closed at the left."""
     k, t = style.vary(1.0), 0.024
@@ -185,16 +219,21 @@ def spirit_level(style: Style) -> Build:
     caps = [span((s * n / 2 - 0.012, s * n / 2 + 0.012), (-1, 1), (-1, 1)) for s in (-1, 1)]
     windows = [span((x - 0.022, x + 0.022), (-1, 1), (0.4 * z, 0.72 * z)) for x in (-0.32 * n, 0.32 * n)]
     top = span((-0.03, 0.03), (-0.008, 0.008), (z - 0.003, 1))
-    glass = [span((-0.016, 0.016), (-0.0055, 0.0055), (z - 0.004, 1)),
-             *(span((x - 0.014, x + 0.014), (-1, 1), (0.46 * z, 0.66 * z)) for x in (-0.32 * n, 0.32 * n))]  # fmt: skip
+    glass = [
+        span((-0.016, 0.016), (-0.0055, 0.0055), (z - 0.004, 1)),
+        *(span((x - 0.014, x + 0.014), (-1, 1), (0.46 * z, 0.66 * z)) for x in (-0.32 * n, 0.32 * n)),
+    ]
     bubbles = span((-0.005, 0.005), (-0.004, 0.004), (z - 0.005, 1))
     return Build(
         parts=((bar, style.colour()),),
-        paint=((drawn(join(*caps, *windows, top)), style.colour(1)), (drawn(join(*glass)), (170, 214, 70)),
-               (drawn(bubbles), (226, 240, 180))),
+        paint=(
+            (drawn(join(*caps, *windows, top)), style.colour(1)),
+            (drawn(join(*glass)), (170, 214, 70)),
+            (drawn(bubbles), (226, 240, 180)),
+        ),
         regions=(shelf_top(n / 2, y / 2, z),),
         mass=style.vary(0.45),
-    )  # fmt: skip
+    )
 
 
 @entry("padlock", family="tools", synonyms=("lock", "pad lock"), material="brass", colours=("gold", "steel", "black"),
@@ -220,8 +259,9 @@ def padlock(style: Style) -> Build:
     )
 
 
-@entry("key", family="tools", synonyms=("door key", "house key", "car key"), material="brass", colours=("gold",
-       "steel"))  # fmt: skip
+@entry(
+    "key", family="tools", synonyms=("door key", "house key", "car key"), material="brass", colours=("gold", "steel")
+)
 def key(style: Style) -> Build:
     """A key lying flat: a bow with a hole, a blade with cuts."""
     n, t = style.vary(0.032), 0.0022

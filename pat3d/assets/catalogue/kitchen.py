@@ -43,8 +43,13 @@ def wine_bottle(style: Style) -> Build:
 def jar(style: Style) -> Build:
     """An open preserving jar with a threaded rim."""
     r, h = style.vary(0.045), height(style, 0.125)
-    inner = [(r - 0.006, 0.007), (r - 0.0038, 0.014), (r - 0.0038, 0.78 * h), (0.87 * r - 0.003, 0.88 * h),
-             (0.87 * r - 0.003, h)]  # fmt: skip
+    inner = [
+        (r - 0.006, 0.007),
+        (r - 0.0038, 0.014),
+        (r - 0.0038, 0.78 * h),
+        (0.87 * r - 0.003, 0.88 * h),
+        (0.87 * r - 0.003, h),
+    ]
     outer = [(r - 0.003, 0), (r, 0.005), (r, 0.76 * h), (0.87 * r, 0.87 * h), (0.87 * r, h)]
     body = hollow(outer, inner, levels=(0.78 * h,))
     label = (unseen(box(0.6 * r * 2, r, 0.34 * h).moved(y=-r, z=0.22 * h)), style.colour(1))
@@ -92,8 +97,13 @@ def kettle(style: Style) -> Build:
     lid = lathe([(0.42 * r, 1.14 * r), (0.3 * r, 1.22 * r)], angles=(45.0,))
     knob = ellipsoid(0.013).moved(z=1.27 * r)
     spout = rod((-0.7 * r, 0, 0.6 * r), (-1.3 * r, 0, 1.08 * r), 0.25 * r, 0.15 * r)
-    arch = [(-0.62 * r, 0, 1.0 * r), (-0.55 * r, 0, 1.55 * r), (0, 0, 1.8 * r), (0.55 * r, 0, 1.55 * r),
-            (0.62 * r, 0, 1.0 * r)]  # fmt: skip
+    arch = [
+        (-0.62 * r, 0, 1.0 * r),
+        (-0.55 * r, 0, 1.55 * r),
+        (0, 0, 1.8 * r),
+        (0.55 * r, 0, 1.55 * r),
+        (0.62 * r, 0, 1.0 * r),
+    ]
     handle = tube(curve(arch, 29), 0.009, 6, up=(0, 1, 0), flatness=1.4)
     main, dark = style.colour(), style.colour(1)
     return Build(parts=((body, main), (lid, main), (knob, dark), (spout, main), (handle, dark)), mass=1.1)
@@ -135,9 +145,13 @@ def pot(style: Style) -> Build:
     body = hollow([(r - 0.006, 0), (r, 0.008), (r, h)], inner)
     grips = []
     for side in (-1, 1):
-        bow = [(side * (r - 0.003), -0.042, 0.75 * h), (side * (r + 0.026), -0.032, 0.77 * h),
-               (side * (r + 0.034), 0, 0.775 * h), (side * (r + 0.026), 0.032, 0.77 * h),
-               (side * (r - 0.003), 0.042, 0.75 * h)]  # fmt: skip
+        bow = [
+            (side * (r - 0.003), -0.042, 0.75 * h),
+            (side * (r + 0.026), -0.032, 0.77 * h),
+            (side * (r + 0.034), 0, 0.775 * h),
+            (side * (r + 0.026), 0.032, 0.77 * h),
+            (side * (r - 0.003), 0.042, 0.75 * h),
+        ]
         grips.append(tube(curve(bow, 21), 0.006, 3))
     return Build(
         parts=((body, style.colour()), (join(*grips), style.colour(1))),
@@ -179,8 +193,13 @@ def lid(style: Style) -> Build:
     return Build(parts=((lathe(dome, angles=(0.0, 75.0)), style.colour()), (lathe(knob), style.colour(1))), mass=0.55)
 
 
-@entry("cutting board", family="kitchen", synonyms=("chopping board", "bread board"), material="wood",
-       colours=("wood", "bamboo", "brown"))  # fmt: skip
+@entry(
+    "cutting board",
+    family="kitchen",
+    synonyms=("chopping board", "bread board"),
+    material="wood",
+    colours=("wood", "bamboo", "brown"),
+)
 def cutting_board(style: Style) -> Build:
     """A board with round corners, a hanging hole and grain."""
     x, y, z = length(style, 0.36), style.vary(0.23), 0.02
@@ -232,8 +251,9 @@ def ladle(style: Style) -> Build:
     return Build(parts=((join(scoop, arm), style.colour()),), mass=0.14)
 
 
-@entry("whisk", family="kitchen", synonyms=("egg whisk", "egg beater"), material="steel",
-       colours=("steel", "red", "black"))  # fmt: skip
+@entry(
+    "whisk", family="kitchen", synonyms=("egg whisk", "egg beater"), material="steel", colours=("steel", "red", "black")
+)
 def whisk(style: Style) -> Build:
     """A balloon whisk lying on its wires and the end of its handle."""
     r, n = style.vary(0.029), length(style, 0.13)

@@ -17,13 +17,20 @@ INK: RGB = (120, 146, 156)
 
 def _scale(radius: float, low: float, high: float, count: int, wide: float) -> Shape:
     """Level marks in front of an upright body of `radius` [m] between two heights."""
-    marks = [span((-wide * (1 + k % 2), wide * (1 + k % 2)), (-1, -0.3 * radius), (z, z + 0.0014))
-             for k, z in enumerate(np.linspace(low, high, count))]  # fmt: skip
+    marks = [
+        span((-wide * (1 + k % 2), wide * (1 + k % 2)), (-1, -0.3 * radius), (z, z + 0.0014))
+        for k, z in enumerate(np.linspace(low, high, count))
+    ]
     return Shape(together(marks).solid - cylinder(0.9 * radius, 2).moved(z=-1).solid, ())
 
 
-@entry("beaker", family="laboratory", synonyms=("glass beaker", "lab beaker", "laboratory beaker"), material="glass",
-       colours=("glass",))  # fmt: skip
+@entry(
+    "beaker",
+    family="laboratory",
+    synonyms=("glass beaker", "lab beaker", "laboratory beaker"),
+    material="glass",
+    colours=("glass",),
+)
 def beaker(style: Style) -> Build:
     """An open beaker of 250 ml with a lip on its left and a scale in front."""
     r, h, wall = style.vary(0.035), height(style, 0.095), 0.0024
@@ -50,8 +57,13 @@ def beaker(style: Style) -> Build:
     )
 
 
-@entry("flask", family="laboratory", synonyms=("erlenmeyer flask", "conical flask", "erlenmeyer", "lab flask",
-       "glass flask", "laboratory flask"), material="glass", colours=("glass",))  # fmt: skip
+@entry(
+    "flask",
+    family="laboratory",
+    synonyms=("erlenmeyer flask", "conical flask", "erlenmeyer", "lab flask", "glass flask", "laboratory flask"),
+    material="glass",
+    colours=("glass",),
+)
 def flask(style: Style) -> Build:
     """An Erlenmeyer flask of 250 ml, open at its neck."""
     r, h, wall = style.vary(0.0425), height(style, 0.14), 0.0026

@@ -38,13 +38,20 @@ def t_shirt(style: Style) -> Build:
         ]
     )
     return Build(
-        parts=((cloth, main),), paint=((shade, style.shade(main, 0.55)), (ring, dark), (folds, dark)),
-        regions=(shelf_top(x / 2 - 0.01, y / 2 - 0.01, z),), mass=0.17,
-    )  # fmt: skip
+        parts=((cloth, main),),
+        paint=((shade, style.shade(main, 0.55)), (ring, dark), (folds, dark)),
+        regions=(shelf_top(x / 2 - 0.01, y / 2 - 0.01, z),),
+        mass=0.17,
+    )
 
 
-@entry("jeans", family="wear", material="cotton", colours=("navy", "blue", "black"), synonyms=("pants", "trousers",
-       "folded jeans", "folded pants"))  # fmt: skip
+@entry(
+    "jeans",
+    family="wear",
+    material="cotton",
+    colours=("navy", "blue", "black"),
+    synonyms=("pants", "trousers", "folded jeans", "folded pants"),
+)
 def jeans(style: Style) -> Build:
     """Trousers folded to a rectangle, a pocket and its seams on top."""
     x, y, z = style.vary(0.24), style.vary(0.32), style.vary(0.06)
@@ -57,8 +64,9 @@ def jeans(style: Style) -> Build:
     return Build(
         parts=((cloth, main),),
         paint=((pocket.moved(0.12 * x, 0.05 * y, z - 0.005), thread), (seam, thread), (tab, (150, 96, 56))),
-        regions=(shelf_top(x / 2 - 0.01, y / 2 - 0.01, z),), mass=0.55,
-    )  # fmt: skip
+        regions=(shelf_top(x / 2 - 0.01, y / 2 - 0.01, z),),
+        mass=0.55,
+    )
 
 
 @entry("sock", family="wear", material="wool", colours=("red", "gray", "blue", "green"), accents=("white",),
@@ -74,8 +82,9 @@ def sock(style: Style) -> Build:
     other = style.colour(1) if style.colour(1) != style.colour() else STEEL
     return Build(
         parts=((join(foot, shaft).scaled(k), style.colour()), (cuff.scaled(k), style.shade(style.colour(), 0.82))),
-        paint=((drawn(toe.scaled(k)), other), (heel.scaled(k), other)), mass=0.045,
-    )  # fmt: skip
+        paint=((drawn(toe.scaled(k)), other), (heel.scaled(k), other)),
+        mass=0.045,
+    )
 
 
 @entry("belt", family="wear", material="leather", colours=("brown", "black"), synonyms=("leather belt", "rolled belt"))
@@ -119,8 +128,9 @@ def briefcase(style: Style) -> Build:
     )
     return Build(
         parts=((body, main), (handle, style.shade(main, 0.7)), (locks, style.colour(1))),
-        paint=((drawn(corners), style.shade(main, 0.75)), (drawn(flap), style.shade(main, 0.6))), mass=1.6,
-    )  # fmt: skip
+        paint=((drawn(corners), style.shade(main, 0.75)), (drawn(flap), style.shade(main, 0.6))),
+        mass=1.6,
+    )
 
 
 @entry("scarf", family="wear", material="wool", colours=("red", "green", "blue", "mustard"), accents=("cream",),
@@ -146,9 +156,14 @@ def scarf(style: Style) -> Build:
     )
 
 
-@entry("credit card", family="desk", material="plastic", colours=("blue", "black", "gold", "green"),
-       accents=("gold", "white"), synonyms=("bank card", "id card", "business card", "card",
-       "blank credit card", "key card"))  # fmt: skip
+@entry(
+    "credit card",
+    family="desk",
+    material="plastic",
+    colours=("blue", "black", "gold", "green"),
+    accents=("gold", "white"),
+    synonyms=("bank card", "id card", "business card", "card", "blank credit card", "key card"),
+)
 def credit_card(style: Style) -> Build:
     """A card lying flat, its chip and number on top: 85.6 by 54 mm, drawn a millimetre thick."""
     x, y, z = style.vary(0.0856, 0.002), style.vary(0.054, 0.002), 0.00105
@@ -165,8 +180,13 @@ def credit_card(style: Style) -> Build:
     )
 
 
-@entry("coin", family="desk", material="metal", colours=("gold", "silver", "copper"), synonyms=("gold coin",
-       "euro coin", "penny", "poker chip", "token"))  # fmt: skip
+@entry(
+    "coin",
+    family="desk",
+    material="metal",
+    colours=("gold", "silver", "copper"),
+    synonyms=("gold coin", "euro coin", "penny", "poker chip", "token"),
+)
 def coin(style: Style) -> Build:
     """A large coin lying flat with a raised rim to the eye."""
     r, z = style.vary(0.015, 0.03), 0.0028

@@ -86,9 +86,13 @@ def make(
     )
     build = found.recipe(style)
     provenance = {
-        "source": "catalogue", "noun": found.noun, "seed": seed, "scale": scale,
-        "colours": list(asked) or [default], "material": chosen.name,
-    }  # fmt: skip
+        "source": "catalogue",
+        "noun": found.noun,
+        "seed": seed,
+        "scale": scale,
+        "colours": list(asked) or [default],
+        "material": chosen.name,
+    }
     return assemble(found.noun, build, material=chosen, scale=scale, provenance=provenance)
 
 

@@ -128,11 +128,16 @@ def fan(style: Style) -> Build:
     cage = dial(r, 0.06, 16).moved(y=0.015, z=z)
     looks = together([dial(r, 0.06).moved(y=0.015, z=z)])
     hollow = cut(looks, dial(r - 0.008, 0.1).moved(y=0.03, z=z))
-    spokes = [box(0.003, 0.004, 2 * r - 0.01).moved(z=-r + 0.005).turned("y", 15 * k).moved(0.0, y, z)
-              for k in range(12) for y in (-0.041, 0.009)]  # fmt: skip
+    spokes = [
+        box(0.003, 0.004, 2 * r - 0.01).moved(z=-r + 0.005).turned("y", 15 * k).moved(0.0, y, z)
+        for k in range(12)
+        for y in (-0.041, 0.009)
+    ]
     hub = dial(0.03, 0.052).moved(y=0.008, z=z)
-    blades = [ellipsoid(0.3 * r, 0.006, 0.42 * r).turned("z", 25).moved(z=0.48 * r).turned("y", 90 * k)
-              .moved(0.0, -0.016, z) for k in range(4)]  # fmt: skip
+    blades = [
+        ellipsoid(0.3 * r, 0.006, 0.42 * r).turned("z", 25).moved(z=0.48 * r).turned("y", 90 * k).moved(0.0, -0.016, z)
+        for k in range(4)
+    ]
     return Build(
         parts=(
             (join(base, stem, motor), colour),

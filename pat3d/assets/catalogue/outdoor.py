@@ -25,8 +25,12 @@ SOIL: RGB = (74, 52, 38)
 STEEL: RGB = (176, 180, 186)
 
 
-@entry("inflatable pool", family="outdoor", synonyms=("pool", "kiddie pool", "paddling pool",
-       "wading pool", "swimming pool", "inflatable swimming pool"), colours=("blue", "turquoise"))  # fmt: skip
+@entry(
+    "inflatable pool",
+    family="outdoor",
+    synonyms=("pool", "kiddie pool", "paddling pool", "wading pool", "swimming pool", "inflatable swimming pool"),
+    colours=("blue", "turquoise"),
+)
 def inflatable_pool(style: Style) -> Build:
     """A round paddling pool of two inflated rings, 1.2 m wide and 0.2 m high, open at the top."""
     colour = style.colour()
@@ -181,8 +185,13 @@ def watering_can(style: Style) -> Build:
     )
 
 
-@entry("flower pot", family="outdoor", synonyms=("flowerpot", "plant pot", "clay pot", "terracotta pot",
-       "garden pot"), material="ceramic", colours=("terracotta",))  # fmt: skip
+@entry(
+    "flower pot",
+    family="outdoor",
+    synonyms=("flowerpot", "plant pot", "clay pot", "terracotta pot", "garden pot"),
+    material="ceramic",
+    colours=("terracotta",),
+)
 def flower_pot(style: Style) -> Build:
     """A tapering clay pot with a rim, open, 16 cm tall."""
     colour = style.colour()

@@ -10,8 +10,7 @@ from pat3d.assets.rounded import curve, hollow, lathe, merged, ring_of, slab, tu
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box
 
 
-@entry("toaster", family="kitchen", material="steel", colours=("steel", "red", "mint", "cream"),
-       accents=("black",))  # fmt: skip
+@entry("toaster", family="kitchen", material="steel", colours=("steel", "red", "mint", "cream"), accents=("black",))
 def toaster(style: Style) -> Build:
     """A two-slice toaster with a lever on its right and a dial."""
     x, y, z = style.vary(0.28), style.vary(0.165), style.vary(0.185)
@@ -39,8 +38,13 @@ def salt_shaker(style: Style) -> Build:
     """A tapered shaker with a metal cap and holes."""
     r, h = style.vary(0.022), height(style, 0.08)
     dome = [(0.82 * r, 0.75 * h), (0.8 * r, 0.86 * h), (0.55 * r, 0.97 * h), (0.25 * r, h)]
-    holes = join(*(cylinder(0.0014, 0.1).moved(0.008 * np.cos(a), 0.008 * np.sin(a), 0.85 * h)
-                   for a in np.arange(6) * np.pi / 3), cylinder(0.0014, 0.1).moved(z=0.85 * h))  # fmt: skip
+    holes = join(
+        *(
+            cylinder(0.0014, 0.1).moved(0.008 * np.cos(a), 0.008 * np.sin(a), 0.85 * h)
+            for a in np.arange(6) * np.pi / 3
+        ),
+        cylinder(0.0014, 0.1).moved(z=0.85 * h),
+    )
     return Build(
         parts=((_shaker(r, h), style.colour()), (lathe(dome), style.colour(1))),
         paint=((unseen(holes), DARK),),
@@ -103,8 +107,13 @@ def milk_carton(style: Style) -> Build:
     """A full gable-top carton with a cap."""
     w, h = style.vary(0.072), height(style, 0.195)
     body = box(w, w, h)
-    gable = convex([(x, y, z) for y, z in ((-w / 2, h), (w / 2, h), (-0.0025, h + 0.036), (0.0025, h + 0.036))
-                    for x in (-w / 2, w / 2)])  # fmt: skip
+    gable = convex(
+        [
+            (x, y, z)
+            for y, z in ((-w / 2, h), (w / 2, h), (-0.0025, h + 0.036), (0.0025, h + 0.036))
+            for x in (-w / 2, w / 2)
+        ]
+    )
     fin = box(w, 0.005, 0.016).moved(z=h + 0.034)
     cap = cylinder(0.014, 0.012, sides=8).turned("x", 45).moved(y=-0.018, z=h + 0.016)
     other = style.colour(1) if style.colour(1) != style.colour() else style.colour(2)
@@ -125,8 +134,10 @@ def cereal_box(style: Style) -> Build:
     title = box(0.76 * x, 0.02, 0.13 * z).moved(y=front, z=0.74 * z)
     cup = join(ellipsoid(0.3 * x, 0.01, 0.2 * z).moved(y=front, z=0.36 * z))
     cup = Shape(cup.solid - box(1, 1, 1).moved(z=0.36 * z).solid, ())
-    flakes = [ellipsoid(0.022, 0.01, 0.016).moved(x=dx * x, y=front, z=(0.37 + dz) * z)
-              for dx, dz in ((-0.19, 0.005), (-0.07, 0.02), (0.06, 0.015), (0.18, 0.005), (0.0, 0.06))]  # fmt: skip
+    flakes = [
+        ellipsoid(0.022, 0.01, 0.016).moved(x=dx * x, y=front, z=(0.37 + dz) * z)
+        for dx, dz in ((-0.19, 0.005), (-0.07, 0.02), (0.06, 0.015), (0.18, 0.005), (0.0, 0.06))
+    ]
     other = style.colour(2) if style.colour(2) != style.colour() else (52, 96, 170)
     return Build(
         parts=((box(x, y, z), style.colour()),),
@@ -151,9 +162,14 @@ def tissue_box(style: Style) -> Build:
     )
 
 
-@entry("basket", family="kitchen", synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket",
-       "picnic basket", "shopping basket"), material="wicker",
-       colours=("wicker", "tan", "brown"), accents=("brown",))  # fmt: skip
+@entry(
+    "basket",
+    family="kitchen",
+    synonyms=("wicker basket", "fruit basket", "bread basket", "woven basket", "picnic basket", "shopping basket"),
+    material="wicker",
+    colours=("wicker", "tan", "brown"),
+    accents=("brown",),
+)
 def basket(style: Style) -> Build:
     """A round woven basket, open at the top, wide enough for five fruits."""
     r, h, wall = length(style, 0.155, 0.03), height(style, 0.115, 0.04), 0.009
@@ -165,16 +181,24 @@ def basket(style: Style) -> Build:
     for k in range(rows):
         z0, z1 = k * h / rows, (k + 1) * h / rows
         edge = base + slope * z0
-        ripples += [(edge - 0.0035, z0), (edge - 0.0007 + slope * 0.3 * h / rows, 0.3 * z1 + 0.7 * z0),
-                    (edge - 0.0007 + slope * 0.7 * h / rows, 0.7 * z1 + 0.3 * z0)]  # fmt: skip
+        ripples += [
+            (edge - 0.0035, z0),
+            (edge - 0.0007 + slope * 0.3 * h / rows, 0.3 * z1 + 0.7 * z0),
+            (edge - 0.0007 + slope * 0.7 * h / rows, 0.7 * z1 + 0.3 * z0),
+        ]
     ripples.append((r - 0.0035, h))
     rippled = lathe(ripples).solid ^ body.solid
     blocks = []
     for k in range(rows):
         block = box(0.1, 0.086 * r, h / rows - 0.0006).moved(z=k * h / rows + 0.0003)
         blocks.append(ring_of(unseen(block), r, 24, 7.5 * (k % 2)))
-    rim_path = np.column_stack([(r - wall / 2 - 0.0008) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
-                                (r - wall / 2 - 0.0008) * np.sin(t), np.full(48, h - 0.004)])  # fmt: skip
+    rim_path = np.column_stack(
+        [
+            (r - wall / 2 - 0.0008) * np.cos(t := np.linspace(0, 2 * np.pi, 49)[:-1]),
+            (r - wall / 2 - 0.0008) * np.sin(t),
+            np.full(48, h - 0.004),
+        ]
+    )
     rim = tube(rim_path, wall / 2 - 0.0010, 12, closed=True)
     dark = style.shade(style.colour(), 0.72)
     return Build(
@@ -184,8 +208,13 @@ def basket(style: Style) -> Build:
     )
 
 
-@entry("colander", family="kitchen", synonyms=("strainer", "sieve"), material="aluminium",
-       colours=("steel", "white", "red"))  # fmt: skip
+@entry(
+    "colander",
+    family="kitchen",
+    synonyms=("strainer", "sieve"),
+    material="aluminium",
+    colours=("steel", "white", "red"),
+)
 def colander(style: Style) -> Build:
     """A bowl with rows of holes on a foot, with two grips."""
     r, h = style.vary(0.125), height(style, 0.11)
@@ -199,8 +228,12 @@ def colander(style: Style) -> Build:
         holes.append(ring_of(unseen(hole), 0.0, 24, 7.5 * k))
     grips = []
     for side in (-1, 1):
-        bow = [(side * (r - 0.002), -0.04, 0.9 * h), (side * (r + 0.026), -0.026, 0.92 * h),
-               (side * (r + 0.026), 0.026, 0.92 * h), (side * (r - 0.002), 0.04, 0.9 * h)]  # fmt: skip
+        bow = [
+            (side * (r - 0.002), -0.04, 0.9 * h),
+            (side * (r + 0.026), -0.026, 0.92 * h),
+            (side * (r + 0.026), 0.026, 0.92 * h),
+            (side * (r - 0.002), 0.04, 0.9 * h),
+        ]
         grips.append(tube(curve(bow, 17), 0.005, 3))
     solid = body.solid - merged(holes).solid
     return Build(

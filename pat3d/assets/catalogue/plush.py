@@ -57,9 +57,14 @@ def _seated_bear(style: Style, coat: RGB, limbs: RGB, ears: RGB, patches: RGB | 
     )
 
 
-@entry("teddy bear", family="plush", synonyms=("bear", "plush bear", "teddy", "stuffed bear", "toy bear",
-       "bear plush", "bear toy"), plurals=("teddies",), material="plush", colours=("brown", "tan",
-       "golden"))  # fmt: skip
+@entry(
+    "teddy bear",
+    family="plush",
+    synonyms=("bear", "plush bear", "teddy", "stuffed bear", "toy bear", "bear plush", "bear toy"),
+    plurals=("teddies",),
+    material="plush",
+    colours=("brown", "tan", "golden"),
+)
 def teddy_bear(style: Style) -> Build:
     """A seated bear with a light muzzle."""
     coat = style.colour()
@@ -73,8 +78,13 @@ def panda(style: Style) -> Build:
     return _seated_bear(style, style.colour(), style.colour(1), style.colour(1), style.colour(1))
 
 
-@entry("elephant", family="plush", synonyms=("plush elephant", "toy elephant", "stuffed elephant",
-       "elephant plush", "elephant toy"), material="plush", colours=("gray",))  # fmt: skip
+@entry(
+    "elephant",
+    family="plush",
+    synonyms=("plush elephant", "toy elephant", "stuffed elephant", "elephant plush", "elephant toy"),
+    material="plush",
+    colours=("gray",),
+)
 def elephant(style: Style) -> Build:
     """A standing elephant with large ears and a hanging trunk, 28 cm tall."""
     coat = style.colour()
@@ -190,9 +200,14 @@ def _side_eyes(size, at):
     return pair(ellipsoid(0.007).moved(0.93 * size[0], at[1] - 0.25 * size[1], at[2] + 0.30 * size[2]))
 
 
-@entry("plush dog", family="plush", synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush",
-       "dog toy", "plush puppy"), plurals=("plush puppies",), material="plush", colours=("tan", "brown",
-       "cream"))  # fmt: skip
+@entry(
+    "plush dog",
+    family="plush",
+    synonyms=("plush toy dog", "toy dog", "stuffed dog", "dog plush", "dog toy", "plush puppy"),
+    plurals=("plush puppies",),
+    material="plush",
+    colours=("tan", "brown", "cream"),
+)
 def plush_dog(style: Style) -> Build:
     """A seated floppy-eared dog, 34 cm tall, whose broad flat crown carries hats."""
     coat = style.colour()
@@ -225,8 +240,13 @@ def plush_dog(style: Style) -> Build:
     )
 
 
-@entry("plush cat", family="plush", synonyms=("plush toy cat", "toy cat", "stuffed cat", "cat plush",
-       "plush kitten"), material="plush", colours=("gray", "orange", "black"))  # fmt: skip
+@entry(
+    "plush cat",
+    family="plush",
+    synonyms=("plush toy cat", "toy cat", "stuffed cat", "cat plush", "plush kitten"),
+    material="plush",
+    colours=("gray", "orange", "black"),
+)
 def plush_cat(style: Style) -> Build:
     """A seated cat with a round head, 28 cm tall."""
     coat = style.colour()

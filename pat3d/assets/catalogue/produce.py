@@ -28,8 +28,9 @@ def _speckles(style: Style, count: int, reach: tuple[float, float, float], size:
     return merged(spots)
 
 
-@entry("kiwi", family="food", synonyms=("kiwi fruit", "kiwifruit"), material="fruit", colours=("brown",),
-       accents=("lime",))  # fmt: skip
+@entry(
+    "kiwi", family="food", synonyms=("kiwi fruit", "kiwifruit"), material="fruit", colours=("brown",), accents=("lime",)
+)
 def kiwi(style: Style) -> Build:
     """A brown kiwi on its side."""
     k = style.vary(1.0)
@@ -134,8 +135,13 @@ def broccoli(style: Style) -> Build:
     )
 
 
-@entry("cabbage", family="food", synonyms=("head of cabbage", "lettuce", "head of lettuce", "iceberg lettuce"),
-       material="fruit", colours=("lime", "green", "purple"))  # fmt: skip
+@entry(
+    "cabbage",
+    family="food",
+    synonyms=("head of cabbage", "lettuce", "head of lettuce", "iceberg lettuce"),
+    material="fruit",
+    colours=("lime", "green", "purple"),
+)
 def cabbage(style: Style) -> Build:
     """A round head with overlapping leaves and veins."""
     r = style.vary(0.078)
@@ -209,8 +215,7 @@ def chili_pepper(style: Style) -> Build:
     return Build(parts=((body, style.colour()), (stem, LEAF)), mass=0.02)
 
 
-@entry("radish", family="food", plurals=("radishes",), material="fruit",
-       colours=("crimson", "burgundy"))  # fmt: skip
+@entry("radish", family="food", plurals=("radishes",), material="fruit", colours=("crimson", "burgundy"))
 def radish(style: Style) -> Build:
     """A round root lying on its side, its root to the left, its stalks to the right."""
     k = style.vary(1.0)
@@ -243,8 +248,13 @@ def sweet_potato(style: Style) -> Build:
     return Build(parts=((body.moved(z=-low), style.colour()),), paint=((marks, style.shade(style.colour(), 0.7)),))
 
 
-@entry("celery", family="food", synonyms=("celery stalk", "stalk of celery", "leek", "green onion",
-       "spring onion"), material="fruit", colours=("lime", "green"))  # fmt: skip
+@entry(
+    "celery",
+    family="food",
+    synonyms=("celery stalk", "stalk of celery", "leek", "green onion", "spring onion"),
+    material="fruit",
+    colours=("lime", "green"),
+)
 def celery(style: Style) -> Build:
     """A ribbed stalk lying down, pale at the left, leafy at the right."""
     n, r = length(style, 0.26), 0.014
@@ -269,8 +279,7 @@ def celery(style: Style) -> Build:
     )
 
 
-@entry("ginger", family="food", synonyms=("ginger root", "piece of ginger"), material="fruit", colours=("tan",
-       "beige"))  # fmt: skip
+@entry("ginger", family="food", synonyms=("ginger root", "piece of ginger"), material="fruit", colours=("tan", "beige"))
 def ginger(style: Style) -> Build:
     """A knobbly root lying flat."""
     k = style.vary(1.0)
@@ -306,8 +315,7 @@ def fig(style: Style) -> Build:
     )
 
 
-@entry("walnut", family="food", synonyms=("chestnut",), material="wood", colours=("tan",
-       "wood"))  # fmt: skip
+@entry("walnut", family="food", synonyms=("chestnut",), material="wood", colours=("tan", "wood"))
 def walnut(style: Style) -> Build:
     """A walnut in its shell, with the seam around it."""
     k = style.vary(1.0)

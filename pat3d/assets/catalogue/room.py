@@ -67,9 +67,13 @@ def rug(style: Style) -> Build:
     )
 
 
-@entry("floor cushion", family="room", material="upholstery", colours=("burgundy", "teal", "mustard", "navy"),
-       synonyms=("cushion", "pouf", "pouffe", "floor pillow", "seat cushion", "round cushion", "meditation cushion"),
-)  # fmt: skip
+@entry(
+    "floor cushion",
+    family="room",
+    material="upholstery",
+    colours=("burgundy", "teal", "mustard", "navy"),
+    synonyms=("cushion", "pouf", "pouffe", "floor pillow", "seat cushion", "round cushion", "meditation cushion"),
+)
 def floor_cushion(style: Style) -> Build:
     """A firm cushion to sit on, with piping and a button; a disc when round."""
     x, z = style.vary(0.5), style.vary(0.13) * stretch(style)[2]
@@ -84,8 +88,13 @@ def floor_cushion(style: Style) -> Build:
     return Build(parts=((body, colour),), paint=paint, regions=(region,), mass=style.vary(1.6))
 
 
-@entry("pillow", family="room", material="upholstery", colours=("cream", "teal", "mustard", "coral", "gray"),
-       synonyms=("throw pillow", "decorative pillow", "sofa pillow", "scatter cushion", "sofa cushion"))  # fmt: skip
+@entry(
+    "pillow",
+    family="room",
+    material="upholstery",
+    colours=("cream", "teal", "mustard", "coral", "gray"),
+    synonyms=("throw pillow", "decorative pillow", "sofa pillow", "scatter cushion", "sofa cushion"),
+)
 def pillow(style: Style) -> Build:
     """A plump square throw pillow, lying; a disc when round."""
     x, z = style.vary(0.42), style.vary(0.13)
@@ -113,14 +122,20 @@ def pillow(style: Style) -> Build:
     )
 
 
-@entry("blanket", family="room", material="wool", colours=("gray", "cream", "teal", "burgundy"),
-       synonyms=("throw", "folded blanket", "throw blanket", "quilt", "comforter"))  # fmt: skip
+@entry(
+    "blanket",
+    family="room",
+    material="wool",
+    colours=("gray", "cream", "teal", "burgundy"),
+    synonyms=("throw", "folded blanket", "throw blanket", "quilt", "comforter"),
+)
 def blanket(style: Style) -> Build:
     """A blanket folded into three layers, with stripes across."""
     x, y, layer = style.vary(0.46), style.vary(0.36), style.vary(0.03)
     colour = style.colour()
-    looks = [soft_box(x, y - 0.01 * (k % 2), layer + 0.001, 0.012).moved(z=k * layer - (0.001 if k else 0))
-             for k in range(3)]  # fmt: skip
+    looks = [
+        soft_box(x, y - 0.01 * (k % 2), layer + 0.001, 0.012).moved(z=k * layer - (0.001 if k else 0)) for k in range(3)
+    ]
     body = dressed(together(looks), box(x, y, 3 * layer))
     stripes = [box(0.02, 2.0, 2.0).moved(t * x, 0.0, -1.0) for t in (-0.36, -0.3, 0.3, 0.36)]
     return Build(
@@ -281,8 +296,13 @@ def mirror(style: Style) -> Build:
     )
 
 
-@entry("picture frame", family="room", material="wood", colours=("brown", "black", "gold", "white"),
-       synonyms=("photo frame", "framed photo", "framed picture", "photo", "photograph", "picture"))  # fmt: skip
+@entry(
+    "picture frame",
+    family="room",
+    material="wood",
+    colours=("brown", "black", "gold", "white"),
+    synonyms=("photo frame", "framed photo", "framed picture", "photo", "photograph", "picture"),
+)
 def picture_frame(style: Style) -> Build:
     """A frame on its easel, with a picture of hills under the sun."""
     x, z = style.vary(0.16), style.vary(0.2)
@@ -299,8 +319,10 @@ def picture_frame(style: Style) -> Build:
     hills = ellipsoid(0.6 * x, 0.1, 0.35 * z).moved(-0.25 * x, 0.02, 0.1 * z)
     more = ellipsoid(0.6 * x, 0.1, 0.3 * z).moved(0.35 * x, 0.02, 0.05 * z)
     sun = dial(0.1 * x, 0.2).moved(0.2 * x, 0.1, 0.72 * z)
-    clip = [(Shape(shape.solid ^ scene.solid, ()), colour) for shape, colour in
-            ((sun, COLOURS["yellow"]), (hills, GREENS[0]), (more, GREENS[1]))]  # fmt: skip
+    clip = [
+        (Shape(shape.solid ^ scene.solid, ()), colour)
+        for shape, colour in ((sun, COLOURS["yellow"]), (hills, GREENS[0]), (more, GREENS[1]))
+    ]
     return Build(
         parts=((frame, style.colour()), (prop, style.shade(style.colour(), 0.7))),
         paint=((inset(f), WHITE), (scene, (150, 196, 224)), *clip),

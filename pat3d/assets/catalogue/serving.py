@@ -29,8 +29,13 @@ def wok(style: Style) -> Build:
     )
 
 
-@entry("cleaver", family="kitchen", synonyms=("meat cleaver", "chopper"), material="steel", colours=("black", "brown",
-       "wood"))  # fmt: skip
+@entry(
+    "cleaver",
+    family="kitchen",
+    synonyms=("meat cleaver", "chopper"),
+    material="steel",
+    colours=("black", "brown", "wood"),
+)
 def cleaver(style: Style) -> Build:
     """A broad chopping knife lying flat, its edge to the front."""
     n = length(style, 0.17)
@@ -41,12 +46,18 @@ def cleaver(style: Style) -> Build:
     edge = span((-1, 1), (-1, -0.04), (-1, 1))
     return Build(
         parts=((Shape(blade.solid - hole.solid, blade.hulls), STEEL), (grip, style.colour())),
-        paint=((rivets, STEEL), (drawn(edge), style.shade(STEEL, 1.15))), mass=0.32,
-    )  # fmt: skip
+        paint=((rivets, STEEL), (drawn(edge), style.shade(STEEL, 1.15))),
+        mass=0.32,
+    )
 
 
-@entry("egg cup", family="tableware", synonyms=("eggcup", "egg holder"), material="porcelain", colours=("white",
-       "yellow", "blue"))  # fmt: skip
+@entry(
+    "egg cup",
+    family="tableware",
+    synonyms=("eggcup", "egg holder"),
+    material="porcelain",
+    colours=("white", "yellow", "blue"),
+)
 def egg_cup(style: Style) -> Build:
     """A small cup on a foot that holds one egg."""
     r, stem = style.vary(0.026), 0.026
@@ -56,8 +67,9 @@ def egg_cup(style: Style) -> Build:
     region = cavity(inner, 12)
     return Build(
         parts=((join(bowl.moved(z=stem), foot), style.colour()),),
-        regions=(replace(region, floor=(0.0, 0.0, stem + 0.005)),), mass=0.07,
-    )  # fmt: skip
+        regions=(replace(region, floor=(0.0, 0.0, stem + 0.005)),),
+        mass=0.07,
+    )
 
 
 @entry("sugar bowl", family="tableware", synonyms=("sugar pot", "sugar basin"), material="porcelain", colours=("white",
@@ -88,8 +100,13 @@ def butter_dish(style: Style) -> Build:
     return Build(parts=((join(plate, cover, knob), style.colour()),), paint=((line, dark),), mass=0.6)
 
 
-@entry("cake stand", family="tableware", synonyms=("cake plate stand", "pedestal plate", "serving stand"),
-       material="porcelain", colours=("white", "mint", "pink"))  # fmt: skip
+@entry(
+    "cake stand",
+    family="tableware",
+    synonyms=("cake plate stand", "pedestal plate", "serving stand"),
+    material="porcelain",
+    colours=("white", "mint", "pink"),
+)
 def cake_stand(style: Style) -> Build:
     """A flat round plate on a foot."""
     r, h = style.vary(0.15, 0.03), height(style, 0.11)
@@ -98,13 +115,20 @@ def cake_stand(style: Style) -> Build:
     plate = lathe([(0.97 * r, h - 0.013), (r, h - 0.007), (0.98 * r, h)], angles=(0.0,))
     edge = band(h - 0.006, h - 0.001)
     return Build(
-        parts=((join(foot, neck, plate), style.colour()),), regions=(disc("on", h, 0.98 * r),),
-        paint=((edge, style.shade(style.colour(), 0.82)),), mass=1.3,
-    )  # fmt: skip
+        parts=((join(foot, neck, plate), style.colour()),),
+        regions=(disc("on", h, 0.98 * r),),
+        paint=((edge, style.shade(style.colour(), 0.82)),),
+        mass=1.3,
+    )
 
 
-@entry("cocktail shaker", family="kitchen", synonyms=("shaker bottle", "protein shaker"), material="steel",
-       colours=("steel", "copper", "black"))  # fmt: skip
+@entry(
+    "cocktail shaker",
+    family="kitchen",
+    synonyms=("shaker bottle", "protein shaker"),
+    material="steel",
+    colours=("steel", "copper", "black"),
+)
 def cocktail_shaker(style: Style) -> Build:
     """A closed steel shaker with a cap."""
     r, h = style.vary(0.043), height(style, 0.16)
@@ -116,8 +140,13 @@ def cocktail_shaker(style: Style) -> Build:
     return Build(parts=((join(body, shoulder, cap), main),), paint=((seam, style.shade(main, 0.7)),), mass=0.36)
 
 
-@entry("ice cream scoop", family="kitchen", synonyms=("ice-cream scoop", "ice cream spoon"), material="steel",
-       colours=("red", "black", "mint"))  # fmt: skip
+@entry(
+    "ice cream scoop",
+    family="kitchen",
+    synonyms=("ice-cream scoop", "ice cream spoon"),
+    material="steel",
+    colours=("red", "black", "mint"),
+)
 def ice_cream_scoop(style: Style) -> Build:
     """A scoop lying on its bowl and the end of its thick handle."""
     n = length(style, 0.12)
@@ -141,8 +170,13 @@ def ice_cream_scoop(style: Style) -> Build:
     return Build(parts=((join(bowl, neck), STEEL), (grip, style.colour())), mass=0.15)
 
 
-@entry("wine rack", family="kitchen", synonyms=("bottle rack", "wine holder"), material="wood", colours=("wood",
-       "black", "brown"))  # fmt: skip
+@entry(
+    "wine rack",
+    family="kitchen",
+    synonyms=("bottle rack", "wine holder"),
+    material="wood",
+    colours=("wood", "black", "brown"),
+)
 def wine_rack(style: Style) -> Build:
     """A low rack of two ends and two pairs of rails; bottles lie across its top."""
     x, y, z = length(style, 0.4, 0.03), style.vary(0.22, 0.03), style.vary(0.13, 0.03)
@@ -154,8 +188,9 @@ def wine_rack(style: Style) -> Build:
     top = Shape(deck.solid - slats.solid, deck.hulls)
     return Build(
         parts=((join(*ends, *rails), style.colour()), (top, style.shade(style.colour(), 0.85))),
-        regions=(rectangle("on", z - 0.002, x - 0.06, y - 0.075),), mass=0.9,
-    )  # fmt: skip
+        regions=(rectangle("on", z - 0.002, x - 0.06, y - 0.075),),
+        mass=0.9,
+    )
 
 
 @entry("cookie tin", family="kitchen", synonyms=("biscuit tin", "cake tin", "round tin"), material="steel",
@@ -172,12 +207,18 @@ def round_tin(style: Style) -> Build:
     return Build(
         parts=((body, style.colour()), (lid, style.colour())),
         paint=((band(0.25 * h, 0.4 * h), style.colour(1)), (ring, style.colour(1)), (star, style.colour(1))),
-        regions=(disc("on", h + 0.005, r),), mass=0.55,
-    )  # fmt: skip
+        regions=(disc("on", h + 0.005, r),),
+        mass=0.55,
+    )
 
 
-@entry("bar caddy", family="kitchen", synonyms=("desk caddy", "bottle carrier", "shower caddy", "book caddy"),
-       material="steel", colours=("black", "steel", "wood"))  # fmt: skip
+@entry(
+    "bar caddy",
+    family="kitchen",
+    synonyms=("desk caddy", "bottle carrier", "shower caddy", "book caddy"),
+    material="steel",
+    colours=("black", "steel", "wood"),
+)
 def bar_caddy(style: Style) -> Build:
     """An open carrier of two compartments with an upright handle between them."""
     x, y, z, wall, floor = length(style, 0.26, 0.03), style.vary(0.17, 0.03), style.vary(0.11, 0.03), 0.006, 0.006
@@ -198,8 +239,13 @@ def bar_caddy(style: Style) -> Build:
     )
 
 
-@entry("kitchen thermometer", family="kitchen", synonyms=("thermometer", "meat thermometer", "food thermometer"),
-       material="steel", colours=("red", "black", "white"))  # fmt: skip
+@entry(
+    "kitchen thermometer",
+    family="kitchen",
+    synonyms=("thermometer", "meat thermometer", "food thermometer"),
+    material="steel",
+    colours=("red", "black", "white"),
+)
 def kitchen_thermometer(style: Style) -> Build:
     """A probe thermometer lying flat: a head with a display and a long needle."""
     n = length(style, 0.12)

@@ -107,8 +107,13 @@ def waffle(style: Style) -> Build:
     )
 
 
-@entry("bun", family="food", synonyms=("bread roll", "dinner roll", "burger bun", "bread bun", "hamburger bun",
-       "hot dog bun", "hotdog bun"), material="bread", colours=("bread", "golden"))  # fmt: skip
+@entry(
+    "bun",
+    family="food",
+    synonyms=("bread roll", "dinner roll", "burger bun", "bread bun", "hamburger bun", "hot dog bun", "hotdog bun"),
+    material="bread",
+    colours=("bread", "golden"),
+)
 def bun(style: Style) -> Build:
     """A round roll with a cross cut in its top."""
     r = style.vary(0.045)
@@ -124,8 +129,13 @@ def bun(style: Style) -> Build:
     return Build(parts=((lathe(curve(dome, 20)), style.colour()),), paint=((unseen(cross), CREAM),), mass=0.06)
 
 
-@entry("burrito", family="food", synonyms=("wrap", "kebab wrap", "spring roll", "egg roll"), material="food",
-       colours=("cream", "tan"))  # fmt: skip
+@entry(
+    "burrito",
+    family="food",
+    synonyms=("wrap", "kebab wrap", "spring roll", "egg roll"),
+    material="food",
+    colours=("cream", "tan"),
+)
 def burrito(style: Style) -> Build:
     """A rolled tortilla lying down, its lower half in foil."""
     n, r = length(style, 0.17), style.vary(0.027)
@@ -144,8 +154,13 @@ def burrito(style: Style) -> Build:
     )
 
 
-@entry("steak", family="food", synonyms=("beef steak", "meat", "raw steak", "piece of meat", "beef"), material="food",
-       colours=("red", "crimson", "brown"))  # fmt: skip
+@entry(
+    "steak",
+    family="food",
+    synonyms=("beef steak", "meat", "raw steak", "piece of meat", "beef"),
+    material="food",
+    colours=("red", "crimson", "brown"),
+)
 def steak(style: Style) -> Build:
     """A thick steak with a rim of fat and marbling."""
     x, y, z = length(style, 0.17), style.vary(0.1), 0.024
@@ -163,8 +178,13 @@ def steak(style: Style) -> Build:
     return Build(parts=((body, FAT),), paint=((inner, style.colour()), (veins, style.shade(FAT, 0.95))), mass=0.3)
 
 
-@entry("sausage", family="food", synonyms=("frankfurter", "bratwurst", "wiener", "salami"), material="food",
-       colours=("terracotta", "brown"))  # fmt: skip
+@entry(
+    "sausage",
+    family="food",
+    synonyms=("frankfurter", "bratwurst", "wiener", "salami"),
+    material="food",
+    colours=("terracotta", "brown"),
+)
 def sausage(style: Style) -> Build:
     """A bent sausage lying flat."""
     r = style.vary(0.0145)
@@ -178,8 +198,13 @@ def sausage(style: Style) -> Build:
     )
 
 
-@entry("chicken leg", family="food", synonyms=("drumstick", "chicken drumstick", "chicken thigh", "turkey leg"),
-       material="food", colours=("bread", "brown"))  # fmt: skip
+@entry(
+    "chicken leg",
+    family="food",
+    synonyms=("drumstick", "chicken drumstick", "chicken thigh", "turkey leg"),
+    material="food",
+    colours=("bread", "brown"),
+)
 def chicken_leg(style: Style) -> Build:
     """A roast drumstick lying down, its bone to the right."""
     k = style.vary(1.0)
@@ -193,8 +218,13 @@ def chicken_leg(style: Style) -> Build:
     return Build(parts=((shape.scaled(k), style.colour()),), paint=((white, CREAM),), mass=0.12)
 
 
-@entry("fish fillet", family="food", synonyms=("salmon", "salmon fillet", "fillet", "fish steak", "fillet of fish"),
-       material="food", colours=("coral", "peach"))  # fmt: skip
+@entry(
+    "fish fillet",
+    family="food",
+    synonyms=("salmon", "salmon fillet", "fillet", "fish steak", "fillet of fish"),
+    material="food",
+    colours=("coral", "peach"),
+)
 def fish_fillet(style: Style) -> Build:
     """A fillet lying on its skin, thick at the left."""
     n = length(style, 0.16)

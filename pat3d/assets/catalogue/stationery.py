@@ -48,8 +48,13 @@ def pen(style: Style) -> Build:
     )
 
 
-@entry("pencil", family="desk", material="wood", colours=("yellow", "red", "blue", "green", "orange", "purple"),
-       synonyms=("wooden pencil", "coloured pencil", "colored pencil", "colour pencil", "color pencil"))  # fmt: skip
+@entry(
+    "pencil",
+    family="desk",
+    material="wood",
+    colours=("yellow", "red", "blue", "green", "orange", "purple"),
+    synonyms=("wooden pencil", "coloured pencil", "colored pencil", "colour pencil", "color pencil"),
+)
 def pencil(style: Style) -> Build:
     """A sharpened six-sided pencil with an eraser, lying."""
     r, n = style.vary(0.0038, 0.03), style.vary(0.172, 0.05)
@@ -93,8 +98,13 @@ def marker(style: Style) -> Build:
     )
 
 
-@entry("crayon", family="desk", material="wax", colours=("red", "orange", "yellow", "green", "blue", "purple"),
-       synonyms=("wax crayon",))  # fmt: skip
+@entry(
+    "crayon",
+    family="desk",
+    material="wax",
+    colours=("red", "orange", "yellow", "green", "blue", "purple"),
+    synonyms=("wax crayon",),
+)
 def crayon(style: Style) -> Build:
     """A wax crayon with a paper sleeve."""
     r, n, colour = style.vary(0.0055), style.vary(0.09), style.colour()
@@ -124,8 +134,13 @@ def paintbrush(style: Style) -> Build:
     )
 
 
-@entry("ruler", family="desk", material="wood", colours=("wood", "yellow", "steel"),
-       synonyms=("wooden ruler", "measuring stick", "straightedge"))  # fmt: skip
+@entry(
+    "ruler",
+    family="desk",
+    material="wood",
+    colours=("wood", "yellow", "steel"),
+    synonyms=("wooden ruler", "measuring stick", "straightedge"),
+)
 def ruler(style: Style) -> Build:
     """A flat ruler with ticks along its front edge; 20 cm, or 30 when long."""
     count = 31 if style.adjectives & {"long"} else 16 if style.adjectives & {"short"} else 21
@@ -149,8 +164,13 @@ def eraser(style: Style) -> Build:
     return Build(parts=((padded(x, y, z, 0.0025), style.colour()),), paint=((sleeve, style.colour(1)), (stripe, WHITE)))
 
 
-@entry("scissors", family="desk", material="steel", colours=("red", "black", "orange", "blue"),
-       synonyms=("pair of scissors", "shears"))  # fmt: skip
+@entry(
+    "scissors",
+    family="desk",
+    material="steel",
+    colours=("red", "black", "orange", "blue"),
+    synonyms=("pair of scissors", "shears"),
+)
 def scissors(style: Style) -> Build:
     """Closed scissors lying flat, handles in the main colour; the finger holes are to the eye alone."""
     n, thick, blade = style.vary(0.165, 0.04), 0.0075, 0.004
@@ -236,8 +256,11 @@ def calculator(style: Style) -> Build:
     body = dressed(soft_box(x, y, z - 0.002, 0.003), box(x, y, z))
     screen = span((-0.4 * x, 0.4 * x), (0.25 * y, 0.42 * y), (0.005, z + 0.01))
     digits = span((0.05 * x, 0.36 * x), (0.29 * y, 0.38 * y), (0.005, z + 0.01))
-    keys = [box(0.15 * x, 0.09 * y, 0.006).moved((i - 1.5) * 0.21 * x, (0.12 - 0.135 * j) * y, z - 0.006)
-            for j in range(5) for i in range(4)]  # fmt: skip
+    keys = [
+        box(0.15 * x, 0.09 * y, 0.006).moved((i - 1.5) * 0.21 * x, (0.12 - 0.135 * j) * y, z - 0.006)
+        for j in range(5)
+        for i in range(4)
+    ]
     light = WHITE if sum(colour) < 350 else GRAY
     return Build(
         parts=((body, colour), (drawn(together(keys[1:])), light), (drawn(keys[0]), COLOURS["orange"])),

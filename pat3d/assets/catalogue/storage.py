@@ -69,8 +69,11 @@ def shelf(style: Style) -> Build:
     count = 3 if z < 1.2 else 4
     tops = [0.15 + k * (z - 0.15) / (count - 1) for k in range(count)]
     boards = [box(x - 0.004, y - 0.004, thick).moved(z=top - thick) for top in tops]
-    slots = [box(0.006, 3 * y, 0.02).moved(s * (x / 2 - post / 2), 0.0, 0.06 + k * 0.06)
-             for s in (-1, 1) for k in range(int((z - 0.1) / 0.06))]  # fmt: skip
+    slots = [
+        box(0.006, 3 * y, 0.02).moved(s * (x / 2 - post / 2), 0.0, 0.06 + k * 0.06)
+        for s in (-1, 1)
+        for k in range(int((z - 0.1) / 0.06))
+    ]
     return Build(
         parts=((legs(x, y, z, post), style.shade(colour, 0.7)), (join(*boards), colour)),
         paint=((together(slots), style.shade(colour, 0.35)),),
@@ -97,8 +100,9 @@ def _case(style: Style, x: float, y: float, z: float, *, columns: int, rows: int
                 box(0.016, 0.03, min(0.16, 0.3 * (high - low))).moved(inner, front - 0.008, (low + high) / 2)
             )
         else:
-            handles.append(box(0.3 * (right - left), 0.03, 0.016).moved((left + right) / 2, front - 0.008,
-                           0.3 * low + 0.7 * high))  # fmt: skip
+            handles.append(
+                box(0.3 * (right - left), 0.03, 0.016).moved((left + right) / 2, front - 0.008, 0.3 * low + 0.7 * high)
+            )
     return Build(
         parts=(
             (join(body, plinth), style.shade(colour, 0.7)),
@@ -132,8 +136,7 @@ def filing_cabinet(style: Style) -> Build:
     return _case(style, 0.42, 0.55, 1.0, columns=1, rows=3, mass=28.0, doors=False)
 
 
-@entry("wardrobe", family="storage", material="wood", colours=WOODS, accents=("black",),
-       synonyms=("closet", "armoire"))  # fmt: skip
+@entry("wardrobe", family="storage", material="wood", colours=WOODS, accents=("black",), synonyms=("closet", "armoire"))
 def wardrobe(style: Style) -> Build:
     """A tall wardrobe with two doors."""
     return _case(style, 1.0, 0.56, 1.9, columns=2, rows=1, mass=70.0, doors=True)
@@ -170,8 +173,13 @@ def cart(style: Style) -> Build:
     )
 
 
-@entry("crate", family="storage", material="wood", colours=("wood", "tan", "brown"),
-       synonyms=("wooden crate", "fruit crate", "open crate"))  # fmt: skip
+@entry(
+    "crate",
+    family="storage",
+    material="wood",
+    colours=("wood", "tan", "brown"),
+    synonyms=("wooden crate", "fruit crate", "open crate"),
+)
 def crate(style: Style) -> Build:
     """An open crate of wooden slats."""
     wide, deep, tall = stretch(style)
@@ -193,9 +201,14 @@ def crate(style: Style) -> Build:
     )
 
 
-@entry("storage box", family="storage", material="plastic", colours=("blue", "gray", "teal", "white"),
-       synonyms=("storage bin", "plastic bin", "plastic box", "storage container", "tote", "open box", "plastic crate"),
-       plurals=("storage boxes", "plastic boxes", "open boxes"))  # fmt: skip
+@entry(
+    "storage box",
+    family="storage",
+    material="plastic",
+    colours=("blue", "gray", "teal", "white"),
+    synonyms=("storage bin", "plastic bin", "plastic box", "storage container", "tote", "open box", "plastic crate"),
+    plurals=("storage boxes", "plastic boxes", "open boxes"),
+)
 def storage_box(style: Style) -> Build:
     """An open plastic box with flared walls, a rim and grips."""
     wide, deep, tall = stretch(style)
@@ -238,8 +251,13 @@ def waste_bin(style: Style) -> Build:
     )
 
 
-@entry("laundry basket", family="storage", material="wicker", colours=("wicker", "white", "beige"),
-       synonyms=("hamper", "laundry hamper", "laundry bin", "clothes basket"))  # fmt: skip
+@entry(
+    "laundry basket",
+    family="storage",
+    material="wicker",
+    colours=("wicker", "white", "beige"),
+    synonyms=("hamper", "laundry hamper", "laundry bin", "clothes basket"),
+)
 def laundry_basket(style: Style) -> Build:
     """A tall open basket with woven bands."""
     z, bottom, top = style.vary(0.45) * stretch(style)[2], style.vary(0.19), style.vary(0.225)
@@ -255,14 +273,22 @@ def laundry_basket(style: Style) -> Build:
     )
 
 
-@entry("suitcase", family="storage", material="plastic", colours=("navy", "burgundy", "teal", "gray"),
-       synonyms=("luggage", "travel case", "trolley case"))  # fmt: skip
+@entry(
+    "suitcase",
+    family="storage",
+    material="plastic",
+    colours=("navy", "burgundy", "teal", "gray"),
+    synonyms=("luggage", "travel case", "trolley case"),
+)
 def suitcase(style: Style) -> Build:
     """An upright shell suitcase on wheels, its handle raised."""
     x, y, z = style.vary(0.42), style.vary(0.25), style.vary(0.62)
     colour = style.colour()
-    wheels = [span((a - 0.02, a + 0.02), (b - 0.025, b + 0.025), (0.0, 0.05))
-              for a in (-x / 2 + 0.05, x / 2 - 0.05) for b in (-y / 2 + 0.04, y / 2 - 0.04)]  # fmt: skip
+    wheels = [
+        span((a - 0.02, a + 0.02), (b - 0.025, b + 0.025), (0.0, 0.05))
+        for a in (-x / 2 + 0.05, x / 2 - 0.05)
+        for b in (-y / 2 + 0.04, y / 2 - 0.04)
+    ]
     shell = padded(x, y, z - 0.04, 0.035).moved(z=0.04)
     poles = [box(0.016, 0.016, 0.12).moved(s * 0.09, y / 2 - 0.05, z - 0.02) for s in (-1, 1)]
     grip = padded(0.24, 0.03, 0.03, 0.012).moved(y=y / 2 - 0.05, z=z + 0.09)

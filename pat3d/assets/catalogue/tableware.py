@@ -56,9 +56,14 @@ def mug(style: Style) -> Build:
     )
 
 
-@entry("cup", family="tableware", synonyms=("paper cup", "plastic cup", "drinking cup", "stacking cup"),
-       material="ceramic",
-       colours=("white", "blue", "orange", "turquoise", "green", "pink"), accents=("blue",))  # fmt: skip
+@entry(
+    "cup",
+    family="tableware",
+    synonyms=("paper cup", "plastic cup", "drinking cup", "stacking cup"),
+    material="ceramic",
+    colours=("white", "blue", "orange", "turquoise", "green", "pink"),
+    accents=("blue",),
+)
 def cup(style: Style) -> Build:
     """A tapered cup without a handle; cups of any seed nest, each base resting on the ribs in the next."""
     r, h = style.vary(0.033, 0.01), style.vary(0.105, 0.01)
@@ -115,9 +120,11 @@ def plate(style: Style) -> Build:
         side = style.vary(0.19, 0.015)
         return Build(
             parts=((tray(side, side, 0.02, 0.006, 0.007, 0.012), style.colour()),),
-            regions=(rectangle("on", 0.007, side - 0.013, side - 0.013),
-                     rectangle("in", 0.007, side - 0.013, side - 0.013, 0.013)),
-        )  # fmt: skip
+            regions=(
+                rectangle("on", 0.007, side - 0.013, side - 0.013),
+                rectangle("in", 0.007, side - 0.013, side - 0.013, 0.013),
+            ),
+        )
     size = style.vary(1.0, 0.015)
     return _dish(style, 0.131 * size, 0.07 * size, 0.09 * size, height(style, 0.023, 0.01), 0.008)
 
@@ -137,9 +144,14 @@ def _bowl(style: Style, r: float, h: float, well: float) -> Build:
     return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.35 * h,)),), paint=stripes(style, r, h))
 
 
-@entry("bowl", family="tableware", synonyms=("cereal bowl", "soup bowl", "rice bowl", "dog bowl", "pet bowl"),
-       material="ceramic",
-       colours=("white", "teal", "blue", "coral", "yellow"), accents=("white",))  # fmt: skip
+@entry(
+    "bowl",
+    family="tableware",
+    synonyms=("cereal bowl", "soup bowl", "rice bowl", "dog bowl", "pet bowl"),
+    material="ceramic",
+    colours=("white", "teal", "blue", "coral", "yellow"),
+    accents=("white",),
+)
 def bowl(style: Style) -> Build:
     """A cereal bowl."""
     return _bowl(style, style.vary(0.086, 0.03), height(style, 0.068, 0.04), 0.054)
@@ -177,8 +189,13 @@ def wine_glass(style: Style) -> Build:
     )
 
 
-@entry("spoon", family="tableware", synonyms=("teaspoon", "tablespoon", "soup spoon", "dessert spoon"),
-       material="steel", colours=("steel",))  # fmt: skip
+@entry(
+    "spoon",
+    family="tableware",
+    synonyms=("teaspoon", "tablespoon", "soup spoon", "dessert spoon"),
+    material="steel",
+    colours=("steel",),
+)
 def spoon(style: Style) -> Build:
     """A spoon lying on the back of its bowl and the end of its handle."""
     size = length(style, 1.0)
@@ -230,8 +247,13 @@ def serving_tray(style: Style) -> Build:
     grips = []
     for side in (-1, 1):
         at = side * (x / 2 - 0.001)
-        arch = [(at, -0.065, h - 0.01), (at + side * 0.004, -0.05, h + 0.016), (at + side * 0.004, 0, h + 0.02),
-                (at + side * 0.004, 0.05, h + 0.016), (at, 0.065, h - 0.01)]  # fmt: skip
+        arch = [
+            (at, -0.065, h - 0.01),
+            (at + side * 0.004, -0.05, h + 0.016),
+            (at + side * 0.004, 0, h + 0.02),
+            (at + side * 0.004, 0.05, h + 0.016),
+            (at, 0.065, h - 0.01),
+        ]
         grips.append(tube(curve(arch, 25), 0.0055, 4, up=(1, 0, 0)))
     edge = 0.022
     return Build(
@@ -248,8 +270,13 @@ def coaster(style: Style) -> Build:
     return Build(parts=((shape, style.colour()),), regions=(disc("on", 0.006, r),))
 
 
-@entry("napkin", family="tableware", synonyms=("serviette", "folded napkin"), material="cotton",
-       colours=("white", "red", "beige", "blue"))  # fmt: skip
+@entry(
+    "napkin",
+    family="tableware",
+    synonyms=("serviette", "folded napkin"),
+    material="cotton",
+    colours=("white", "red", "beige", "blue"),
+)
 def napkin(style: Style) -> Build:
     """A folded cloth napkin with a hem."""
     side = style.vary(0.16)

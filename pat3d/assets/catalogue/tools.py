@@ -25,11 +25,15 @@ def hammer(style: Style) -> Build:
     n, half = style.vary(0.3), 0.0125
     head_x = n / 2 - 0.02
     grip = [(-n / 2, 0.016), (-0.2 * n, 0.014), (0.1 * n, 0.011), (n / 2 - 0.006, 0.011)]
-    handle = join(*(
-        convex([(x, s * w, half + h * half) for x, w in pair for s in (-1, 1) for h in (-1, 1)]
-               + [(x, s * 0.5 * w, half + h * half) for x, w in pair for s in (-1, 1) for h in (-1, 1)])
-        for pair in zip(grip, grip[1:], strict=False)
-    ))  # fmt: skip
+    handle = join(
+        *(
+            convex(
+                [(x, s * w, half + h * half) for x, w in pair for s in (-1, 1) for h in (-1, 1)]
+                + [(x, s * 0.5 * w, half + h * half) for x, w in pair for s in (-1, 1) for h in (-1, 1)]
+            )
+            for pair in zip(grip, grip[1:], strict=False)
+        )
+    )
     block = box(0.028, 0.05, 2 * half + 0.003).moved(head_x, 0.0)
     face = cylinder(half + 0.0015, 0.035, 12).turned("z", 15).turned("x", 90).moved(head_x, -0.02, half + 0.0015)
     claws = [convex([(head_x + x, y, z) for x, y, z0, z1 in
@@ -47,8 +51,10 @@ def screwdriver(style: Style) -> Build:
     handle = lying(r, 0.46 * n, sides=8).moved(-0.27 * n)
     neck = lying(0.7 * r, 0.06 * n, sides=8).moved(-0.02 * n, 0.0, 0.3 * r)
     shaft = lying(0.003, 0.48 * n, sides=6).moved(0.24 * n, 0.0, r - 0.003)
-    tip = convex([(0.47 * n, s * 0.0028, r + h * 0.0028) for s in (-1, 1) for h in (-1, 1)]
-                 + [(n / 2, s * 0.0035, r + h * 0.0006) for s in (-1, 1) for h in (-1, 1)])  # fmt: skip
+    tip = convex(
+        [(0.47 * n, s * 0.0028, r + h * 0.0028) for s in (-1, 1) for h in (-1, 1)]
+        + [(n / 2, s * 0.0035, r + h * 0.0006) for s in (-1, 1) for h in (-1, 1)]
+    )
     flutes = [
         box(0.3 * n, 0.003, 0.05).moved(0.0, 0.0, 0.0).turned("x", 60 * k).moved(-0.28 * n, 0.0, r) for k in range(6)
     ]
@@ -59,9 +65,14 @@ def screwdriver(style: Style) -> Build:
     )
 
 
-@entry("wrench", family="tools", material="steel", colours=("steel", "gray"), plurals=("wrenches",),
-       synonyms=("spanner", "open-end wrench", "combination wrench", "adjustable wrench", "socket wrench",
-                 "ratchet"))  # fmt: skip
+@entry(
+    "wrench",
+    family="tools",
+    material="steel",
+    colours=("steel", "gray"),
+    plurals=("wrenches",),
+    synonyms=("spanner", "open-end wrench", "combination wrench", "adjustable wrench", "socket wrench", "ratchet"),
+)
 def wrench(style: Style) -> Build:
     """A combination wrench lying flat: an open jaw, a bar, a ring."""
     n, thick, colour = style.vary(0.2), 0.007, style.colour()
@@ -76,8 +87,13 @@ def wrench(style: Style) -> Build:
     )
 
 
-@entry("pliers", family="tools", material="steel", colours=("red", "blue", "yellow"),
-       synonyms=("pair of pliers", "tongs pliers", "wire cutter", "wire stripper", "wire cutters"))  # fmt: skip
+@entry(
+    "pliers",
+    family="tools",
+    material="steel",
+    colours=("red", "blue", "yellow"),
+    synonyms=("pair of pliers", "tongs pliers", "wire cutter", "wire stripper", "wire cutters"),
+)
 def pliers(style: Style) -> Build:
     """Pliers lying a little open, grips in the main colour."""
     n, thick = style.vary(0.18), 0.012
@@ -103,8 +119,13 @@ def saw(style: Style) -> Build:
     """A handsaw lying flat, its handle in the main colour."""
     n = style.vary(0.42)
     thick = 0.022
-    blade = convex([(x, y, z) for x, y in ((-0.2 * n, -0.055), (-0.2 * n, 0.05), (0.72 * n, 0.05), (0.72 * n, 0.015))
-                    for z in (0.0, 0.002)])  # fmt: skip
+    blade = convex(
+        [
+            (x, y, z)
+            for x, y in ((-0.2 * n, -0.055), (-0.2 * n, 0.05), (0.72 * n, 0.05), (0.72 * n, 0.015))
+            for z in (0.0, 0.002)
+        ]
+    )
     rise = 0.07 / (0.92 * n)
     notch = box(0.005, 0.005, 0.05).turned("z", 45).moved(-0.2 * n, -0.056, -0.01)
     teeth = [notch.moved(0.009 * k, rise * 0.009 * k) for k in range(1, int(0.9 * n / 0.009))]
@@ -207,8 +228,10 @@ def paint_can(style: Style) -> Build:
     rims = join(cylinder(r + 0.003, 0.008), cylinder(r + 0.003, 0.008).moved(z=z - 0.002))
     label = box(2.0, 2.0, z - 0.05).moved(z=0.02)
     patch = Shape(dial(0.5 * r, 1.0).moved(0.0, -0.6 * r, 0.48 * z).solid, ())
-    drips = [span((a * r, b * r), (-1.0, 0.0), (h * z, z + 0.1)) for a, b, h in
-             ((-0.75, -0.5, 0.72), (-0.5, -0.2, 0.86), (-0.2, 0.02, 0.64), (0.02, 0.35, 0.88))]  # fmt: skip
+    drips = [
+        span((a * r, b * r), (-1.0, 0.0), (h * z, z + 0.1))
+        for a, b, h in ((-0.75, -0.5, 0.72), (-0.5, -0.2, 0.86), (-0.2, 0.02, 0.64), (0.02, 0.35, 0.88))
+    ]
     lid = cylinder(0.85 * r, 0.1).moved(z=z + 0.005)
     return Build(
         parts=((can, metal), (rims, metal)),
@@ -235,8 +258,13 @@ def spray_can(style: Style) -> Build:
     )
 
 
-@entry("brick", family="tools", material="ceramic", colours=("terracotta", "red", "brown"),
-       synonyms=("clay brick", "red brick", "house brick"))  # fmt: skip
+@entry(
+    "brick",
+    family="tools",
+    material="ceramic",
+    colours=("terracotta", "red", "brown"),
+    synonyms=("clay brick", "red brick", "house brick"),
+)
 def brick(style: Style) -> Build:
     """A brick with three round holes to the eye; contact sees one box."""
     x, y, z = style.vary(0.215, 0.02), style.vary(0.1025, 0.02), style.vary(0.065, 0.02)

@@ -143,8 +143,13 @@ def toy_train(style: Style) -> Build:
     )
 
 
-@entry("toy sailboat", family="toys", synonyms=("sailboat", "boat", "toy boat", "sailing boat",
-       "sail boat", "toy ship", "ship", "yacht"), colours=("red", "blue", "wood"), accents=("white",))  # fmt: skip
+@entry(
+    "toy sailboat",
+    family="toys",
+    synonyms=("sailboat", "boat", "toy boat", "sailing boat", "sail boat", "toy ship", "ship", "yacht"),
+    colours=("red", "blue", "wood"),
+    accents=("white",),
+)
 def toy_sailboat(style: Style) -> Build:
     """A toy boat with a mast, two sails and a flag, 20 cm long and 25 cm tall."""
     colour, canvas = style.colour(), style.colour(1)
@@ -210,9 +215,13 @@ def toy_sailboat(style: Style) -> Build:
     )
 
 
-@entry("toy plane", family="toys", synonyms=("toy airplane", "airplane", "plane", "aeroplane",
-       "model plane", "model airplane", "aircraft"), colours=("red", "blue", "yellow"),
-       accents=("white",))  # fmt: skip
+@entry(
+    "toy plane",
+    family="toys",
+    synonyms=("toy airplane", "airplane", "plane", "aeroplane", "model plane", "model airplane", "aircraft"),
+    colours=("red", "blue", "yellow"),
+    accents=("white",),
+)
 def toy_plane(style: Style) -> Build:
     """A toy propeller plane on three wheels, 20 cm long."""
     colour, trim = style.colour(), style.colour(1)
@@ -293,9 +302,14 @@ def drum(style: Style) -> Build:
     )
 
 
-@entry("stacking rings", family="toys", synonyms=("ring stacker", "stacking toy", "ring tower",
-       "stacking ring"), plurals=("stacking rings toy",), colours=("red",), accents=("orange", "yellow",
-       "green", "blue"))  # fmt: skip
+@entry(
+    "stacking rings",
+    family="toys",
+    synonyms=("ring stacker", "stacking toy", "ring tower", "stacking ring"),
+    plurals=("stacking rings toy",),
+    colours=("red",),
+    accents=("orange", "yellow", "green", "blue"),
+)
 def stacking_rings(style: Style) -> Build:
     """A baby's tower of five rings on a foot, 20 cm tall."""
     parts = [(frustum(0.062, 0.056, 0.018), style.colour())]

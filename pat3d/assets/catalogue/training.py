@@ -56,8 +56,13 @@ def kettlebell(style: Style) -> Build:
     return Build(parts=((join(body, handle).scaled(k), style.colour()),), mass=4.0 * k**3)
 
 
-@entry("yoga block", family="outdoor", material="foam", colours=("purple", "teal", "blue", "pink"),
-       synonyms=("yoga brick",))  # fmt: skip
+@entry(
+    "yoga block",
+    family="outdoor",
+    material="foam",
+    colours=("purple", "teal", "blue", "pink"),
+    synonyms=("yoga brick",),
+)
 def yoga_block(style: Style) -> Build:
     """A foam block lying on its broad side."""
     x, y, z = style.vary(0.225, 0.02), style.vary(0.15, 0.02), style.vary(0.08, 0.03)
@@ -68,8 +73,13 @@ def yoga_block(style: Style) -> Build:
     )
 
 
-@entry("yoga mat", family="outdoor", material="rubber", colours=("purple", "teal", "blue", "pink"),
-       synonyms=("exercise mat", "gym mat"))  # fmt: skip
+@entry(
+    "yoga mat",
+    family="outdoor",
+    material="rubber",
+    colours=("purple", "teal", "blue", "pink"),
+    synonyms=("exercise mat", "gym mat"),
+)
 def yoga_mat(style: Style) -> Build:
     """A mat spread on the floor with a seam around it; when rolled, standing on its end with its spiral showing."""
     main, dark = style.colour(), style.shade(style.colour(), 0.7)
@@ -130,12 +140,18 @@ def ping_pong_paddle(style: Style) -> Build:
     edge = Shape(box(1, 1, 0.004).solid, ()).moved(z=0.004)
     return Build(
         parts=((blade.scaled(k), style.colour()), (handle.scaled(k), style.colour(1))),
-        paint=((drawn(wood).scaled(k), style.colour(1)), (edge.scaled(k), style.colour(1))), mass=0.17,
-    )  # fmt: skip
+        paint=((drawn(wood).scaled(k), style.colour(1)), (edge.scaled(k), style.colour(1))),
+        mass=0.17,
+    )
 
 
-@entry("frisbee", family="outdoor", material="plastic", colours=("red", "blue", "yellow", "green"),
-       synonyms=("flying disc", "flying disk"))  # fmt: skip
+@entry(
+    "frisbee",
+    family="outdoor",
+    material="plastic",
+    colours=("red", "blue", "yellow", "green"),
+    synonyms=("flying disc", "flying disk"),
+)
 def frisbee(style: Style) -> Build:
     """A flying disc lying on its rim, closed to contact."""
     r = style.vary(0.135, 0.03)
@@ -166,8 +182,13 @@ def volleyball(style: Style) -> Build:
     )
 
 
-@entry("planter", family="outdoor", material="ceramic", colours=("terracotta", "white", "gray"),
-       synonyms=("window box", "plant box", "flower box"))  # fmt: skip
+@entry(
+    "planter",
+    family="outdoor",
+    material="ceramic",
+    colours=("terracotta", "white", "gray"),
+    synonyms=("window box", "plant box", "flower box"),
+)
 def planter(style: Style) -> Build:
     """A long open box for plants."""
     x, y, z = style.vary(0.42), style.vary(0.17), style.vary(0.16)
@@ -175,5 +196,6 @@ def planter(style: Style) -> Build:
     rim += [box(0.014, y + 0.03, 0.02).moved(s * (x / 2 + 0.006), 0.0, z - 0.02) for s in (-1, 1)]
     return Build(
         parts=((tray(x, y, z, 0.008, 0.01), style.colour()), (join(*rim), style.shade(style.colour(), 0.88))),
-        regions=(cavity(x / 2 - 0.009, y / 2 - 0.009, 0.01, z - 0.01),), mass=2.2,
-    )  # fmt: skip
+        regions=(cavity(x / 2 - 0.009, y / 2 - 0.009, 0.01, z - 0.01),),
+        mass=2.2,
+    )

@@ -13,8 +13,13 @@ from pat3d.assets.rounded import curve, hollow, lathe, merged, slab, spot, tube,
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box, tray
 
 
-@entry("peeler", family="kitchen", synonyms=("vegetable peeler", "potato peeler"), material="steel", colours=("black",
-       "red", "green"))  # fmt: skip
+@entry(
+    "peeler",
+    family="kitchen",
+    synonyms=("vegetable peeler", "potato peeler"),
+    material="steel",
+    colours=("black", "red", "green"),
+)
 def peeler(style: Style) -> Build:
     """A swivel peeler lying on its side: a grip and a slotted blade."""
     n = length(style, 0.1)
@@ -27,8 +32,13 @@ def peeler(style: Style) -> Build:
     )
 
 
-@entry("pizza cutter", family="kitchen", synonyms=("pizza wheel", "pizza slicer"), material="steel", colours=("red",
-       "black"))  # fmt: skip
+@entry(
+    "pizza cutter",
+    family="kitchen",
+    synonyms=("pizza wheel", "pizza slicer"),
+    material="steel",
+    colours=("red", "black"),
+)
 def pizza_cutter(style: Style) -> Build:
     """A wheel cutter lying flat."""
     n = length(style, 0.11)
@@ -38,8 +48,13 @@ def pizza_cutter(style: Style) -> Build:
     return Build(parts=((join(wheel, fork), STEEL), (grip, style.colour())), mass=0.13)
 
 
-@entry("corkscrew", family="kitchen", synonyms=("wine opener", "cork screw", "bottle opener", "waiter's friend"),
-       material="steel", colours=("black", "red", "wood"))  # fmt: skip
+@entry(
+    "corkscrew",
+    family="kitchen",
+    synonyms=("wine opener", "cork screw", "bottle opener", "waiter's friend"),
+    material="steel",
+    colours=("black", "red", "wood"),
+)
 def corkscrew(style: Style) -> Build:
     """A T-shaped corkscrew lying on its side, its worm along x."""
     n, r = length(style, 0.065), 0.0045
@@ -66,8 +81,13 @@ def can_opener(style: Style) -> Build:
     return Build(parts=((join(*grips), style.colour()), (join(plate, wheel), STEEL), (key, style.colour())), mass=0.14)
 
 
-@entry("tongs", family="kitchen", synonyms=("pair of tongs", "kitchen tongs", "salad tongs", "serving tongs"),
-       material="steel", colours=("steel", "red", "black"))  # fmt: skip
+@entry(
+    "tongs",
+    family="kitchen",
+    synonyms=("pair of tongs", "kitchen tongs", "salad tongs", "serving tongs"),
+    material="steel",
+    colours=("steel", "red", "black"),
+)
 def tongs(style: Style) -> Build:
     """Tongs lying flat, a little open: two arms joined at one end, a scalloped pad on each."""
     n = length(style, 0.24)
@@ -90,8 +110,11 @@ def grater(style: Style) -> Build:
     z = height(style, 0.19)
     corners = [(s * a, t * b, h) for h, a, b in ((0, 0.052, 0.04), (z, 0.038, 0.027)) for s in (-1, 1) for t in (-1, 1)]
     body = convex(corners)
-    holes = [unseen(box(0.007, 2.0, 0.007)).moved(x, 0.0, h) for x in (-0.022, -0.007, 0.008, 0.023)
-             for h in np.arange(0.03, z - 0.03, 0.018)]  # fmt: skip
+    holes = [
+        unseen(box(0.007, 2.0, 0.007)).moved(x, 0.0, h)
+        for x in (-0.022, -0.007, 0.008, 0.023)
+        for h in np.arange(0.03, z - 0.03, 0.018)
+    ]
     band = unseen(box(1, 1, 0.014))
     arch = [(-0.03, 0, z - 0.004), (-0.03, 0, z + 0.03), (0.03, 0, z + 0.03), (0.03, 0, z - 0.004)]
     handle = tube(curve(arch, 25), 0.006, 4, up=(0, 1, 0), flatness=1.6)
@@ -129,8 +152,13 @@ def measuring_cup(style: Style) -> Build:
     )
 
 
-@entry("measuring spoon", family="kitchen", synonyms=("coffee scoop", "scoop", "measuring scoop", "flour scoop"),
-       material="steel", colours=("steel", "red", "black"))  # fmt: skip
+@entry(
+    "measuring spoon",
+    family="kitchen",
+    synonyms=("coffee scoop", "scoop", "measuring scoop", "flour scoop"),
+    material="steel",
+    colours=("steel", "red", "black"),
+)
 def measuring_spoon(style: Style) -> Build:
     """A deep round spoon with a flat level handle."""
     n, r = length(style, 0.09), 0.022
@@ -140,8 +168,13 @@ def measuring_spoon(style: Style) -> Build:
     return Build(parts=((join(scoop, arm), style.colour()),), regions=(cavity(inner, 8),), mass=0.05)
 
 
-@entry("ice cube tray", family="kitchen", synonyms=("ice tray", "ice-cube tray", "ice cube mould", "ice cube mold"),
-       material="plastic", colours=("blue", "white", "turquoise"))  # fmt: skip
+@entry(
+    "ice cube tray",
+    family="kitchen",
+    synonyms=("ice tray", "ice-cube tray", "ice cube mould", "ice cube mold"),
+    material="plastic",
+    colours=("blue", "white", "turquoise"),
+)
 def ice_cube_tray(style: Style) -> Build:
     """A tray of two rows of six cups."""
     x, y, h, wall, floor = length(style, 0.26), style.vary(0.1), style.vary(0.034), 0.003, 0.004
@@ -152,10 +185,12 @@ def ice_cube_tray(style: Style) -> Build:
     shape = join(box(x, y, floor), *walls, *lip)
     return Build(
         parts=((shape, style.colour()),),
-        regions=(box_cavity(dx / 2 - wall / 2, dy / 2 - wall / 2, floor, h - floor, at=(-dx / 2, -dy / 2)),
-                 rectangle("on", h, x, y)),
+        regions=(
+            box_cavity(dx / 2 - wall / 2, dy / 2 - wall / 2, floor, h - floor, at=(-dx / 2, -dy / 2)),
+            rectangle("on", h, x, y),
+        ),
         mass=0.09,
-    )  # fmt: skip
+    )
 
 
 @entry("lunch box", family="kitchen", synonyms=("lunchbox", "bento box", "food container", "tupperware",
@@ -209,8 +244,13 @@ def knife_block(style: Style) -> Build:
     )
 
 
-@entry("dish rack", family="kitchen", synonyms=("drying rack", "dish drainer", "dish drying rack", "draining rack",
-       "plate rack"), material="steel", colours=("steel", "black", "white"))  # fmt: skip
+@entry(
+    "dish rack",
+    family="kitchen",
+    synonyms=("drying rack", "dish drainer", "dish drying rack", "draining rack", "plate rack"),
+    material="steel",
+    colours=("steel", "black", "white"),
+)
 def dish_rack(style: Style) -> Build:
     """An open rack of wires on a drip tray: a basin for dishes."""
     x, y, h, floor = length(style, 0.45, 0.02), style.vary(0.34, 0.02), style.vary(0.12, 0.03), 0.022
@@ -218,18 +258,26 @@ def dish_rack(style: Style) -> Build:
     posts = [
         box(0.007, 0.007, h - 0.001).moved(s * (x / 2 - 0.0035), t * (y / 2 - 0.0035)) for s in (-1, 1) for t in (-1, 1)
     ]
-    bars = [box(0.004, 0.004, h - 0.002).moved(dx, s * (y / 2 - 0.0035)) for s in (-1, 1)
-            for dx in np.linspace(-0.44, 0.44, 12) * x]  # fmt: skip
-    bars += [box(0.004, 0.004, h - 0.002).moved(s * (x / 2 - 0.0035), dy) for s in (-1, 1)
-             for dy in np.linspace(-0.4, 0.4, 8) * y]  # fmt: skip
+    bars = [
+        box(0.004, 0.004, h - 0.002).moved(dx, s * (y / 2 - 0.0035))
+        for s in (-1, 1)
+        for dx in np.linspace(-0.44, 0.44, 12) * x
+    ]
+    bars += [
+        box(0.004, 0.004, h - 0.002).moved(s * (x / 2 - 0.0035), dy)
+        for s in (-1, 1)
+        for dy in np.linspace(-0.4, 0.4, 8) * y
+    ]
     rims = [
         box(x, 0.007, 0.007).moved(0.0, s * (y / 2 - 0.0035), level) for s in (-1, 1) for level in (h - 0.007, 0.5 * h)
     ]
     rims += [
         box(0.007, y, 0.007).moved(s * (x / 2 - 0.0035), 0.0, level) for s in (-1, 1) for level in (h - 0.007, 0.5 * h)
     ]
-    grooves = [span((-0.46 * x, 0.46 * x), (dy - 0.002, dy + 0.002), (floor - 0.002, floor + 0.001))
-               for dy in np.linspace(-0.42, 0.42, 14) * y]  # fmt: skip
+    grooves = [
+        span((-0.46 * x, 0.46 * x), (dy - 0.002, dy + 0.002), (floor - 0.002, floor + 0.001))
+        for dy in np.linspace(-0.42, 0.42, 14) * y
+    ]
     walls = tray(x, y, h, 0.007, floor)
     cage = Shape(together([low, *posts, *bars, *rims]).solid, walls.hulls)
     main = style.colour()
@@ -253,8 +301,13 @@ def paper_towel(style: Style) -> Build:
     roll, bore = cylinder(r, h), cylinder(0.019, 1).moved(z=-0.5)
     core = unseen(cylinder(0.0205, 1)).moved(z=-0.5)
     seams = join(*(box(1, 1, 0.0015).moved(z=t * h) for t in (0.25, 0.5, 0.75)))
-    dots = merged([unseen(ellipsoid(0.004, 0.1, 0.004)).moved(x, -r, z * h) for x in (-0.03, 0.0, 0.03)
-                   for z in (0.12, 0.38, 0.62, 0.88)])  # fmt: skip
+    dots = merged(
+        [
+            unseen(ellipsoid(0.004, 0.1, 0.004)).moved(x, -r, z * h)
+            for x in (-0.03, 0.0, 0.03)
+            for z in (0.12, 0.38, 0.62, 0.88)
+        ]
+    )
     return Build(
         parts=((Shape(roll.solid - bore.solid, roll.hulls), style.colour()),),
         paint=((unseen(seams), style.shade(style.colour(), 0.88)), (dots, (150, 186, 214)), (core, (184, 146, 102))),
@@ -263,8 +316,13 @@ def paper_towel(style: Style) -> Build:
     )
 
 
-@entry("trivet", family="kitchen", synonyms=("pot stand", "hot pad", "pot holder", "potholder", "heat pad"),
-       material="cork", colours=("cork", "black", "wood"))  # fmt: skip
+@entry(
+    "trivet",
+    family="kitchen",
+    synonyms=("pot stand", "hot pad", "pot holder", "potholder", "heat pad"),
+    material="cork",
+    colours=("cork", "black", "wood"),
+)
 def trivet(style: Style) -> Build:
     """A thick round mat for hot pots, with a ring of grooves."""
     r = style.vary(0.095)
@@ -296,8 +354,13 @@ def thermos(style: Style) -> Build:
     )
 
 
-@entry("oven mitt", family="kitchen", synonyms=("oven glove", "oven mitten", "kitchen glove"), material="cotton",
-       colours=("red", "blue", "green"))  # fmt: skip
+@entry(
+    "oven mitt",
+    family="kitchen",
+    synonyms=("oven glove", "oven mitten", "kitchen glove"),
+    material="cotton",
+    colours=("red", "blue", "green"),
+)
 def oven_mitt(style: Style) -> Build:
     """A quilted mitten lying flat, its thumb to the front."""
     n = length(style, 0.27)
@@ -321,14 +384,21 @@ def oven_mitt(style: Style) -> Build:
     )
 
 
-@entry("placemat", family="tableware", synonyms=("table mat", "place mat"), material="bamboo", colours=("bamboo",
-       "teal", "gray"), )  # fmt: skip
+@entry(
+    "placemat",
+    family="tableware",
+    synonyms=("table mat", "place mat"),
+    material="bamboo",
+    colours=("bamboo", "teal", "gray"),
+)
 def placemat(style: Style) -> Build:
     """A thin woven mat for one place at the table."""
     x, y, z = length(style, 0.42, 0.03), style.vary(0.3, 0.03), 0.003
     strips = [span((-1, 1), (t * y - 0.003, t * y + 0.003), (-1, 1)) for t in np.linspace(-0.45, 0.45, 16)]
     main = style.colour()
     return Build(
-        parts=((box(x, y, z), main),), regions=(rectangle("on", z, x, y),),
-        paint=((drawn(together(strips)), style.shade(main, 0.82)),), mass=0.14,
-    )  # fmt: skip
+        parts=((box(x, y, z), main),),
+        regions=(rectangle("on", z, x, y),),
+        paint=((drawn(together(strips)), style.shade(main, 0.82)),),
+        mass=0.14,
+    )

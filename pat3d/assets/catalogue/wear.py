@@ -85,8 +85,13 @@ def _crowned(
     return finish(style, parts, paint=paint, regions=_crown_top(height, top * 0.95), mass=mass, spread=0.015)
 
 
-@entry("hat", family="wear", synonyms=("sun hat", "sunhat", "brimmed hat", "fedora", "felt hat",
-       "straw hat", "bowler hat"), material="fabric", colours=("beige", "brown", "navy", "red", "green"))  # fmt: skip
+@entry(
+    "hat",
+    family="wear",
+    synonyms=("sun hat", "sunhat", "brimmed hat", "fedora", "felt hat", "straw hat", "bowler hat"),
+    material="fabric",
+    colours=("beige", "brown", "navy", "red", "green"),
+)
 def hat(style: Style) -> Build:
     """A wide-brimmed hat with a flat crown, 30 cm across; five of them stack."""
     return _crowned(style, brim=0.148, hollow=0.086, base=0.090, top=0.070, height=0.105, mass=0.12)
@@ -144,8 +149,13 @@ def cap(style: Style) -> Build:
     )
 
 
-@entry("beanie", family="wear", synonyms=("knit hat", "knitted hat", "wool hat", "woolly hat",
-       "winter hat", "bobble hat"), material="wool", colours=("red", "teal", "navy", "mustard"))  # fmt: skip
+@entry(
+    "beanie",
+    family="wear",
+    synonyms=("knit hat", "knitted hat", "wool hat", "woolly hat", "winter hat", "bobble hat"),
+    material="wool",
+    colours=("red", "teal", "navy", "mustard"),
+)
 def beanie(style: Style) -> Build:
     """A knitted hat with a turned-up edge and a bobble."""
     colour = style.colour()
@@ -162,8 +172,13 @@ def beanie(style: Style) -> Build:
     )
 
 
-@entry("party hat", family="wear", synonyms=("birthday hat", "cone hat"), material="cardboard",
-       colours=("pink", "blue", "yellow", "red"))  # fmt: skip
+@entry(
+    "party hat",
+    family="wear",
+    synonyms=("birthday hat", "cone hat"),
+    material="cardboard",
+    colours=("pink", "blue", "yellow", "red"),
+)
 def party_hat(style: Style) -> Build:
     """A paper cone with stripes and a bobble."""
     colour = style.colour()
@@ -253,8 +268,13 @@ def _shoe_sole(length: float, width: float, thick: float) -> Shape:
     return convex([(x, y * length, z) for x, y in outline for z in (0.0, thick)])
 
 
-@entry("shoe", family="wear", synonyms=("sneaker", "running shoe", "trainer", "tennis shoe"),
-       material="rubber", colours=("white", "red", "blue", "black"))  # fmt: skip
+@entry(
+    "shoe",
+    family="wear",
+    synonyms=("sneaker", "running shoe", "trainer", "tennis shoe"),
+    material="rubber",
+    colours=("white", "red", "blue", "black"),
+)
 def shoe(style: Style) -> Build:
     """A sneaker with a light sole, laces and a dark opening."""
     colour = style.colour()
@@ -280,8 +300,13 @@ def egg_cut(size: tuple[float, float, float], at: tuple[float, float, float]) ->
     return ellipsoid(*size).cut_below(0.0).moved(*at)
 
 
-@entry("boot", family="wear", synonyms=("rain boot", "rubber boot", "wellington", "leather boot"),
-       material="rubber", colours=("brown", "black", "yellow"))  # fmt: skip
+@entry(
+    "boot",
+    family="wear",
+    synonyms=("rain boot", "rubber boot", "wellington", "leather boot"),
+    material="rubber",
+    colours=("brown", "black", "yellow"),
+)
 def boot(style: Style) -> Build:
     """A tall boot with a dark opening."""
     colour = style.colour()

@@ -97,8 +97,9 @@ def soldering_iron(style: Style) -> Build:
     heel = box(0.02, 0.012, 0.004).moved(-n + 0.02)
     return Build(
         parts=((raised, style.colour()), (join(collar, foot), STEEL), (heel, style.colour())),
-        paint=((drawn(Shape(grip.solid, ())), BLACK), (drawn(span((0.01, 1), (-1, 1), (-1, 1))), STEEL)), mass=0.12,
-    )  # fmt: skip
+        paint=((drawn(Shape(grip.solid, ())), BLACK), (drawn(span((0.01, 1), (-1, 1), (-1, 1))), STEEL)),
+        mass=0.12,
+    )
 
 
 @entry("glue gun", family="tools", synonyms=("hot glue gun", "heat gun"), material="plastic", colours=("yellow",
@@ -194,8 +195,13 @@ def hacksaw(style: Style) -> Build:
     return Build(parts=((join(*bow), style.colour(1)), (blade, STEEL), (grip, style.colour())), mass=style.vary(0.55))
 
 
-@entry("spring", family="tools", synonyms=("coil spring", "metal spring", "steel spring"), material="steel",
-       colours=("steel", "red", "gray"))  # fmt: skip
+@entry(
+    "spring",
+    family="tools",
+    synonyms=("coil spring", "metal spring", "steel spring"),
+    material="steel",
+    colours=("steel", "red", "gray"),
+)
 def spring(style: Style) -> Build:
     """A compression spring standing on its end: rings of wire to the eye, a tube to contact."""
     r, z, wire = style.vary(0.02), style.vary(0.06), 0.0032
@@ -214,8 +220,13 @@ def spring(style: Style) -> Build:
     return Build(parts=((Shape(join(*rounds, *links).solid, hulls), style.colour()),), mass=0.045)
 
 
-@entry("l bracket", family="tools", synonyms=("bracket", "angle bracket", "corner bracket", "l-bracket"),
-       material="steel", colours=("steel", "gray", "black"))  # fmt: skip
+@entry(
+    "l bracket",
+    family="tools",
+    synonyms=("bracket", "angle bracket", "corner bracket", "l-bracket"),
+    material="steel",
+    colours=("steel", "gray", "black"),
+)
 def l_bracket(style: Style) -> Build:
     """A steel angle standing on one leg, two holes in each."""
     n, w, t = style.vary(0.06), style.vary(0.03), 0.003
@@ -227,8 +238,13 @@ def l_bracket(style: Style) -> Build:
     return Build(parts=((join(cut_low, cut_high), style.colour()),), mass=0.075)
 
 
-@entry("beam", family="tools", synonyms=("aluminium profile", "aluminum profile", "aluminum extrusion", "wooden bar",
-       "metal bar", "steel bar"), material="aluminium", colours=("silver", "steel"))  # fmt: skip
+@entry(
+    "beam",
+    family="tools",
+    synonyms=("aluminium profile", "aluminum profile", "aluminum extrusion", "wooden bar", "metal bar", "steel bar"),
+    material="aluminium",
+    colours=("silver", "steel"),
+)
 def beam(style: Style) -> Build:
     """A square bar lying down, a groove along each side."""
     n, w = style.vary(0.3), style.vary(0.03)
@@ -240,9 +256,11 @@ def beam(style: Style) -> Build:
         ]
     )
     return Build(
-        parts=((box(n, w, w), style.colour()),), paint=((drawn(grooves), style.shade(style.colour(), 0.6)),),
-        regions=(shelf_top(n / 2, w / 2, w),), mass=0.28,
-    )  # fmt: skip
+        parts=((box(n, w, w), style.colour()),),
+        paint=((drawn(grooves), style.shade(style.colour(), 0.6)),),
+        regions=(shelf_top(n / 2, w / 2, w),),
+        mass=0.28,
+    )
 
 
 @entry("wall clock", family="room", synonyms=("round clock",), material="plastic", colours=("white", "red", "black"),

@@ -21,9 +21,14 @@ from pat3d.errors import AssetError
 from pat3d.scene.cache import cache_root, content_key, load_points, store_points
 
 DEFAULT_OPTIONS: dict[str, Any] = {
-    "threshold": 0.05, "preprocess_mode": "off", "mcts_iterations": 60, "mcts_nodes": 10, "merge": True,
-    "decimate": False, "seed": 0,
-}  # fmt: skip
+    "threshold": 0.05,
+    "preprocess_mode": "off",
+    "mcts_iterations": 60,
+    "mcts_nodes": 10,
+    "merge": True,
+    "decimate": False,
+    "seed": 0,
+}
 """CoACD's parameters: no voxel preprocessing (it lowers bases) and no decimation (it damages them)."""
 
 _VERSION = 1

@@ -40,10 +40,13 @@ PLAUSIBLE = (0.001, 20.0)
 """Longest side [m] of a mesh whose units nobody gave."""
 
 TO_Z_UP: dict[str, tuple[tuple[int, int, int], ...]] = {
-    "z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)), "-z": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
-    "y": ((1, 0, 0), (0, 0, -1), (0, 1, 0)), "-y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
-    "x": ((0, 0, -1), (0, 1, 0), (1, 0, 0)), "-x": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
-}  # fmt: skip
+    "z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    "-z": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+    "y": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
+    "-y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+    "x": ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
+    "-x": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+}
 """Rotations that turn each axis up; from y up, +z (glTF's front) becomes -y (ours)."""
 
 THRESHOLD = 0.05
@@ -151,12 +154,20 @@ def import_mesh(
         ),
         regions=find_regions(convex),
         provenance={
-            "source": "mesh", "file": path.name, "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-            "units": units, "scale": used_scale, "up": axis, "notes": list(loaded.notes),
-            "watertight": fixed.watertight, "repairs": list(fixed.repairs), "volume_source": fixed.volume_source,
-            "parts": {"method": parts, **made.record}, "lifted": float(lift[2]),
+            "source": "mesh",
+            "file": path.name,
+            "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+            "units": units,
+            "scale": used_scale,
+            "up": axis,
+            "notes": list(loaded.notes),
+            "watertight": fixed.watertight,
+            "repairs": list(fixed.repairs),
+            "volume_source": fixed.volume_source,
+            "parts": {"method": parts, **made.record},
+            "lifted": float(lift[2]),
         },
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

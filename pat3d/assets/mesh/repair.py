@@ -122,9 +122,15 @@ def repair(vertices: Points, faces: Indices, *, thickness: float | None = None) 
         wrapped = Solid(vertices=outer, faces=around)
         repairs.append(f"wrapped the surface in voxels, which adds about {0.6 * size / RESOLUTION * 1e3:.2g} mm")
         return Repaired(
-            vertices=sheets.vertices, faces=sheets.faces, corners=corners, pieces=(wrapped,), solid=wrapped,
-            volume_source="voxel wrap", watertight=False, repairs=tuple(repairs),
-        )  # fmt: skip
+            vertices=sheets.vertices,
+            faces=sheets.faces,
+            corners=corners,
+            pieces=(wrapped,),
+            solid=wrapped,
+            volume_source="voxel wrap",
+            watertight=False,
+            repairs=tuple(repairs),
+        )
     starts = np.cumsum([0] + [len(piece.vertices) for piece in pieces])
     return Repaired(
         vertices=np.concatenate([piece.vertices for piece in pieces]),
@@ -169,8 +175,12 @@ def _close(pieces: list[_Piece], size: float, thickness: float | None, repairs: 
     """Close every piece in place; returns the boldest means that was needed."""
     source: VolumeSource = "closed surface"
     base = min(float(piece.vertices[:, 2].min()) for piece in pieces)
-    reasons = {"small": "capped {} small holes", "cut": "closed {} cuts where pieces meet",
-               "base": "closed the open base", "inside": "capped {} ends inside another piece"}  # fmt: skip
+    reasons = {
+        "small": "capped {} small holes",
+        "cut": "closed {} cuts where pieces meet",
+        "base": "closed the open base",
+        "inside": "capped {} ends inside another piece",
+    }
     done = dict.fromkeys(reasons, 0)
     for allowed in (("cut", "small", "base"), ("inside",)):
         closed = [piece for piece in pieces if not piece.loops]

@@ -74,9 +74,14 @@ def _execute(command: list[str], folder: Path, timeout: float) -> tuple[int | No
     environment = {key: os.environ[key] for key in _KEPT if key in os.environ}
     with tempfile.TemporaryFile(dir=folder) as errors:
         process = subprocess.Popen(
-            command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
+            command,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=errors,
             start_new_session=True,
-        )  # fmt: skip
+        )
         try:
             code: int | None = process.wait(timeout)
         except subprocess.TimeoutExpired:

@@ -11,20 +11,34 @@ from pat3d.errors import SpecError
 _ALL = (
     ScriptEngine(name="mujoco", title="MuJoCo", format="mjcf", driver=DRIVERS / "drive_mujoco.py", environment=None),
     ScriptEngine(
-        name="mujoco-oldest", title="MuJoCo, oldest supported", format="mjcf", driver=DRIVERS / "drive_mujoco.py",
+        name="mujoco-oldest",
+        title="MuJoCo, oldest supported",
+        format="mjcf",
+        driver=DRIVERS / "drive_mujoco.py",
         environment="mujoco-oldest",
     ),
     ScriptEngine(
-        name="mujoco-newest", title="MuJoCo, newest", format="mjcf", driver=DRIVERS / "drive_mujoco.py",
+        name="mujoco-newest",
+        title="MuJoCo, newest",
+        format="mjcf",
+        driver=DRIVERS / "drive_mujoco.py",
         environment="mujoco-newest",
     ),
     ScriptEngine(
-        name="newton-mujoco", title="Newton, MuJoCo solver", format="usd", driver=DRIVERS / "drive_newton.py",
-        environment="newton", variant="mujoco",
+        name="newton-mujoco",
+        title="Newton, MuJoCo solver",
+        format="usd",
+        driver=DRIVERS / "drive_newton.py",
+        environment="newton",
+        variant="mujoco",
     ),
     ScriptEngine(
-        name="newton-xpbd", title="Newton, XPBD solver", format="usd", driver=DRIVERS / "drive_newton.py",
-        environment="newton", variant="xpbd",
+        name="newton-xpbd",
+        title="Newton, XPBD solver",
+        format="usd",
+        driver=DRIVERS / "drive_newton.py",
+        environment="newton",
+        variant="xpbd",
     ),
     ScriptEngine(
         name="pybullet", title="PyBullet", format="urdf", driver=DRIVERS / "drive_pybullet.py", environment="pybullet"
@@ -33,7 +47,7 @@ _ALL = (
     ScriptEngine(
         name="physx", title="PhysX on the CPU", format="usd", driver=DRIVERS / "drive_physx.py", environment="physx"
     ),
-)  # fmt: skip
+)
 
 ENGINES: dict[str, Engine] = {engine.name: engine for engine in _ALL}
 

@@ -55,29 +55,39 @@ class Boxes:
         """
         model = self.model
         wp.launch(
-            _vertex_boxes, dim=len(model.vertex_rest), device=model.device,
-            inputs=[start, end, margin], outputs=[self.low, self.high],
-        )  # fmt: skip
+            _vertex_boxes,
+            dim=len(model.vertex_rest),
+            device=model.device,
+            inputs=[start, end, margin],
+            outputs=[self.low, self.high],
+        )
         wp.launch(
-            _cluster_boxes, dim=len(model.cluster_ranges), device=model.device,
+            _cluster_boxes,
+            dim=len(model.cluster_ranges),
+            device=model.device,
             inputs=[model.cluster_ranges, model.halo, model.triangles, self.low, self.high],
             outputs=[self.cluster_low, self.cluster_high],
-        )  # fmt: skip
+        )
         if self._detailed:
             wp.launch(
-                _part_boxes, dim=len(model.part_body), device=model.device,
+                _part_boxes,
+                dim=len(model.part_body),
+                device=model.device,
                 inputs=[model.part_ranges, self.cluster_low, self.cluster_high],
                 outputs=[self._part_low, self._part_high],
-            )  # fmt: skip
+            )
 
     def close_pairs(self) -> tuple[Any, Any]:
         """Pairs of parts and pairs of clusters whose boxes overlap, vec2i."""
         model = self.model
         self._counter.zero_()
         wp.launch(
-            _close_parts, dim=len(model.part_pairs), device=model.device,
-            inputs=[model.part_pairs, self._part_low, self._part_high], outputs=[self._counter, self._close],
-        )  # fmt: skip
+            _close_parts,
+            dim=len(model.part_pairs),
+            device=model.device,
+            inputs=[model.part_pairs, self._part_low, self._part_high],
+            outputs=[self._counter, self._close],
+        )
         parts = int(self._counter.numpy()[0])
         clusters = self._close_cluster_pairs(parts)
         return self._close[:parts], self._close_clusters[:clusters]
@@ -90,13 +100,20 @@ class Boxes:
         while True:
             self._counter.zero_()
             wp.launch(
-                _close_clusters, dim=(parts, self.lanes), device=model.device,
+                _close_clusters,
+                dim=(parts, self.lanes),
+                device=model.device,
                 inputs=[
-                    self.lanes, self._close, model.part_ranges, self._part_low, self._part_high,
-                    self.cluster_low, self.cluster_high,
+                    self.lanes,
+                    self._close,
+                    model.part_ranges,
+                    self._part_low,
+                    self._part_high,
+                    self.cluster_low,
+                    self.cluster_high,
                 ],
                 outputs=[self._counter, self._close_clusters],
-            )  # fmt: skip
+            )
             count = int(self._counter.numpy()[0])
             if count <= len(self._close_clusters):
                 return count

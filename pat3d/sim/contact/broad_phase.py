@@ -84,9 +84,12 @@ class Candidates:
     def flag_outside(self, start: wp.array, end: wp.array, flag: wp.array) -> None:
         """Set flag[0] where a vertex moves out of its box between two positions [m]."""
         wp.launch(
-            _outside_boxes, dim=len(self.model.vertex_rest), device=self.model.device,
-            inputs=[start, end, self._boxes.low, self._boxes.high, self._margin], outputs=[flag],
-        )  # fmt: skip
+            _outside_boxes,
+            dim=len(self.model.vertex_rest),
+            device=self.model.device,
+            inputs=[start, end, self._boxes.low, self._boxes.high, self._margin],
+            outputs=[flag],
+        )
 
     def rebuild(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
         """Collect the pairs anew; arguments as of `cover`."""
@@ -99,18 +102,29 @@ class Candidates:
         while True:
             self.size.zero_()
             wp.launch(
-                _ground_candidates, dim=len(model.vertex_rest), device=model.device,
+                _ground_candidates,
+                dim=len(model.vertex_rest),
+                device=model.device,
                 inputs=[model.vertex_body, model.body_dof, boxes.low, self._margin],
                 outputs=[self.size, self.kind, self.primitives],
-            )  # fmt: skip
+            )
             wp.launch(
-                _pair_candidates, dim=(len(close), boxes.lanes), device=model.device,
+                _pair_candidates,
+                dim=(len(close), boxes.lanes),
+                device=model.device,
                 inputs=[
-                    boxes.lanes, close, model.cluster_ranges, boxes.cluster_low, boxes.cluster_high,
-                    model.edges, model.triangles, boxes.low, boxes.high,
+                    boxes.lanes,
+                    close,
+                    model.cluster_ranges,
+                    boxes.cluster_low,
+                    boxes.cluster_high,
+                    model.edges,
+                    model.triangles,
+                    boxes.low,
+                    boxes.high,
                 ],
                 outputs=[self.size, self.kind, self.primitives],
-            )  # fmt: skip
+            )
             self.count = int(self.size.numpy()[0])
             if self.count <= self.capacity:
                 break
@@ -228,10 +242,10 @@ def _pair_candidates(
     q = close[slot][1]
     _points_against_faces(
         p, q, lane, lanes, ranges, boxes_low, boxes_high, triangles, low, high, counter, kinds, primitives
-    )  # fmt: skip
+    )
     _points_against_faces(
         q, p, lane, lanes, ranges, boxes_low, boxes_high, triangles, low, high, counter, kinds, primitives
-    )  # fmt: skip
+    )
     for i in range(ranges[p, 2] + lane, ranges[p, 3], lanes):
         e = edges[i]
         a = wp.min(low[e[0]], low[e[1]])

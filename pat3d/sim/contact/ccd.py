@@ -39,12 +39,20 @@ def safe_step(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
         step: fraction of the motion, lowered in place, shape (worlds,), float64; worlds at 0 are left out.
     """
     wp.launch(
-        _advance, dim=candidates.capacity, device=model.device,
+        _advance,
+        dim=candidates.capacity,
+        device=model.device,
         inputs=[
-            candidates.size, candidates.kind, candidates.primitives, model.vertex_body, model.body_world, start, end,
+            candidates.size,
+            candidates.kind,
+            candidates.primitives,
+            model.vertex_body,
+            model.body_world,
+            start,
+            end,
         ],
         outputs=[step],
-    )  # fmt: skip
+    )
 
 
 def fractions(model: Model, candidates: Candidates, start: wp.array, end: wp.array) -> NDArray[np.float64]:
@@ -58,9 +66,12 @@ def fractions(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
     """
     found = wp.zeros(candidates.count, dtype=wp.float64, device=model.device)
     wp.launch(
-        _fractions, dim=candidates.count, device=model.device,
-        inputs=[candidates.kind, candidates.primitives, start, end], outputs=[found],
-    )  # fmt: skip
+        _fractions,
+        dim=candidates.count,
+        device=model.device,
+        inputs=[candidates.kind, candidates.primitives, start, end],
+        outputs=[found],
+    )
     return found.numpy()
 
 

@@ -139,9 +139,15 @@ def mollify(cross: wp.float64, threshold: wp.float64) -> wp.float64:
 
 @wp.func
 def point_triangle(
-    p: wp.vec3d, a: wp.vec3d, b: wp.vec3d, c: wp.vec3d,
-    rest_p: wp.vec3d, rest_a: wp.vec3d, rest_b: wp.vec3d, rest_c: wp.vec3d,
-) -> Contact:  # fmt: skip
+    p: wp.vec3d,
+    a: wp.vec3d,
+    b: wp.vec3d,
+    c: wp.vec3d,
+    rest_p: wp.vec3d,
+    rest_a: wp.vec3d,
+    rest_b: wp.vec3d,
+    rest_c: wp.vec3d,
+) -> Contact:
     """Contact of a point of body a with a triangle of body b."""
     contact = Contact()
     wb, wc, feature = closest_on_triangle(p, a, b, c)
@@ -173,9 +179,15 @@ def point_triangle(
 
 @wp.func
 def edge_edge(
-    p0: wp.vec3d, p1: wp.vec3d, q0: wp.vec3d, q1: wp.vec3d,
-    rest_p0: wp.vec3d, rest_p1: wp.vec3d, rest_q0: wp.vec3d, rest_q1: wp.vec3d,
-) -> Contact:  # fmt: skip
+    p0: wp.vec3d,
+    p1: wp.vec3d,
+    q0: wp.vec3d,
+    q1: wp.vec3d,
+    rest_p0: wp.vec3d,
+    rest_p1: wp.vec3d,
+    rest_q0: wp.vec3d,
+    rest_q1: wp.vec3d,
+) -> Contact:
     """Contact of an edge of body a with an edge of body b."""
     zero = wp.float64(0.0)
     one = wp.float64(1.0)

@@ -49,21 +49,27 @@ class DenseSolver:
         """Take b = -gradient, shape (bodies, 4), vec3d, and complete the systems of worlds with fewer free bodies."""
         model = self.model
         wp.launch(
-            _gather, dim=model.bodies, device=model.device,
-            inputs=[model.body_world, model.body_dof, gradient], outputs=[self._right],
-        )  # fmt: skip
+            _gather,
+            dim=model.bodies,
+            device=model.device,
+            inputs=[model.body_world, model.body_dof, gradient],
+            outputs=[self._right],
+        )
         if self._uneven:
             wp.launch(
                 _pad, dim=(model.worlds, model.unknowns), device=model.device, inputs=[self._free], outputs=[hessian]
-            )  # fmt: skip
+            )
 
     def get_solution(self, x: wp.array) -> None:
         """Write the solution to `x`, shape (bodies, 4), vec3d; zero for fixed bodies."""
         model = self.model
         wp.launch(
-            _scatter, dim=model.bodies, device=model.device,
-            inputs=[model.body_world, model.body_dof, self._solution], outputs=[x],
-        )  # fmt: skip
+            _scatter,
+            dim=model.bodies,
+            device=model.device,
+            inputs=[model.body_world, model.body_dof, self._solution],
+            outputs=[x],
+        )
 
     def factorise_and_solve(self, hessian: wp.array, active: NDArray[np.bool_]) -> None:
         """Solve the systems of the active worlds, their negative eigenvalues made positive.

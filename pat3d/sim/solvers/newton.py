@@ -189,9 +189,12 @@ class Newton:
     def _assemble(self) -> None:
         """The Newton system of every running world."""
         wp.launch(
-            line_search.choose_exact, dim=self.model.worlds, device=self.model.device,
-            inputs=[self._tolerances, self._residual], outputs=[self._exact],
-        )  # fmt: skip
+            line_search.choose_exact,
+            dim=self.model.worlds,
+            device=self.model.device,
+            inputs=[self._tolerances, self._residual],
+            outputs=[self._exact],
+        )
         self.potential.assemble(self.q, self._start, self._exact, self._running, self._hessian)
         self.solver.set_right_side(self._hessian, self._gradient)
 
@@ -206,44 +209,63 @@ class Newton:
         self._status[int(UNSOLVED) : int(UNSOLVED) + 1].zero_()
         self.solver.get_solution(self._direction)
         wp.launch(
-            line_search.start_search, dim=self.model.worlds, device=self.model.device,
+            line_search.start_search,
+            dim=self.model.worlds,
+            device=self.model.device,
             inputs=[self._running, self.solver.unsolved],
             outputs=[self._pending, self._first, self._motion, self._slope, self._status],
-        )  # fmt: skip
+        )
         wp.launch(
-            line_search.slope, dim=self.model.bodies, device=self.model.device,
-            inputs=[self.model.body_world, self._gradient, self._direction], outputs=[self._slope],
-        )  # fmt: skip
+            line_search.slope,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[self.model.body_world, self._gradient, self._direction],
+            outputs=[self._slope],
+        )
         wp.launch(
-            line_search.linear_motion, dim=len(self.model.vertex_rest), device=self.model.device,
+            line_search.linear_motion,
+            dim=len(self.model.vertex_rest),
+            device=self.model.device,
             inputs=[self.model.vertex_rest, self.model.vertex_body, self.model.body_world, self._direction],
             outputs=[self._motion],
-        )  # fmt: skip
+        )
         wp.launch(
-            line_search.first_step, dim=self.model.worlds, device=self.model.device,
-            inputs=[self._motion], outputs=[self._step],
-        )  # fmt: skip
+            line_search.first_step,
+            dim=self.model.worlds,
+            device=self.model.device,
+            inputs=[self._motion],
+            outputs=[self._step],
+        )
         self._try()
 
     def _try(self) -> None:
         """One trial of every pending world: accepted, shortened, or found to be converged."""
         model, potential = self.model, self.potential
         wp.launch(
-            line_search.along_curve, dim=model.bodies, device=model.device,
-            inputs=[model.body_world, self._pending, self.q, self._direction, self._step], outputs=[self._trial],
-        )  # fmt: skip
+            line_search.along_curve,
+            dim=model.bodies,
+            device=model.device,
+            inputs=[model.body_world, self._pending, self.q, self._direction, self._step],
+            outputs=[self._trial],
+        )
         potential.positions(self._trial, self._end)
         potential.measure_motion(self._start, self._end, self._motion)
         wp.launch(
-            line_search.clear_status, dim=model.worlds, device=model.device,
-            inputs=[self._pending], outputs=[self._fraction, self._status],
-        )  # fmt: skip
+            line_search.clear_status,
+            dim=model.worlds,
+            device=model.device,
+            inputs=[self._pending],
+            outputs=[self._fraction, self._status],
+        )
         potential.candidates.flag_outside(self._start, self._end, self._status)
         safe_step(model, potential.candidates, self._start, self._end, self._fraction)
         wp.launch(
-            line_search.select_safe, dim=model.worlds, device=model.device,
-            inputs=[self._fraction, self._status], outputs=[self._safe],
-        )  # fmt: skip
+            line_search.select_safe,
+            dim=model.worlds,
+            device=model.device,
+            inputs=[self._fraction, self._status],
+            outputs=[self._safe],
+        )
         potential.evaluate(self._trial, self._end, self._safe, self._trial_energy, self._trial_gradient)
         potential.measure_residual(self._trial_gradient, self._trial_residual)
         wp.launch(
@@ -255,20 +277,28 @@ class Newton:
             ],
         )  # fmt: skip
         wp.launch(
-            line_search.accept_bodies, dim=model.bodies, device=model.device,
+            line_search.accept_bodies,
+            dim=model.bodies,
+            device=model.device,
             inputs=[model.body_world, self._accepted, self._trial, self._trial_gradient],
             outputs=[self.q, self._gradient],
-        )  # fmt: skip
+        )
         wp.launch(
-            line_search.accept_vertices, dim=len(model.vertex_rest), device=model.device,
-            inputs=[model.vertex_body, model.body_world, self._accepted, self._end], outputs=[self._start],
-        )  # fmt: skip
+            line_search.accept_vertices,
+            dim=len(model.vertex_rest),
+            device=model.device,
+            inputs=[model.vertex_body, model.body_world, self._accepted, self._end],
+            outputs=[self._start],
+        )
         self._mirror.fetch()
 
     def _give_up(self) -> None:
         """Worlds that still search have stalled."""
         wp.launch(
-            line_search.stall, dim=self.model.worlds, device=self.model.device,
-            inputs=[self._pending], outputs=[self._stalled, self._running],
-        )  # fmt: skip
+            line_search.stall,
+            dim=self.model.worlds,
+            device=self.model.device,
+            inputs=[self._pending],
+            outputs=[self._stalled, self._running],
+        )
         self._mirror.fetch()

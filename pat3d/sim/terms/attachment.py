@@ -29,22 +29,33 @@ class PointAttachment:
     def _inputs(self, worlds: wp.array) -> list:
         model = self.model
         return [
-            model.body_world, model.body_dof, worlds, model.anchor_bodies, model.anchor_rest, model.anchor_stiffness,
-        ]  # fmt: skip
+            model.body_world,
+            model.body_dof,
+            worlds,
+            model.anchor_bodies,
+            model.anchor_rest,
+            model.anchor_stiffness,
+        ]
 
     def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """Add P [J] to `energy`, shape (worlds,), and dP/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=len(self.model.anchor_bodies), device=self.model.device,
-            inputs=[*self._inputs(worlds), q], outputs=[energy, gradient],
-        )  # fmt: skip
+            _value,
+            dim=len(self.model.anchor_bodies),
+            device=self.model.device,
+            inputs=[*self._inputs(worlds), q],
+            outputs=[energy, gradient],
+        )
 
     def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2P/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
         wp.launch(
-            _hessian, dim=len(self.model.anchor_bodies), device=self.model.device,
-            inputs=self._inputs(worlds), outputs=[hessian],
-        )  # fmt: skip
+            _hessian,
+            dim=len(self.model.anchor_bodies),
+            device=self.model.device,
+            inputs=self._inputs(worlds),
+            outputs=[hessian],
+        )
 
 
 @wp.func
@@ -60,9 +71,7 @@ def _coefficient(k: int, rest_a: wp.vec3d, rest_b: wp.vec3d) -> wp.float64:
 
 
 @wp.func
-def _offset(
-    bodies: wp.vec2i, rest_a: wp.vec3d, rest_b: wp.vec3d, q: wp.array2d(dtype=wp.vec3d)
-) -> wp.vec3d:  # fmt: skip
+def _offset(bodies: wp.vec2i, rest_a: wp.vec3d, rest_b: wp.vec3d, q: wp.array2d(dtype=wp.vec3d)) -> wp.vec3d:
     """x_a - x_b [m]."""
     offset = q[bodies[0], 0] - q[bodies[1], 0]
     for j in range(3):

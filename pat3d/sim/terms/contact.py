@@ -49,24 +49,39 @@ class BarrierContact:
     def _inputs(self, position: wp.array, worlds: wp.array) -> list:
         model, candidates = self.model, self.candidates
         return [
-            model.body_world, model.body_dof, model.vertex_rest, model.vertex_body, self.stiffness, self.reach,
-            worlds, candidates.size, candidates.kind, candidates.primitives, position,
-        ]  # fmt: skip
+            model.body_world,
+            model.body_dof,
+            model.vertex_rest,
+            model.vertex_body,
+            self.stiffness,
+            self.reach,
+            worlds,
+            candidates.size,
+            candidates.kind,
+            candidates.primitives,
+            position,
+        ]
 
     def add_value(self, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """Add B [J] to `energy`, shape (worlds,), and dB/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=self.candidates.capacity, device=self.model.device,
-            inputs=self._inputs(position, worlds), outputs=[energy, gradient],
-        )  # fmt: skip
+            _value,
+            dim=self.candidates.capacity,
+            device=self.model.device,
+            inputs=self._inputs(position, worlds),
+            outputs=[energy, gradient],
+        )
 
     def add_hessian(self, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2B/dq2, or its Gauss-Newton part, to `hessian`, shape (worlds, unknowns, unknowns)."""
         for kernel in (_hessian, _exact_hessian):
             wp.launch(
-                kernel, dim=self.candidates.capacity, device=self.model.device,
-                inputs=[*self._inputs(position, worlds), exact], outputs=[hessian],
-            )  # fmt: skip
+                kernel,
+                dim=self.candidates.capacity,
+                device=self.model.device,
+                inputs=[*self._inputs(position, worlds), exact],
+                outputs=[hessian],
+            )
 
 
 @wp.func

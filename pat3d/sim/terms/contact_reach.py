@@ -35,13 +35,23 @@ def pull_back_reach(
     """
     candidates = contact.candidates
     wp.launch(
-        _pull_back, dim=candidates.capacity, device=model.device,
+        _pull_back,
+        dim=candidates.capacity,
+        device=model.device,
         inputs=[
-            model.body_world, model.vertex_rest, model.vertex_body, contact.stiffness, contact.reach,
-            candidates.size, candidates.kind, candidates.primitives, position, adjoint,
+            model.body_world,
+            model.vertex_rest,
+            model.vertex_body,
+            contact.stiffness,
+            contact.reach,
+            candidates.size,
+            candidates.kind,
+            candidates.primitives,
+            position,
+            adjoint,
         ],
         outputs=[reach],
-    )  # fmt: skip
+    )
 
 
 @wp.kernel

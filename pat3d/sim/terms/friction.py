@@ -81,13 +81,22 @@ class Friction:
         model = self.model
         self.size.zero_()
         wp.launch(
-            _record, dim=candidates.capacity, device=model.device,
+            _record,
+            dim=candidates.capacity,
+            device=model.device,
             inputs=[
-                model.body_world, model.vertex_rest, model.vertex_body, stiffness, reach,
-                candidates.size, candidates.kind, candidates.primitives, position,
+                model.body_world,
+                model.vertex_rest,
+                model.vertex_body,
+                stiffness,
+                reach,
+                candidates.size,
+                candidates.kind,
+                candidates.primitives,
+                position,
             ],
             outputs=[self.size, self._bodies, self._coefficients, self._normal, self._force],
-        )  # fmt: skip
+        )
 
     def fits(self, size: int) -> bool:
         """Take note that `size` contacts were found; without room for them, make it and return False."""
@@ -100,22 +109,35 @@ class Friction:
     def _inputs(self, q: wp.array, worlds: wp.array) -> list:
         model = self.model
         return [
-            model.body_world, model.body_dof, self.coefficient, self.scale, worlds,
-            self.size, self._bodies, self._coefficients, self._normal, self._force, self.reference, q,
-        ]  # fmt: skip
+            model.body_world,
+            model.body_dof,
+            self.coefficient,
+            self.scale,
+            worlds,
+            self.size,
+            self._bodies,
+            self._coefficients,
+            self._normal,
+            self._force,
+            self.reference,
+            q,
+        ]
 
     def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """Add D [J] to `energy`, shape (worlds,), and dD/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=self.capacity, device=self.model.device,
-            inputs=self._inputs(q, worlds), outputs=[energy, gradient],
-        )  # fmt: skip
+            _value,
+            dim=self.capacity,
+            device=self.model.device,
+            inputs=self._inputs(q, worlds),
+            outputs=[energy, gradient],
+        )
 
     def add_hessian(self, q: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2D/dq2, which is positive semidefinite, to `hessian`, shape (worlds, unknowns, unknowns)."""
         wp.launch(
             _hessian, dim=self.capacity, device=self.model.device, inputs=self._inputs(q, worlds), outputs=[hessian]
-        )  # fmt: skip
+        )
 
     def largest_slip(self, q: wp.array, worlds: wp.array, slip: wp.array) -> None:
         """Raise `slip` [m], shape (worlds,), to the largest |u| of the contacts that carry force."""

@@ -58,14 +58,27 @@ def pull_back_lag(
         reach: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
     """
     wp.launch(
-        _pull_back, dim=candidates.capacity, device=model.device,
+        _pull_back,
+        dim=candidates.capacity,
+        device=model.device,
         inputs=[
-            model.body_world, model.vertex_rest, model.vertex_body, stiffness, record_reach, friction.coefficient,
-            friction.scale, candidates.size, candidates.kind, candidates.primitives,
-            position, friction.reference, q, adjoint,
+            model.body_world,
+            model.vertex_rest,
+            model.vertex_body,
+            stiffness,
+            record_reach,
+            friction.coefficient,
+            friction.scale,
+            candidates.size,
+            candidates.kind,
+            candidates.primitives,
+            position,
+            friction.reference,
+            q,
+            adjoint,
         ],
         outputs=[recorded, reference, reach],
-    )  # fmt: skip
+    )
 
 
 @wp.func

@@ -35,22 +35,33 @@ class Inertia:
     def _inputs(self) -> list:
         model = self.model
         return [
-            model.body_world, model.body_dof, model.body_mass, model.body_moment, self.sigma, self.start,
-        ]  # fmt: skip
+            model.body_world,
+            model.body_dof,
+            model.body_mass,
+            model.body_moment,
+            self.sigma,
+            self.start,
+        ]
 
     def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """Add E [J] to `energy`, shape (worlds,), and dE/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=self.model.bodies, device=self.model.device,
-            inputs=[*self._inputs(), worlds, q], outputs=[energy, gradient],
-        )  # fmt: skip
+            _value,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[*self._inputs(), worlds, q],
+            outputs=[energy, gradient],
+        )
 
     def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2E/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
         wp.launch(
-            _hessian, dim=self.model.bodies, device=self.model.device,
-            inputs=[*self._inputs(), worlds], outputs=[hessian],
-        )  # fmt: skip
+            _hessian,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[*self._inputs(), worlds],
+            outputs=[hessian],
+        )
 
 
 @wp.func

@@ -35,16 +35,22 @@ class Orthogonality:
     def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """Add Psi [J] to `energy`, shape (worlds,), and dPsi/dq to `gradient`, shape (bodies, 4), vec3d."""
         wp.launch(
-            _value, dim=self.model.bodies, device=self.model.device,
-            inputs=[*self._inputs(), worlds, q], outputs=[energy, gradient],
-        )  # fmt: skip
+            _value,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[*self._inputs(), worlds, q],
+            outputs=[energy, gradient],
+        )
 
     def add_hessian(self, q: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """Add d2Psi/dq2, or its positive semidefinite part, to `hessian`, shape (worlds, unknowns, unknowns)."""
         wp.launch(
-            _hessian, dim=self.model.bodies, device=self.model.device,
-            inputs=[*self._inputs(), worlds, exact, q], outputs=[hessian],
-        )  # fmt: skip
+            _hessian,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[*self._inputs(), worlds, exact, q],
+            outputs=[hessian],
+        )
 
 
 @wp.func

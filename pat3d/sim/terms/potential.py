@@ -77,9 +77,12 @@ class Potential:
         """Vertex positions [m] at state q, shape (vertices,), vec3d, written to `out`."""
         model = self.model
         wp.launch(
-            _positions, dim=len(model.vertex_rest), device=model.device,
-            inputs=[model.vertex_rest, model.vertex_body, q], outputs=[out],
-        )  # fmt: skip
+            _positions,
+            dim=len(model.vertex_rest),
+            device=model.device,
+            inputs=[model.vertex_rest, model.vertex_body, q],
+            outputs=[out],
+        )
         return out
 
     def cover(self, q: wp.array) -> None:
@@ -108,9 +111,7 @@ class Potential:
         wp.copy(self._counts.array, self.friction.size, dest_offset=1, count=1)
         self._counts.fetch()
 
-    def evaluate(
-        self, q: wp.array, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array
-    ) -> None:  # fmt: skip
+    def evaluate(self, q: wp.array, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
         """E [J], shape (worlds,), and dE/dq [N, N m], shape (bodies, 4), vec3d; candidates must cover q.
 
         Args:
@@ -138,9 +139,7 @@ class Potential:
         self.evaluate_everywhere(q, position, energy, gradient)
         self.inertia.sigma = sigma
 
-    def assemble(
-        self, q: wp.array, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array
-    ) -> None:  # fmt: skip
+    def assemble(self, q: wp.array, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
         """d2E/dq2, or a positive semidefinite stand-in, shape (worlds, unknowns, unknowns).
 
         Args:
@@ -161,17 +160,23 @@ class Potential:
         """Largest unbalanced force or moment of any free body over its weight (times its radius), shape (worlds,)."""
         residual.zero_()
         wp.launch(
-            _residual, dim=self.model.bodies, device=self.model.device,
-            inputs=[self.model.body_world, self._force_scale, gradient], outputs=[residual],
-        )  # fmt: skip
+            _residual,
+            dim=self.model.bodies,
+            device=self.model.device,
+            inputs=[self.model.body_world, self._force_scale, gradient],
+            outputs=[residual],
+        )
 
     def measure_motion(self, start: wp.array, end: wp.array, motion: wp.array) -> None:
         """Largest distance between two positions [m] of any vertex, shape (worlds,)."""
         motion.zero_()
         wp.launch(
-            _motion, dim=len(self.model.vertex_rest), device=self.model.device,
-            inputs=[self.model.vertex_body, self.model.body_world, start, end], outputs=[motion],
-        )  # fmt: skip
+            _motion,
+            dim=len(self.model.vertex_rest),
+            device=self.model.device,
+            inputs=[self.model.vertex_body, self.model.body_world, start, end],
+            outputs=[motion],
+        )
 
     def value(self, q: wp.array) -> NDArray[np.float64]:
         """E [J], shape (worlds,); candidates must cover q."""

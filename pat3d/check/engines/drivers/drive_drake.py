@@ -62,9 +62,12 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         "approximation": config.discrete_contact_approximation,
     }
     return {
-        "engine": "Drake", "version": metadata.version("drake"), "settings": settings,
-        "warnings": list(dict.fromkeys(messages.texts)), "recording": found,
-    }  # fmt: skip
+        "engine": "Drake",
+        "version": metadata.version("drake"),
+        "settings": settings,
+        "warnings": list(dict.fromkeys(messages.texts)),
+        "recording": found,
+    }
 
 
 if __name__ == "__main__":

@@ -30,9 +30,7 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         mujoco.mj_kinematics(model, data)
         return {name: [*data.xpos[body], *data.xquat[body]] for body, name in names.items()}
 
-    found = recording.run(
-        lambda count: mujoco.mj_step(model, data, nstep=count), poses, model.opt.timestep, seconds
-    )  # fmt: skip
+    found = recording.run(lambda count: mujoco.mj_step(model, data, nstep=count), poses, model.opt.timestep, seconds)
     for kind, stat in zip(mujoco.mjtWarning.__members__, data.warning, strict=False):
         if stat.number:
             messages.append(f"{kind.removeprefix('mjWARN_').lower()}: {stat.number} times")
@@ -47,9 +45,12 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         "largest margin [m]": float(model.geom_margin.max()),
     }
     return {
-        "engine": "MuJoCo", "version": mujoco.mj_versionString(), "settings": settings,
-        "warnings": list(dict.fromkeys(messages)), "recording": found,
-    }  # fmt: skip
+        "engine": "MuJoCo",
+        "version": mujoco.mj_versionString(),
+        "settings": settings,
+        "warnings": list(dict.fromkeys(messages)),
+        "recording": found,
+    }
 
 
 if __name__ == "__main__":

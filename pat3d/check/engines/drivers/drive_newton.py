@@ -59,12 +59,19 @@ def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
     found = recording.run(step, poses, step_seconds, seconds)
     settings: dict[str, Any] = {"timestep": step_seconds, "solver": variant}
     if variant != "mujoco":
-        settings |= {"iterations": XPBD_ITERATIONS, "contact matching": XPBD_CONTACTS,
-                     "contact relaxation": XPBD_RELAXATION, "overlap left [m]": XPBD_OVERLAP}  # fmt: skip
+        settings |= {
+            "iterations": XPBD_ITERATIONS,
+            "contact matching": XPBD_CONTACTS,
+            "contact relaxation": XPBD_RELAXATION,
+            "overlap left [m]": XPBD_OVERLAP,
+        }
     return {
-        "engine": f"Newton ({variant})", "version": newton.__version__, "settings": settings, "warnings": [],
+        "engine": f"Newton ({variant})",
+        "version": newton.__version__,
+        "settings": settings,
+        "warnings": [],
         "recording": found,
-    }  # fmt: skip
+    }
 
 
 def _with_mujoco(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
@@ -85,9 +92,7 @@ def _with_mujoco(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
 
 def _with_xpbd(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
     """The time step [s], and what advances `state` by a number of them."""
-    solver = newton.solvers.SolverXPBD(
-        model, iterations=XPBD_ITERATIONS, rigid_contact_relaxation=XPBD_RELAXATION
-    )  # fmt: skip
+    solver = newton.solvers.SolverXPBD(model, iterations=XPBD_ITERATIONS, rigid_contact_relaxation=XPBD_RELAXATION)
     pipeline = newton.CollisionPipeline(model, contact_matching=XPBD_CONTACTS)
     after, control, contacts = model.state(), model.control(), pipeline.contacts()
     graph = None

@@ -47,9 +47,12 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
     found = recording.run(step, poses, STEP, seconds)
     physx.wait_task(physx.detach_ovstage())
     return {
-        "engine": "PhysX", "version": f"ovphysx {metadata.version('ovphysx')}", "settings": {"timestep": STEP},
-        "warnings": [], "recording": found,
-    }  # fmt: skip
+        "engine": "PhysX",
+        "version": f"ovphysx {metadata.version('ovphysx')}",
+        "settings": {"timestep": STEP},
+        "warnings": [],
+        "recording": found,
+    }
 
 
 if __name__ == "__main__":

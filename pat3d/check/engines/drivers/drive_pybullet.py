@@ -46,9 +46,12 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         "flags": "URDF_INITIALIZE_SAT_FEATURES, URDF_USE_INERTIA_FROM_FILE",
     }
     return {
-        "engine": "PyBullet", "version": metadata.version("pybullet"), "settings": settings, "warnings": [],
+        "engine": "PyBullet",
+        "version": metadata.version("pybullet"),
+        "settings": settings,
+        "warnings": [],
         "recording": found,
-    }  # fmt: skip
+    }
 
 
 if __name__ == "__main__":
