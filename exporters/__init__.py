@@ -14,15 +14,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from pat3d.exporters.compare import parity
     from pat3d.exporters.formats import FORMATS, export
-    from pat3d.exporters.parity import parity
 
 __all__ = ["FORMATS", "export", "parity"]
 
 _HOMES = {
     "FORMATS": "pat3d.exporters.formats",
     "export": "pat3d.exporters.formats",
-    "parity": "pat3d.exporters.parity",
+    "parity": "pat3d.exporters.compare",
 }
 
 

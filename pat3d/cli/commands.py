@@ -97,8 +97,8 @@ def check(options: argparse.Namespace) -> int:
         return _check_engines(options)
     from pat3d.check.proof import prove
     from pat3d.check.settle import settle_in_mujoco
+    from pat3d.exporters.compare import differences
     from pat3d.exporters.mjcf.writer import write_mjcf
-    from pat3d.exporters.parity import differences
     from pat3d.scene.io import load_scene
 
     folder = Path(options.folder)

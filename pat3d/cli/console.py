@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pat3d.check.certificate import Certificate
     from pat3d.check.engines.check import Verdict
     from pat3d.check.proof import Proof
-    from pat3d.exporters.parity import ParityReport
+    from pat3d.exporters.compare import ParityReport
     from pat3d.generation.optimize_folder import Outcome
     from pat3d.generation.report import Report
     from pat3d.scene.model import Scene

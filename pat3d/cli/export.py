@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, watch
 from pat3d.errors import Pat3dError, SpecError
+from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import FORMATS, chosen, export, has_usd
-from pat3d.exporters.parity import ParityReport, parity
 from pat3d.progress import Event
 
 if TYPE_CHECKING:

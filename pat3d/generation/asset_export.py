@@ -13,8 +13,8 @@ from pat3d.assets.mesh.importing import import_mesh
 from pat3d.assets.mesh.load import FORMATS as MESH_FORMATS
 from pat3d.check.drop import DropReport, ground_drop
 from pat3d.errors import AssetError
+from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import chosen, export
-from pat3d.exporters.parity import ParityReport, parity
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.asset import Asset, VisualMesh

@@ -15,8 +15,8 @@ from typing import Any
 
 from pat3d.check.proof import Proof, broken, prove
 from pat3d.errors import SpecError
+from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import export, exported
-from pat3d.exporters.parity import ParityReport, parity
 from pat3d.generation.optimize_stage import Improved, improve
 from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import Rest

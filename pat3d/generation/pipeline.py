@@ -29,7 +29,7 @@ from pat3d.scene.model import Scene
 from pat3d.scene.physics import SETTLING_FRICTION
 
 if TYPE_CHECKING:
-    from pat3d.exporters.parity import ParityReport
+    from pat3d.exporters.compare import ParityReport
 
 ATTEMPTS = 3
 """Layouts tried before the best one is delivered with its faults reported."""
@@ -250,7 +250,7 @@ def _exports(
     scene: Scene, formats: Sequence[str], fresh: Path, folder: Path, progress: Progress
 ) -> dict[str, ParityReport]:
     """Write the formats beside the MJCF, which is there, into `fresh`, and read all of them back."""
-    from pat3d.exporters.parity import parity
+    from pat3d.exporters.compare import parity
 
     more = [name for name in formats if name != "mjcf"]
     paths = {"mjcf": fresh / "mjcf", **(export(scene, more, fresh, progress=progress) if more else {})}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pat3d.check.proof import Proof
-    from pat3d.exporters.parity import ParityReport
+    from pat3d.exporters.compare import ParityReport
     from pat3d.generation.attempts import Delivery
     from pat3d.generation.settle_stage import Rest
     from pat3d.scene.model import Scene

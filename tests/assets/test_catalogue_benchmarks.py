@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pat3d.assets.catalogue import find, make, registry
+from pat3d.assets.catalogue import find, lookup, make
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -75,7 +75,7 @@ def test_every_name_of_the_sets_is_one_object_of_a_plan(name: str):
 
 
 def test_groceries_of_the_hope_set_are_told_apart():
-    nouns = {match.noun for name in HOPE_NAMES if (match := Nouns(registry).match(name.split()))}
+    nouns = {match.noun for name in HOPE_NAMES if (match := Nouns(lookup).match(name.split()))}
     assert len(nouns) == len(HOPE_NAMES)
 
 

@@ -13,8 +13,8 @@ from pat3d.check.proof import prove as prove_scene
 from pat3d.check.proof import relations_at_rest
 from pat3d.check.settle import ObjectDrift
 from pat3d.cli.main import main
+from pat3d.exporters.compare import parity
 from pat3d.exporters.formats import export
-from pat3d.exporters.parity import parity
 from pat3d.generation import optimize_stage as improve
 from pat3d.generation.optimize_stage import GIVEN
 from pat3d.generation.pipeline import Settings, make

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 
 import pytest
 
+from pat3d.envs.registration import register_with_gymnasium
+
 # The CPU draws the same everywhere; the agreement with GL has a test of its own.
 os.environ.setdefault("PAT3D_RENDERER", "cpu")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def registered():
+    """The environment is known to Gymnasium, whatever imported what first."""
+    if importlib.util.find_spec("gymnasium"):
+        register_with_gymnasium()
 
 
 @pytest.fixture(scope="session")

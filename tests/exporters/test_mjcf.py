@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
+from pat3d.exporters.compare import parity
 from pat3d.exporters.mjcf.writer import FOR_MUJOCO_3_3, body_names, write_mjcf
-from pat3d.exporters.parity import parity
 from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 

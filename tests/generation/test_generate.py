@@ -17,7 +17,7 @@ from PIL import Image
 import pat3d
 from pat3d.cli.main import main
 from pat3d.errors import ExportError, PromptError
-from pat3d.exporters.parity import differences
+from pat3d.exporters.compare import differences
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.folder import read_trajectory
 from pat3d.scene.model import Relation

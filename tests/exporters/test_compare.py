@@ -8,7 +8,7 @@ import pytest
 
 from pat3d.errors import ExportError
 from pat3d.exporters import export, parity
-from pat3d.exporters.parity import QUANTITIES
+from pat3d.exporters.compare import QUANTITIES
 from tests.exporters.things import mixed_scene
 
 FORMATS = ("mjcf", "urdf", "sdf")
