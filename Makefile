@@ -36,7 +36,7 @@ engines: setup  ## virtual environments of MuJoCo, Newton, PyBullet, Drake and P
 engine-%: setup
 	$(BIN)/python -m pat3d.check.engines.environments $*
 
-demo: setup  ## a sentence to a proven scene: scenes/demo
+demo: setup  ## a sentence to a verified scene: scenes/demo
 	$(BIN)/pat3d generate "$(PROMPT)" --out scenes/demo --seed 0
 
 format: setup-dev  ## sort imports and format

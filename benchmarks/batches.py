@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.generation.settle_stage import come_to_rest, come_to_rest_together
+from pat3d.generation.settle_stage import settle_scene, settle_scenes
 from pat3d.scene.model import Scene
 from pat3d.sim.compilation import prepare
 
@@ -34,13 +34,13 @@ def laid_out(place: int) -> Scene | None:
     from pat3d.errors import LayoutError
     from pat3d.generation.attempts import Attempts
     from pat3d.generation.checkpoints import Workspace
-    from pat3d.generation.request import order_of
+    from pat3d.generation.request import request_of
     from pat3d.progress import Clock, silent
 
     made = draft(Request(scenes=10_000, seed=0, objects=(6, 6)), place, 0)
     with tempfile.TemporaryDirectory() as folder:
         attempts = Attempts(
-            order_of(made.plan, False),
+            request_of(made.plan, False),
             seed=made.scene_seed,
             friction=FRICTION,
             device="cpu",
@@ -69,15 +69,15 @@ def main() -> None:
     print(f"{len(scenes)} scenes of {objects:.1f} objects", flush=True)
     for device in dict.fromkeys(("cpu", options.device)):
         prepare(device)
-        come_to_rest(scenes[0], device=device)
+        settle_scene(scenes[0], device=device)
         start = time.perf_counter()
-        rests = [come_to_rest(scene, device=device) for scene in scenes[:ALONE]]
+        rests = [settle_scene(scene, device=device) for scene in scenes[:ALONE]]
         rate = len(rests) / (time.perf_counter() - start)
         print(f"{device}, one after the other: {rate:.1f} scenes/s", flush=True)
     for size in options.batch:
         batches = [scenes[first : first + size] for first in range(0, len(scenes), size)]
         start = time.perf_counter()
-        rests = [rest for batch in batches for rest in come_to_rest_together(batch, device=options.device)]
+        rests = [rest for batch in batches for rest in settle_scenes(batch, device=options.device)]
         rate = len(rests) / (time.perf_counter() - start)
         still = sum(rest.at_rest for rest in rests)
         print(

@@ -225,7 +225,7 @@ class Benchmark:
         file.write_text("\n".join([*rows, line]) + "\n", encoding="utf-8")
 
     def _cluttered(self) -> list[Setting]:
-        """Scenes of eight to twelve objects, with an object to pick each; those of a suite, which are proven."""
+        """Scenes of eight to twelve objects, with an object to pick each; those of a suite, which are verified."""
         from pat3d.envs.suites.generate import generate
         from pat3d.envs.suites.request import Request
 

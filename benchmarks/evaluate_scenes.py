@@ -68,7 +68,7 @@ def alone(folder: str, noun: str, layout: int) -> Setting | str:
     scene = Scene(objects=(SceneObject(name=noun, asset=make(noun), pose=pose, initial_pose=pose),))
     try:
         choose(scene, task, "Panda")
-        # Proven still before it gets its name: what is there is finished.
+        # Verified still before it gets its name: what is there is finished.
         load(scene)
     except Pat3dError as error:
         place.mkdir(parents=True, exist_ok=True)

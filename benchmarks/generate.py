@@ -96,9 +96,9 @@ def row(run: Run) -> str:
     if run.report is None:
         cells += [f"no scene (exit {run.code})", *[""] * 9]
     else:
-        proof = run.report["proof"]
-        certificate, overlaps, mujoco = proof["certificate"], proof["penetration"], proof["mujoco"]
-        least, relations = certificate["smallest_friction"], proof["relations"]
+        found = run.report["verification"]
+        certificate, overlaps, mujoco = found["certificate"], found["penetration"], found["mujoco"]
+        least, relations = certificate["smallest_friction"], found["relations"]
         cells += [
             f"{len(run.report['objects'])}",
             f"{certificate['worst']:.0e}",
@@ -132,7 +132,7 @@ def table(runs: list[Run], prompts: list[str]) -> str:
         "hull / surface overlaps",
         "relations",
         "attempts",
-        "proven",
+        "verified",
         "seconds",
         "MB",
     )
@@ -149,7 +149,7 @@ def shortfalls(run: Run) -> list[str]:
     if run.report is None:
         return [run.message or f"exit code {run.code}"]
     lines = list(run.report["failures"])
-    relations = run.report["proof"]["relations"]["list"]
+    relations = run.report["verification"]["relations"]["list"]
     lines += [
         f"not met: {found['relation']} ({found['detail']})"
         for found in relations
@@ -163,28 +163,36 @@ def summary(runs: list[Run]) -> list[str]:
     made = [run.report for run in runs if run.report is not None]
     if not made:
         return ["No scene was made."]
-    proofs = [report["proof"] for report in made]
+    checks = [report["verification"] for report in made]
     objects = [obj for report in made for obj in report["objects"] if not obj["fixed"]]
     still = sum(obj["drift_mm"] is not None and obj["drift_mm"] < 1.0 and obj["drift_degrees"] < 1.0 for obj in objects)
-    held = sum(proof["relations"]["held"] for proof in proofs)
-    asked = sum(proof["relations"]["count"] for proof in proofs)
+    held = sum(found["relations"]["held"] for found in checks)
+    asked = sum(found["relations"]["count"] for found in checks)
     seconds = [run.seconds for run in runs]
     rows = (
         ("scenes made", f"{len(made)} of {len(runs)}", "all"),
-        ("scenes proven", f"{sum(report['passed'] for report in made)} of {len(runs)}", "all"),
+        ("scenes verified", f"{sum(report['passed'] for report in made)} of {len(runs)}", "all"),
         (
             "pairs that intersect, hulls and surfaces",
-            f"{sum(len(proof['penetration']['hulls']) + len(proof['penetration']['visuals']) for proof in proofs)}",
+            f"{sum(len(found['penetration']['hulls']) + len(found['penetration']['visuals']) for found in checks)}",
             "0",
         ),
-        ("largest certificate residual", f"{max(proof['certificate']['worst'] for proof in proofs):.1e}", "1e-3"),
+        (
+            "largest certificate residual",
+            f"{max(found['certificate']['worst'] for found in checks):.1e}",
+            "1e-3",
+        ),
         (
             "least tilt that a scene stands [degrees]",
-            f"{min(proof['certificate']['largest_tilt'] for proof in proofs):.2f}",
+            f"{min(found['certificate']['largest_tilt'] for found in checks):.2f}",
             "0.57",
         ),
         ("objects still within 1 mm and 1 degree", f"{still} of {len(objects)} ({still / len(objects):.1%})", "99 %"),
-        ("scenes that MuJoCo warns about", f"{sum(bool(proof['mujoco']['warnings']) for proof in proofs)}", "0"),
+        (
+            "scenes that MuJoCo warns about",
+            f"{sum(bool(found['mujoco']['warnings']) for found in checks)}",
+            "0",
+        ),
         ("relations that hold at rest", f"{held} of {asked} ({held / max(asked, 1):.1%})", "90 %"),
         ("seconds, median and worst", f"{statistics.median(seconds):.1f} and {max(seconds):.1f}", "15 and 60"),
         ("largest memory [MB]", f"{max(run.megabytes for run in runs):.0f}", "2000"),

@@ -1,4 +1,4 @@
-"""Does `pat3d build` prove scenes of meshes that other packages ship?
+"""Does `pat3d build` verify scenes of meshes that other packages ship?
 
 A pantry shelf and a crowded tray, with robosuite's bottle, can, cereal, milk, bread and lemon and pybullet_data's mug,
 duck and tray (in their own units, some not watertight), read from those packages where they are installed or from
@@ -76,7 +76,7 @@ def unpack(folder: Path, robosuite: Path, pybullet: Path | None) -> None:
 
 
 def build(name: str, spec: dict, workspace: Path, cache: Path) -> bool:
-    """Build one scene, print its row, and tell whether it was proven."""
+    """Build one scene, print its row, and tell whether it was verified."""
     (workspace / f"{name}.yaml").write_text(yaml.safe_dump(spec), encoding="utf-8")
     start = time.perf_counter()
     done = subprocess.run(
@@ -104,7 +104,7 @@ def build(name: str, spec: dict, workspace: Path, cache: Path) -> bool:
 
 
 def main() -> int:
-    """Print the table; exit code 1 unless every scene is proven."""
+    """Print the table; exit code 1 unless every scene is verified."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robosuite", type=Path, help="folder of an unpacked robosuite package")
     parser.add_argument("--pybullet-data", type=Path, help="folder of an unpacked pybullet_data package")
@@ -133,10 +133,10 @@ def main() -> int:
         cache = (
             workspace / "cache" if options.cold else Path(os.environ.get("PAT3D_CACHE", "~/.cache/pat3d")).expanduser()
         )
-        print("| scene | objects | convex parts | drift mm | drift deg | proven | seconds |")
+        print("| scene | objects | convex parts | drift mm | drift deg | verified | seconds |")
         print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
-        proven = [build(name, spec, workspace, cache) for name, spec in scenes.items()]
-        return 0 if all(proven) else 1
+        verified = [build(name, spec, workspace, cache) for name, spec in scenes.items()]
+        return 0 if all(verified) else 1
 
 
 if __name__ == "__main__":

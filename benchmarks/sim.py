@@ -210,13 +210,13 @@ def against_mujoco(prompts: list[str]) -> list[Row]:
     """Seconds to rest on the CPU of generated scenes, and what MuJoCo takes for its 5 s on the same file."""
     from pat3d.check.settle import settle_in_mujoco
     from pat3d.generation.pipeline import generate
-    from pat3d.generation.settle_stage import come_to_rest
+    from pat3d.generation.settle_stage import settle_scene
 
     seconds, ratios = [], []
     for prompt in prompts:
         with tempfile.TemporaryDirectory() as folder:
             scene = generate(prompt, out=f"{folder}/scene")
-            ours = min(timed(lambda s=scene: come_to_rest(s)) for _ in range(2))
+            ours = min(timed(lambda s=scene: settle_scene(s)) for _ in range(2))
             theirs = timed(lambda f=folder: settle_in_mujoco(Path(f) / "scene" / "mjcf" / "scene.xml"))
         seconds.append(ours)
         ratios.append(theirs / ours)

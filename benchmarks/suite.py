@@ -3,7 +3,7 @@
     python benchmarks/suite.py [--scenes 100] [--workers 2] [--objects 6] [--device cuda] [--out FOLDER]
     python benchmarks/suite.py --report FOLDER          a suite that is there, finished or not
 
-Proven means: balanced, disjoint, still for 5 s in MuJoCo, its relations hold, and the robot can do its task. The first
+Verified means: balanced, disjoint, still for 5 s in MuJoCo, its relations hold, the robot can do its task. The first
 candidates of all places are scenes that nothing replaced: what became of them is told apart from what became of those
 that stand in for them. With --out, the suite and report.txt are kept there; pictures are left out where there is no
 embreex.
@@ -29,7 +29,7 @@ from pat3d.envs.suites.manifest import numbers
 from pat3d.envs.suites.request import Request
 
 TARGET = 400
-"""Proven scenes an hour on two cores at six objects."""
+"""Verified scenes an hour on two cores at six objects."""
 
 STILL_TARGET = 99.5
 """Of scenes that nothing replaced, those that stay still in MuJoCo [%]."""
@@ -90,7 +90,7 @@ def report(folder: Path) -> list[str]:
         lines.append(f"rejected, {reason}: {number} ({100 * number / found['candidates']:.1f} %)")
         examples = Counter(_kind_of(one) for one in rejected if one["reason"] == reason)
         lines += [f"  {count:5d}  {message}" for message, count in examples.most_common(8)]
-    drift = [scene["proof"]["mujoco"]["mm"] for scene in scenes]
+    drift = [scene["verification"]["mujoco"]["mm"] for scene in scenes]
     if drift:
         middle, worst = statistics.median(drift), max(drift)
         lines.append(f"drift of the worst object in 5 s: median {middle:.3f} mm, largest {worst:.2f} mm")
@@ -106,18 +106,18 @@ def report(folder: Path) -> list[str]:
 
 def _of(what: str, candidates: Any) -> Iterator[str]:
     """How many candidates stayed still in MuJoCo and passed every physical check, and what was wrong with the rest."""
-    proofs = [one["proof"] for one in candidates if one.get("proof")]
-    still = sum(proof["mujoco"]["passed"] for proof in proofs)
+    verifications = [one["verification"] for one in candidates if one.get("verification")]
+    still = sum(verification["mujoco"]["passed"] for verification in verifications)
     # A task that the robot cannot do says nothing against the scene.
-    unproven = [one for one in candidates if one.get("reason", "") not in ("", "task")]
+    unverified = [one for one in candidates if one.get("reason", "") not in ("", "task")]
     count = len(candidates)
     share = 100 * still / max(count, 1)
     met = "met" if share >= STILL_TARGET else "missed"
     yield f"{what}: {count}"
-    yield f"  settled {len(proofs)}, still in MuJoCo {still}: {share:.2f} % (target {STILL_TARGET} %: {met})"
-    yield f"  passed every physical check: {count - len(unproven)} of {count}"
+    yield f"  settled {len(verifications)}, still in MuJoCo {still}: {share:.2f} % (target {STILL_TARGET} %: {met})"
+    yield f"  passed every physical check: {count - len(unverified)} of {count}"
     yield f"  and the robot can do the task: {sum(not one.get('reason') for one in candidates)} of {count}"
-    for one in unproven:
+    for one in unverified:
         yield f"  place {one['place']}, candidate {one['candidate']}: {one['reason']}: {one['message'][:300]}"
 
 

@@ -4,7 +4,7 @@ python benchmarks/transfer.py --prompts benchmarks/prompts.txt --random 100 --wo
 
 Everything that is made or measured lies under --work, and what is there already is not done again, so a run that was
 interrupted goes on. `make engines` makes the engines; those that are absent are left out of the table. Scenes that
-their own report does not call proven are listed, and not run.
+their own report does not call verified are listed, and not run.
 """
 
 from __future__ import annotations
@@ -142,13 +142,16 @@ def strays(document: dict[str, Any]) -> list[tuple[str, float, float]]:
 
 
 def failures(folder: Path) -> list[str]:
-    """Why the scene in `folder` is not proven; nothing where it is."""
+    """Why the scene in `folder` is not verified; nothing where it is."""
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     return [] if report["passed"] else [str(line) for line in report["failures"]] or ["not passed"]
 
 
 def table(
-    results: dict[str, dict[str, dict[str, Any]]], unproven: dict[str, list[str]], engines: list[Engine], seconds: float
+    results: dict[str, dict[str, dict[str, Any]]],
+    unverified: dict[str, list[str]],
+    engines: list[Engine],
+    seconds: float,
 ) -> str:
     """The page: a summary of the engines, every scene, everything that moved, and the scenes that were not run."""
     here = [engine for engine in engines if any(engine.name in row for row in results.values())]
@@ -202,9 +205,9 @@ def table(
             ]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     lines += ["", "## What moved", "", *(moved or ["Nothing."])]
-    if unproven:
-        lines += ["", "## Not proven, so not run", ""]
-        lines += [f"- {name}: {' '.join(reasons)}" for name, reasons in unproven.items()]
+    if unverified:
+        lines += ["", "## Not verified, so not run", ""]
+        lines += [f"- {name}: {' '.join(reasons)}" for name, reasons in unverified.items()]
     return "\n".join([*lines, ""])
 
 
@@ -226,7 +229,7 @@ def main() -> int:
     work.mkdir(parents=True, exist_ok=True)
     engines = list(chosen(options.engines))
     results: dict[str, dict[str, dict[str, Any]]] = {}
-    unproven: dict[str, list[str]] = {}
+    unverified: dict[str, list[str]] = {}
     wanted = orders(options, work)
     start = time.perf_counter()
     for number, (name, arguments) in enumerate(wanted.items(), start=1):
@@ -237,7 +240,7 @@ def main() -> int:
             print(f"{name}: no scene, see {work / f'{slug}.log'}", file=sys.stderr, flush=True)
             continue
         if reasons := failures(folder):
-            unproven[name] = reasons
+            unverified[name] = reasons
             continue
         scene, exports = load_scene(folder), work / "exports" / slug
         formats = dict.fromkeys(engine.format for engine in engines if engine.absence() is None)
@@ -252,9 +255,9 @@ def main() -> int:
                 results[name][engine.name] = document
         print(f"{name}: {number} of {len(wanted)}, {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
         if options.out is not None:
-            options.out.write_text(table(results, unproven, engines, options.seconds), encoding="utf-8")
+            options.out.write_text(table(results, unverified, engines, options.seconds), encoding="utf-8")
     if options.out is None:
-        print(table(results, unproven, engines, options.seconds))
+        print(table(results, unverified, engines, options.seconds))
     return 0
 
 

@@ -35,7 +35,7 @@ _KEPT_WORLDS = 4
 
 
 class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
-    """A robot arm in front of a proven scene, with a task.
+    """A robot arm in front of a verified scene, with a task.
 
     Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the
     time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the

@@ -1,4 +1,4 @@
-"""Scenes in the formats of other programs, and the proof that they say the same.
+"""Scenes in the formats of other programs, and the verification that they say the same.
 
     from pat3d.exporters import export, parity
 

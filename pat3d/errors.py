@@ -39,7 +39,7 @@ class ExportError(Pat3dError):
 
 
 class CheckError(Pat3dError):
-    """A scene failed its proof: certificate, penetration or settling."""
+    """A scene failed its verification: certificate, penetration or settling."""
 
     exit_code = 1
 

@@ -1,6 +1,6 @@
-"""Scenes as environments take them: a folder, its MJCF and the proof that MuJoCo holds it still.
+"""Scenes as environments take them: a folder, its MJCF and the verification that MuJoCo holds it still.
 
-The proof is repeated here because a benchmark that moves under the policy is worse than none. It is kept by the
+The verification is repeated here because a benchmark that moves under the policy is worse than none. It is kept by the
 checksum of the files and MuJoCo's version, so that it is run once for each.
 """
 

@@ -1,4 +1,4 @@
-"""The running simulation of one world: reset to the proven rest, control steps of a fixed length."""
+"""The running simulation of one world: reset to the verified rest, control steps of a fixed length."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Simulation:
         """The same by name."""
 
     def _rest(self) -> Array:
-        """The state at the start: objects where they were proven to rest, the robot in its start posture."""
+        """The state at the start: objects where they were verified to rest, the robot in its start posture."""
         model, data, robot = self.model, self.data, self.world.robot
         self._mujoco.mj_resetData(model, data)
         data.qpos[self._arm] = self.world.placement.start

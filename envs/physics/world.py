@@ -1,7 +1,7 @@
 """The simulated world of an environment: the exported scene as it is, with a robot attached, furniture and cameras.
 
 The scene's frame stays the world's, so every pose, contact parameter, inertia and solver option is the one that was
-proven. What is added: the robot on its pedestal; for a scene on the ground, the ground's extent becomes the top of a
+verified. What is added: the robot on its pedestal; for a scene on the ground, the ground's extent becomes the top of a
 workbench, with a floor below.
 """
 

@@ -13,7 +13,7 @@ from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.unit import Making, make_unit
 from pat3d.errors import SimulationError
 from pat3d.generation.attempts import Attempt
-from pat3d.generation.settle_stage import Rest, come_to_rest_together
+from pat3d.generation.settle_stage import SettledScene, settle_scenes
 from pat3d.sim.compilation import device_name
 
 
@@ -56,16 +56,16 @@ def make_block(
             yield making.conclude(done)
 
 
-def _settled(makings: Sequence[Making], begun: Sequence[Attempt], device: str) -> list[Rest | None]:
+def _settled(makings: Sequence[Making], begun: Sequence[Attempt], device: str) -> list[SettledScene | None]:
     """How the scenes of `begun` settle side by side; None where there is none, or all have to settle alone."""
-    found: list[Rest | None] = [None] * len(begun)
+    found: list[SettledScene | None] = [None] * len(begun)
     places = [number for number, attempt in enumerate(begun) if attempt.scene is not None]
     scenes = [attempt.scene for attempt in begun if attempt.scene is not None]
     if not scenes:
         return found
     start = time.perf_counter()
     try:
-        rests = come_to_rest_together(scenes, device=device_name(device))
+        rests = settle_scenes(scenes, device=device_name(device))
     except (SimulationError, RuntimeError, MemoryError):
         # One of them is to blame, or their number; each tells for itself.
         return found

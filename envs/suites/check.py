@@ -1,4 +1,4 @@
-"""Proves a suite again: files, splits, and every scene's stillness in MuJoCo."""
+"""Verifies a suite again: files, splits, and every scene's stillness in MuJoCo."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
         if read_document(folder / RECORD).get("checksum") != entry.checksum:
             return [f"scene {entry.place}: record.json and suite.json differ."]
         if checksum_of(folder) != entry.checksum:
-            return [f"scene {entry.place}: its files are not those that were proven (their checksum differs)."]
+            return [f"scene {entry.place}: its files are not those that were verified (their checksum differs)."]
         if not settle:
             return []
         report = settle_in_mujoco(folder / "mjcf" / "scene.xml")

@@ -1,7 +1,7 @@
 """A suite's folder: where its parts are, whose it is at the moment, and checksums.
 
     suite.json          the request, versions, splits and every scene with its checksum; rewritten at the end of a run
-    scenes/000123/      a scene folder with record.json (task, split, axes, proof); complete when it appears
+    scenes/000123/      a scene folder with record.json (task, split, axes, verification); complete when it appears
     rejected/000123-00.json   why a candidate for a place did not become its scene
     index.html          one page with pictures and numbers
     env.py              make_env, for LeRobot

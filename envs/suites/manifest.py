@@ -81,16 +81,16 @@ def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
 
 def numbers(scenes: Sequence[dict[str, Any]], rejected: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """What came of all candidates, without the clock."""
-    proofs = [one["proof"] for one in (*scenes, *rejected) if one.get("proof")]
-    still = [proof for proof in proofs if proof["mujoco"]["passed"]]
-    drift = [scene["proof"]["mujoco"]["mm"] for scene in scenes]
-    turned = [scene["proof"]["mujoco"]["degrees"] for scene in scenes]
+    verifications = [one["verification"] for one in (*scenes, *rejected) if one.get("verification")]
+    still = [verification for verification in verifications if verification["mujoco"]["passed"]]
+    drift = [scene["verification"]["mujoco"]["mm"] for scene in scenes]
+    turned = [scene["verification"]["mujoco"]["degrees"] for scene in scenes]
     return {
         "scenes": len(scenes),
         "candidates": len(scenes) + len(rejected),
         "rejected": dict(sorted(Counter(str(one.get("reason")) for one in rejected).items())),
-        "settled_in_mujoco": {"passed": len(still), "of": len(proofs)},
-        "intersections": sum(proof["intersections"] for proof in proofs),
+        "settled_in_mujoco": {"passed": len(still), "of": len(verifications)},
+        "intersections": sum(verification["intersections"] for verification in verifications),
         "largest_drift_mm": max(drift, default=None),
         "largest_turn_degrees": max(turned, default=None),
         "by_task": dict(sorted(Counter(scene["kind"] for scene in scenes).items())),

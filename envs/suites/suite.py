@@ -1,4 +1,4 @@
-"""A suite as environments use it: its scenes by split and task, each only as it was proven."""
+"""A suite as environments use it: its scenes by split and task, each only as it was verified."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ class Suite:
         return max(int(one.axes["objects"]) for one in self.entries)
 
     def load(self, entry: Entry) -> LoadedScene:
-        """The scene of an entry, where its files are still those that were proven.
+        """The scene of an entry, where its files are still those that were verified.
 
         Raises:
             UnsettledSceneError: they are not, or another MuJoCo moves it.
@@ -132,7 +132,7 @@ def _entry(scene: Any, place: int, where: Path) -> Entry:
             instruction=scene["instruction"],
             axes=scene["axes"],
             checksum=scene["checksum"],
-            proven_in=scene["proof"]["mujoco"]["version"],
+            proven_in=scene["verification"]["mujoco"]["version"],
         )
         text = (entry.task, entry.prompt, entry.instruction, entry.checksum, entry.proven_in)
         good = entry.place == place and entry.split in SPLITS and entry.kind in TASKS

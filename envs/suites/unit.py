@@ -1,4 +1,4 @@
-"""One unit of the queue: a candidate for a place of the suite, made, proven, and written or rejected."""
+"""One unit of the queue: a candidate for a place of the suite, made, verified, and written or rejected."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from pat3d.envs.suites.request import Request
 from pat3d.errors import LayoutError, TaskError
 from pat3d.generation.attempts import Attempt, Attempts
 from pat3d.generation.checkpoints import Workspace
-from pat3d.generation.request import order_of
+from pat3d.generation.request import request_of
 from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import GROUND, Scene
@@ -47,7 +47,7 @@ class Making:
         self._draft, self.clock = draft(request, place, candidate), Clock()
         self._scratch = folder.work / f"{os.getpid()}-{place:06d}-{candidate:02d}"
         self.attempts = Attempts(
-            order_of(self._draft.plan, False),
+            request_of(self._draft.plan, False),
             seed=self._draft.scene_seed,
             friction=SETTLING_FRICTION,
             device=request.device,
@@ -121,12 +121,12 @@ def _fault(attempt: Attempt) -> str:
         return "relations"
     if attempt.checked is None or attempt.passed:
         return ""
-    proof = attempt.checked.proof
-    if not proof.penetration.passed:
+    verification = attempt.checked.verification
+    if not verification.penetration.passed:
         return "intersection"
-    if not proof.mujoco.passed:
+    if not verification.mujoco.passed:
         return "MuJoCo"
-    return "equilibrium" if not proof.certificate.passed else "relations"
+    return "equilibrium" if not verification.certificate.passed else "relations"
 
 
 def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
@@ -148,23 +148,23 @@ def _record(request: Request, place: int, candidate: int, made: Draft, attempt: 
     from pat3d.envs.tasks.registry import parse_task
 
     scene = attempt.scene
-    proof = attempt.checked.proof if attempt.checked is not None else None
+    verification = attempt.checked.verification if attempt.checked is not None else None
     numbers = None
-    if proof is not None:
+    if verification is not None:
         numbers = {
             "mujoco": {
-                "version": proof.mujoco.version,
-                "seconds": proof.mujoco.seconds,
-                "passed": proof.mujoco.passed,
-                "mm": proof.mujoco.worst_mm,
-                "degrees": proof.mujoco.worst_degrees,
+                "version": verification.mujoco.version,
+                "seconds": verification.mujoco.seconds,
+                "passed": verification.mujoco.passed,
+                "mm": verification.mujoco.worst_mm,
+                "degrees": verification.mujoco.worst_degrees,
             },
-            "intersections": len(proof.penetration.hulls) + len(proof.penetration.visuals),
+            "intersections": len(verification.penetration.hulls) + len(verification.penetration.visuals),
             "equilibrium": {
-                "passed": proof.certificate.passed,
-                "residual": proof.certificate.worst,
-                "smallest_friction": proof.certificate.smallest_friction,
-                "largest_tilt": proof.certificate.largest_tilt,
+                "passed": verification.certificate.passed,
+                "residual": verification.certificate.worst,
+                "smallest_friction": verification.certificate.smallest_friction,
+                "largest_tilt": verification.certificate.largest_tilt,
             },
         }
     return {
@@ -180,7 +180,7 @@ def _record(request: Request, place: int, candidate: int, made: Draft, attempt: 
         "moved": list(made.moved),
         "nouns": sorted({obj.noun for obj in made.plan.objects if obj.name in made.moved}),
         "axes": _axes(made, scene),
-        "proof": numbers,
+        "verification": numbers,
     }
 
 

@@ -1,4 +1,4 @@
-"""What a USD file says of its bodies, read with OpenUSD: the other half of a proof of the export."""
+"""What a USD file says of its bodies, read with OpenUSD: the other half of a verification of the export."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Static equilibrium, proved without a simulator: contact forces inside the friction cones that balance gravity.
+"""Static equilibrium, verified without a simulator: contact forces inside the friction cones that balance gravity.
 
 For every free body b with mass m, centre of mass c and size L (longest side of its bounding box)
 
@@ -41,7 +41,7 @@ FRICTION_STEP = 0.005
 """Resolution of the smallest friction coefficient [-]."""
 
 LEAST_PUSH = 0.01
-"""Sideways push on every object, as a share of its weight, that a proven scene stands: ten times what may be
+"""Sideways push on every object, as a share of its weight, that a verified scene stands: ten times what may be
 unbalanced. Tilting the ground by 0.57 degrees is such a push."""
 
 LEAST_TILT = math.degrees(math.atan(LEAST_PUSH))
@@ -116,7 +116,7 @@ def certify(
     """Find contact forces that hold every object of `scene` still at its pose.
 
     Args:
-        scene: what to prove.
+        scene: what to verify.
         friction: coefficient [-] of every contact; None for the one the scene was settled with.
         activation: surfaces closer than this touch [m].
         margin: also find the smallest friction coefficient that suffices, and the largest tilt that is stood.

@@ -8,7 +8,7 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from pat3d.cli.console import console, show_mended, show_proof, show_report, watch
+from pat3d.cli.console import console, show_mended, show_report, show_verification, watch
 from pat3d.errors import SpecError
 
 
@@ -95,8 +95,8 @@ def check(options: argparse.Namespace) -> int:
     """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder; with --engines, only those."""
     if options.engines:
         return _check_engines(options)
-    from pat3d.check.proof import prove
     from pat3d.check.settle import settle_in_mujoco
+    from pat3d.check.verification import verify
     from pat3d.exporters.compare import differences
     from pat3d.exporters.mjcf.writer import write_mjcf
     from pat3d.scene.io import load_scene
@@ -105,13 +105,13 @@ def check(options: argparse.Namespace) -> int:
     scene = load_scene(folder)
     delivered = folder / "mjcf" / "scene.xml"
     with watch(console(stderr=True)) as progress, tempfile.TemporaryDirectory(prefix="pat3d-check-") as scratch:
-        proof = prove(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
-        failures = list(proof.failures)
+        verification = verify(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
+        failures = list(verification.failures)
         if delivered.is_file():
             failures += differences(scene, delivered)
-            found = replace(proof, mujoco=settle_in_mujoco(delivered))
-            failures += [f"{line} ({delivered})" for line in found.failures if line not in proof.failures]
-    show_proof(console(), scene, proof)
+            found = replace(verification, mujoco=settle_in_mujoco(delivered))
+            failures += [f"{line} ({delivered})" for line in found.failures if line not in verification.failures]
+    show_verification(console(), scene, verification)
     if not delivered.is_file():
         console().print(f"note  there is no {delivered}; what would be written there was checked.", markup=False)
     return _verdict(tuple(failures))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from pat3d.check.certificate import Certificate
     from pat3d.check.engines.check import Verdict
-    from pat3d.check.proof import Proof
+    from pat3d.check.verification import Verification
     from pat3d.exporters.compare import ParityReport
     from pat3d.generation.optimize_folder import Outcome
     from pat3d.generation.report import Report
@@ -87,13 +87,13 @@ def _length(metres: float) -> str:
     return f"{metres:.3g} m"
 
 
-def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
+def show_verification(target: Console, scene: Scene, verification: Verification) -> None:
     """The table of a scene's objects, and what the checks found."""
     from rich.table import Table
 
-    drifts = {obj.name: obj for obj in proof.mujoco.objects}
+    drifts = {obj.name: obj for obj in verification.mujoco.objects}
     gaps: dict[str, float] = {}
-    for gap in proof.penetration.gaps:
+    for gap in verification.penetration.gaps:
         for name in (gap.first, gap.second):
             gaps[name] = min(gap.distance, gaps.get(name, gap.distance))
     table = Table(box=None, pad_edge=False, header_style="bold")
@@ -103,7 +103,7 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         table.add_column(title, justify="right")
     for obj in scene.objects:
         drift = drifts.get(obj.name)
-        residual = proof.certificate.residuals.get(obj.name)
+        residual = verification.certificate.residuals.get(obj.name)
         table.add_row(
             obj.name,
             "fixed" if obj.fixed else scene.parent(obj.name),
@@ -115,17 +115,17 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         )
     target.print(table)
     target.print()
-    certificate, overlaps, mujoco = proof.certificate, proof.penetration, proof.mujoco
+    certificate, overlaps, mujoco = verification.certificate, verification.penetration, verification.mujoco
     least = certificate.smallest_friction
     margin = "" if least is None else f"; holds down to {least:.3g}" if math.isfinite(least) else "; holds at none"
     if certificate.largest_tilt is not None and not certificate.unbalanced:
         margin += f"; stands a tilt of {_tilt(certificate)}"
-    held = [found for found in proof.relations if found.holds]
+    held = [found for found in verification.relations if found.holds]
     verdicts = {
         "equilibrium": "pass" if certificate.passed else "FAIL",
         "intersections": "pass" if overlaps.passed else "FAIL",
         "MuJoCo": "pass" if mujoco.passed else "FAIL",
-        "relations": "FAIL" if proof.broken else "part" if proof.unmet else "pass",
+        "relations": "FAIL" if verification.broken else "part" if verification.unmet else "pass",
     }
     texts = {
         "equilibrium": f"unbalanced by at most {certificate.worst:.0e} of the weight at friction "
@@ -134,12 +134,12 @@ def show_proof(target: Console, scene: Scene, proof: Proof) -> None:
         f"R = {overlaps.ratio:.2g}",
         "MuJoCo": f"{mujoco.version}, {mujoco.seconds:g} s: at most {mujoco.worst_mm:.3f} mm and "
         f"{mujoco.worst_degrees:.3f} degrees; {len(mujoco.warnings)} warnings",
-        "relations": f"{len(held)} of {len(proof.relations)} hold",
+        "relations": f"{len(held)} of {len(verification.relations)} hold",
     }
     for name, verdict in verdicts.items():
         target.print(verdict, style={"pass": "green", "FAIL": "bold red", "part": "yellow"}[verdict], end="  ")
         target.print(f"{name}: {texts[name]}", markup=False)
-    for line in proof.unmet:
+    for line in verification.unmet:
         target.print(f"      not met: {line}", markup=False)
 
 
@@ -206,10 +206,10 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
 
     delivery = report.delivery
     best = delivery.best
-    show_proof(target, delivery.checked.scene, delivery.checked.proof)
+    show_verification(target, delivery.checked.scene, delivery.checked.verification)
     show_optimisation(target, delivery.checked.rest.optimisation)
     show_parity(target, report.exports)
-    for note in (*_said_back(report.order), *best.notes):
+    for note in (*_said_back(report.understood), *best.notes):
         target.print(f"note  {note}", markup=False)
     if report.failures and delivery.checked.rest.optimisation is None and not available():
         target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
@@ -222,10 +222,10 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     show_files(target, folder, mains)
 
 
-def _said_back(order: Mapping[str, Any]) -> tuple[str, ...]:
+def _said_back(understood: Mapping[str, Any]) -> tuple[str, ...]:
     """What the planner assumed or left out, and what it took for scenery."""
-    aside = "; ".join(order.get("set_aside", ()))
-    return (*order.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
+    aside = "; ".join(understood.get("set_aside", ()))
+    return (*understood.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
 
 
 def show_mended(target: Console, outcome: Outcome) -> None:
@@ -233,11 +233,11 @@ def show_mended(target: Console, outcome: Outcome) -> None:
     if outcome.skipped:
         target.print("every relation holds already; the scene is left as it is", markup=False)
         return
-    if outcome.proof is None:
+    if outcome.verification is None:
         show_optimisation(target, outcome.improved.record(kept=False))
         target.print("the scene is left as it is", markup=False)
         return
-    show_proof(target, outcome.scene, outcome.proof)
+    show_verification(target, outcome.scene, outcome.verification)
     show_optimisation(target, outcome.improved.record(kept=True))
     target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
     show_files(target, outcome.folder)

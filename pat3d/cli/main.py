@@ -91,12 +91,12 @@ def parser() -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
 
-    making = command("generate", "make a proven scene from a sentence")
+    making = command("generate", "make a verified scene from a sentence")
     making.add_argument("prompt", metavar="PROMPT", help="what the scene shows, in English")
     making.add_argument("--allow-proxies", action="store_true", help="a plain box for what the catalogue lacks")
     _add_making(making, seed=0, friction=0.2)
 
-    building = command("build", "make a proven scene from a specification with your meshes, sizes and relations")
+    building = command("build", "make a verified scene from a specification with your meshes, sizes and relations")
     building.add_argument("spec", metavar="SCENE.YAML", nargs="?", help="the specification")
     building.add_argument("--schema", action="store_true", help="print the JSON schema of specifications and stop")
     _add_making(building, seed=None, friction=None)
@@ -113,7 +113,7 @@ def parser() -> argparse.ArgumentParser:
     mending.add_argument("--seed", type=int, help="of the layouts tried (the scene's)")
     mending.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help="where to simulate (cpu)")
 
-    checking = command("check", "prove a scene folder again; exit code 1 when a check fails")
+    checking = command("check", "verify a scene folder again; exit code 1 when a check fails")
     checking.add_argument("folder", metavar="FOLDER", help="what generate or build wrote")
     checking.add_argument(
         "--engines",
@@ -125,7 +125,7 @@ def parser() -> argparse.ArgumentParser:
     checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
 
     exporting = command(
-        "export", "write a scene, a mesh or a folder of meshes for other programs, and prove it the same"
+        "export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"
     )
     exporting.add_argument("source", metavar="SOURCE", help="a scene folder, a mesh file, or a folder of meshes")
     exporting.add_argument("--out", metavar="FOLDER", required=True, help="where to write; each format has its folder")

@@ -51,7 +51,7 @@ def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
     making.add_argument(
         "--picture", type=int, default=320, metavar="PIXELS", help="width of the scenes' pictures; 0 for none (320)"
     )
-    checking = verbs.add_parser("check", help="prove a suite again: files, splits, stillness in MuJoCo")
+    checking = verbs.add_parser("check", help="verify a suite again: files, splits, stillness in MuJoCo")
     checking.add_argument("folder", metavar="OUT", help="suite folder")
     checking.add_argument("--quick", action="store_true", help="checksums and splits only")
     checking.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")

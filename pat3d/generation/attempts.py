@@ -1,4 +1,4 @@
-"""Attempts at a scene, each laid out with a seed of its own, settled and proved; the best one is optimised if it fails.
+"""Attempts at a scene, each laid out with its own seed, settled and verified; the best is optimised if it fails.
 
 Another layout costs one settling and mends what chance broke. An optimisation costs ten or more and mends what every
 layout has in common (weight that is not over its support), so it comes last.
@@ -11,13 +11,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pat3d.check.proof import Proof, broken, prove, relations_at_rest
+from pat3d.check.verification import Verification, broken, relations_at_rest, verify
 from pat3d.errors import LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf.writer import write_mjcf
 from pat3d.generation.checkpoints import Workspace
-from pat3d.generation.optimize_stage import OPTIMISATION, available, improve, lost
-from pat3d.generation.request import Ingredient, Order, derived_seed
-from pat3d.generation.settle_stage import Rest, come_to_rest
+from pat3d.generation.optimize_stage import OPTIMISATION, available, lost, optimize_scene
+from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed
+from pat3d.generation.settle_stage import SettledScene, settle_scene
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Clock, Event, Progress
 from pat3d.scene.folder import key_of
@@ -36,8 +36,8 @@ class Checked:
     """A settled scene, exported and checked; it may have failed."""
 
     scene: Scene
-    rest: Rest
-    proof: Proof
+    rest: SettledScene
+    verification: Verification
     mjcf: Path
     """Folder of the export that was checked."""
 
@@ -51,7 +51,7 @@ class Attempt:
     layout_seed: int
     scene: Scene | None = None
     """None where no layout was found or it could not be simulated."""
-    rest: Rest | None = None
+    rest: SettledScene | None = None
     notes: tuple[str, ...] = ()
     """The layout's."""
     inputs: Mapping[str, str] = field(default_factory=dict)
@@ -67,7 +67,7 @@ class Attempt:
         """What is wrong with it, a line each."""
         if self.error is not None:
             return (str(self.error),)
-        lines = self.checked.proof.failures if self.checked is not None else self.broken
+        lines = self.checked.verification.failures if self.checked is not None else self.broken
         if self.rest is not None and not self.rest.at_rest:
             frames, steps = self.rest.record["frames"], self.rest.record["polish_steps"]
             still = f"settling did not come to rest in {frames} frames and {steps} steps of polish (unbalanced by "
@@ -79,7 +79,7 @@ class Attempt:
         """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
         if self.scene is None or self.rest is None:
             return ()
-        return lost(self.scene, self.checked.proof.relations if self.checked else relations_at_rest(self.scene))
+        return lost(self.scene, self.checked.verification.relations if self.checked else relations_at_rest(self.scene))
 
     @property
     def passed(self) -> bool:
@@ -107,7 +107,7 @@ class Attempt:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Delivery:
+class ChosenAttempt:
     """The attempt that becomes the scene folder."""
 
     best: Attempt
@@ -115,15 +115,15 @@ class Delivery:
     tried: tuple[Attempt, ...]
     """All attempts, the best among them."""
     key: str
-    """Fingerprint of the order and the settings."""
+    """Fingerprint of the request and the settings."""
 
 
 class Attempts:
-    """Makes attempts at one order."""
+    """Makes attempts at one request."""
 
     def __init__(
         self,
-        order: Order,
+        request: SceneRequest,
         *,
         seed: int,
         friction: float,
@@ -133,13 +133,13 @@ class Attempts:
         progress: Progress,
         scratch: Path,
     ) -> None:
-        self.order, self.seed, self.friction, self.device = order, seed, friction, device
+        self.request, self.seed, self.friction, self.device = request, seed, friction, device
         self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
-        self._ingredients: tuple[Ingredient, ...] = ()
+        self._objects: tuple[UnplacedObject, ...] = ()
         self._made = False
-        self.key = key_of(versions(), order.fingerprint, seed, friction, device)
+        self.key = key_of(versions(), request.fingerprint, seed, friction, device)
 
-    def best_of(self, count: int) -> Delivery:
+    def best_of(self, count: int) -> ChosenAttempt:
         """The first attempt that passes, else the best of `count` with its faults.
 
         Raises:
@@ -148,7 +148,7 @@ class Attempts:
         """
         made: list[Attempt] = []
         known = self.workspace.delivered(self.key)
-        count = count if self.order.adjustable else 1
+        count = count if self.request.adjustable else 1
         for number in range(count) if known is None else (known,):
             attempt = self._attempt(number)
             if not attempt.failures:
@@ -163,7 +163,7 @@ class Attempts:
         made[place] = best = self._checked(self._improved(best))
         if best.checked is None:
             raise SimulationError("; ".join(best.failures))
-        return Delivery(best=best, checked=best.checked, tried=tuple(made), key=self.key)
+        return ChosenAttempt(best=best, checked=best.checked, tried=tuple(made), key=self.key)
 
     def first(self) -> Attempt:
         """The first layout, settled, and checked where it came to rest; it may have failed."""
@@ -174,7 +174,7 @@ class Attempts:
         """The first layout, not settled yet: its scene, or its error."""
         return self._begun(0)
 
-    def settled(self, attempt: Attempt, rest: Rest) -> Attempt:
+    def settled(self, attempt: Attempt, rest: SettledScene) -> Attempt:
         """`attempt`, which is `begun`, at rest as somebody else settled it; checked like `first`."""
         attempt = _rested(attempt, rest)
         return attempt if attempt.failures else self._checked(attempt)
@@ -185,7 +185,7 @@ class Attempts:
         Raises:
             LayoutError: there is none.
         """
-        made_of = key_of(versions(), self.order.fingerprint, self.seed, self.seed)
+        made_of = key_of(versions(), self.request.fingerprint, self.seed, self.seed)
         return self._laid_out(0, self.seed, {"layout": made_of})[0]
 
     def _attempt(self, number: int) -> Attempt:
@@ -201,7 +201,7 @@ class Attempts:
     def _begun(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)
-        made_of = key_of(versions(), self.order.fingerprint, self.seed, layout_seed)
+        made_of = key_of(versions(), self.request.fingerprint, self.seed, layout_seed)
         inputs = {"layout": made_of, "rest": key_of(made_of, self.friction, self.device)}
         try:
             scene, notes = self._laid_out(number, layout_seed, inputs)
@@ -210,7 +210,7 @@ class Attempts:
         return replace(attempt, scene=scene, notes=notes, inputs=inputs)
 
     def _laid_out(self, number: int, layout_seed: int, inputs: Mapping[str, str]) -> tuple[Scene, tuple[str, ...]]:
-        """The order's objects at poses where nothing touches, and the layout's notes."""
+        """The request's objects at poses where nothing touches, and the layout's notes."""
         kept = self.workspace.layout(number, inputs["layout"])
         if kept is not None:
             scene = kept[0]
@@ -221,38 +221,38 @@ class Attempts:
 
         if not self._made:
             with self.clock("assets"):
-                self._ingredients, self._made = self.order.gather(self.seed, self.progress), True
+                self._objects, self._made = self.request.make_objects(self.seed, self.progress), True
         again = f"attempt {number + 1}" if number else ""
         with self.clock("layout"):
             self.progress(Event(stage="arranging", detail=again))
             layout = arrange(
-                {one.name: one.asset for one in self._ingredients},
-                self.order.relations,
+                {one.name: one.asset for one in self._objects},
+                self.request.relations,
                 seed=layout_seed,
-                fixed_poses={one.name: one.pose for one in self._ingredients if one.pose is not None},
+                fixed_poses={one.name: one.pose for one in self._objects if one.pose is not None},
             )
-        objects = tuple(_placed(one, layout.poses[one.name], self.order.relations) for one in self._ingredients)
+        objects = tuple(_placed(one, layout.poses[one.name], self.request.relations) for one in self._objects)
         scene = Scene(
             objects=objects,
-            relations=self.order.relations,
+            relations=self.request.relations,
             attachments=layout.attachments,
-            prompt=self.order.prompt,
+            prompt=self.request.prompt,
             seed=self.seed,
             settling_friction=self.friction,
             provenance=self._provenance(layout_seed),
         )
-        notes = (*(one.note for one in self._ingredients if one.note), *layout.notes)
+        notes = (*(one.note for one in self._objects if one.note), *layout.notes)
         self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
         return scene, notes
 
-    def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> Rest:
+    def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> SettledScene:
         kept = self.workspace.rest(number, inputs["rest"], scene)
         if kept is not None:
             return kept
         with self.clock("kernels"):
             device = prepare(self.device, self.progress)
         with self.clock("settling"):
-            rest = come_to_rest(scene, device=device, progress=self.progress)
+            rest = settle_scene(scene, device=device, progress=self.progress)
         self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
         return rest
 
@@ -279,7 +279,7 @@ class Attempts:
         )
         with self.clock("optimising"):
             try:
-                done = improve(scene, options=options, at_rest=rest.at_rest, progress=self.progress)
+                done = optimize_scene(scene, options=options, at_rest=rest.at_rest, progress=self.progress)
             except SimulationError:
                 return attempt
         # Recorded even where it changed nothing, so that it is not repeated when the run is resumed.
@@ -300,20 +300,20 @@ class Attempts:
         mjcf = self.scratch / f"mjcf_{attempt.number + 1}{'' if attempt.rest.optimisation is None else '_optimised'}"
         with self.clock("export"):
             path = write_mjcf(attempt.scene, mjcf)
-        with self.clock("proof"):
-            proof = prove(attempt.scene, path, self.progress)
-        checked = Checked(scene=attempt.scene, rest=attempt.rest, proof=proof, mjcf=mjcf)
+        with self.clock("verification"):
+            verification = verify(attempt.scene, path, self.progress)
+        checked = Checked(scene=attempt.scene, rest=attempt.rest, verification=verification, mjcf=mjcf)
         return replace(attempt, checked=checked)
 
     def _provenance(self, layout_seed: int) -> dict[str, Any]:
         return {
-            **self.order.provenance,
+            **self.request.provenance,
             "versions": versions(),
             "settings": {"layout_seed": layout_seed, "friction": self.friction, "device": self.device},
         }
 
 
-def _rested(attempt: Attempt, rest: Rest) -> Attempt:
+def _rested(attempt: Attempt, rest: SettledScene) -> Attempt:
     """An attempt whose layout has come to rest; nothing is checked but its relations."""
     if attempt.scene is None:
         return attempt
@@ -321,7 +321,7 @@ def _rested(attempt: Attempt, rest: Rest) -> Attempt:
     return replace(attempt, scene=scene, rest=rest, broken=broken(relations_at_rest(scene)))
 
 
-def _placed(one: Ingredient, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
+def _placed(one: UnplacedObject, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
     """An ingredient where the layout put it; fixed ones never fall, so they are set down on the ground."""
     if one.fixed and one.pose is None and parent_of(one.name, relations) == GROUND:
         lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)

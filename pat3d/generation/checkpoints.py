@@ -13,7 +13,7 @@ from typing import Any
 
 from pat3d.errors import ExportError, SpecError
 from pat3d.generation.optimize_stage import PICTURES, readable
-from pat3d.generation.settle_stage import Rest
+from pat3d.generation.settle_stage import SettledScene
 from pat3d.scene.folder import (
     read_json,
     read_pictures,
@@ -40,12 +40,12 @@ class Workspace:
             raise ExportError(f"{self.partial} is needed for unfinished work but holds something else; move it away.")
 
     def delivered(self, key: str) -> int | None:
-        """The attempt that an earlier run of the same order delivered in the finished folder, from 0."""
+        """The attempt that an earlier run of the same request delivered in the finished folder, from 0."""
         if not self.keep:
             return None
         report = read_json(self.folder / "report.json")
         attempt = report.get("delivered_attempt")
-        if _inputs(report).get("order") != key or not isinstance(attempt, int) or not 1 <= attempt <= 100:
+        if _inputs(report).get("request") != key or not isinstance(attempt, int) or not 1 <= attempt <= 100:
             return None
         return attempt - 1
 
@@ -63,7 +63,7 @@ class Workspace:
             return scene, tuple(str(note) for note in notes)
         return None
 
-    def rest(self, attempt: int, key: str, scene: Scene) -> Rest | None:
+    def rest(self, attempt: int, key: str, scene: Scene) -> SettledScene | None:
         """How an earlier run of `scene` settled."""
         for folder, report in self._candidates(attempt):
             trajectory = read_trajectory(folder / "trajectory.npz")
@@ -79,7 +79,7 @@ class Workspace:
             optimisation = report.get("optimisation")
             optimisation = optimisation if isinstance(optimisation, dict) and readable(optimisation) else None
             self.reused.append(f"settling {attempt + 1}")
-            return Rest(
+            return SettledScene(
                 poses=tuple(obj.pose for obj in settled.objects),
                 states=trajectory["states"],
                 centres=trajectory["centres"],
@@ -95,7 +95,7 @@ class Workspace:
             self._save(attempt, scene, {"inputs": dict(inputs), "layout": {"notes": list(notes)}})
 
     def save_rest(
-        self, attempt: int, inputs: Mapping[str, str], scene: Scene, notes: Sequence[str], rest: Rest
+        self, attempt: int, inputs: Mapping[str, str], scene: Scene, notes: Sequence[str], rest: SettledScene
     ) -> None:
         """Keep a settled scene."""
         if self.keep:

@@ -1,6 +1,6 @@
 """`pat3d optimize`: a finished scene folder, whose relations broke or which does not stay still, is made anew.
 
-The optimisation starts from the layout that the folder's scene settled from. A scene that is proven and satisfied is
+The optimisation starts from the layout that the folder's scene settled from. A scene that is verified and satisfied is
 left as it is, and so is one for which nothing better was found.
 """
 
@@ -13,13 +13,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pat3d.check.proof import Proof, broken, prove
+from pat3d.check.verification import Verification, broken, verify
 from pat3d.errors import SpecError
 from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import export, exported
-from pat3d.generation.optimize_stage import Improved, improve
+from pat3d.generation.optimize_stage import OptimizedScene, optimize_scene
 from pat3d.generation.report import FORMAT, VERSION, of_scene
-from pat3d.generation.settle_stage import Rest
+from pat3d.generation.settle_stage import SettledScene
 from pat3d.optimize.optimize import OptimizeOptions
 from pat3d.progress import Clock, Event, Progress, silent
 from pat3d.scene.folder import (
@@ -45,8 +45,8 @@ class Outcome:
 
     scene: Scene
     """The optimised scene; the folder's own where nothing was changed."""
-    improved: Improved
-    proof: Proof | None
+    improved: OptimizedScene
+    verification: Verification | None
     """Of the optimised scene; None where nothing was changed."""
     folder: Path
     """Where the scene is."""
@@ -64,9 +64,9 @@ class Outcome:
         """What is wrong with the scene now, a line each."""
         if self.skipped:
             return ()
-        if self.proof is None:
+        if self.verification is None:
             return broken(self.improved.found.first.results) or ("the scene stands, but no steadier layout was found.",)
-        return _failures(self.improved.rest, self.proof, self.exports)
+        return _failures(self.improved.rest, self.verification, self.exports)
 
 
 def optimize_folder(
@@ -79,7 +79,7 @@ def optimize_folder(
     device: str = "cpu",
     progress: Progress = silent,
 ) -> Outcome:
-    """Optimise the layout of the scene in `folder`, settle, prove and write it.
+    """Optimise the layout of the scene in `folder`, settle, verify and write it.
 
     Args:
         folder: what `generate` or `build` wrote.
@@ -106,15 +106,15 @@ def optimize_folder(
         epochs=epochs,
         starts=starts,
         seed=scene.seed if seed is None else seed,
-        # A scene that holds but failed its proof drifts in another engine: it should stand more firmly.
+        # A scene that holds but failed its verification drifts in another engine: it should stand more firmly.
         steady=report.get("passed") is False,
     )
     formats, usd = exported(source)
     with clock("kernels"):
         options = replace(options, device=prepare(device, progress))
     with clock("optimising"):
-        done = improve(scene, options=options, progress=progress)
-    rest, proof, exports = done.rest, None, {}
+        done = optimize_scene(scene, options=options, progress=progress)
+    rest, verification, exports = done.rest, None, {}
     if rest is None:
         if target != source.resolve():
             _copy(source, target)
@@ -123,26 +123,31 @@ def optimize_folder(
             with clock("export"):
                 paths = export(done.scene, formats, fresh, progress=progress, **usd)
                 exports = {name: parity(done.scene, path).moved(fresh, target) for name, path in paths.items()}
-            proof = _write(done.scene, rest, report, exports, fresh, clock, progress)
+            verification = _write(done.scene, rest, report, exports, fresh, clock, progress)
     return Outcome(
-        scene=done.scene, improved=done, proof=proof, folder=target, seconds=clock.seconds["total"], exports=exports
+        scene=done.scene,
+        improved=done,
+        verification=verification,
+        folder=target,
+        seconds=clock.seconds["total"],
+        exports=exports,
     )
 
 
 def _write(
     scene: Scene,
-    rest: Rest,
+    rest: SettledScene,
     earlier: dict[str, Any],
     exports: Mapping[str, ParityReport],
     fresh: Path,
     clock: Clock,
     progress: Progress,
-) -> Proof:
+) -> Verification:
     """Everything else of a scene folder into the folder `fresh`, which holds the exports."""
     from pat3d.view.preview import save_preview
 
-    with clock("proof"):
-        proof = prove(scene, fresh / "mjcf" / "scene.xml", progress)
+    with clock("verification"):
+        verification = verify(scene, fresh / "mjcf" / "scene.xml", progress)
     with clock("files"):
         progress(Event(stage="writing the folder"))
         save_scene(scene, fresh)
@@ -152,26 +157,28 @@ def _write(
     with clock("preview"):
         progress(Event(stage="drawing the preview"))
         save_preview(scene, fresh / "preview.png")
-    failures = _failures(rest, proof, exports)
+    failures = _failures(rest, verification, exports)
     report = {
         "format": FORMAT,
         "version": VERSION,
         "prompt": scene.prompt,
         "seed": scene.seed,
         **{key: value for key, value in earlier.items() if key not in _STALE},
-        **of_scene(scene, rest, proof),
+        **of_scene(scene, rest, verification),
         "exports": {name: one.as_dict() for name, one in exports.items()},
         "passed": not failures,
         "failures": list(failures),
         "seconds": dict(clock.seconds),
     }
     write_json(fresh / "report.json", report)
-    return proof
+    return verification
 
 
-def _failures(rest: Rest | None, proof: Proof, exports: Mapping[str, ParityReport]) -> tuple[str, ...]:
+def _failures(
+    rest: SettledScene | None, verification: Verification, exports: Mapping[str, ParityReport]
+) -> tuple[str, ...]:
     restless = () if rest is None or rest.at_rest else ("settling did not come to rest.",)
-    return (*restless, *proof.failures, *(line for one in exports.values() for line in one.failures))
+    return (*restless, *verification.failures, *(line for one in exports.values() for line in one.failures))
 
 
 def _copy(source: Path, target: Path) -> None:

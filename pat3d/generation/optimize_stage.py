@@ -13,9 +13,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pat3d.check.proof import relations_at_rest
+from pat3d.check.verification import relations_at_rest
 from pat3d.errors import SpecError
-from pat3d.generation.settle_stage import Rest, come_to_rest
+from pat3d.generation.settle_stage import SettledScene, settle_scene
 from pat3d.layout.predicates import RelationResult
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.model import Relation, Scene
@@ -36,12 +36,12 @@ TORCH = "pip install 'pat3d[torch]'"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Improved:
+class OptimizedScene:
     """A scene after its optimisation."""
 
     scene: Scene
     """At rest, from the layout that was found; as it was where nothing better was found."""
-    rest: Rest | None
+    rest: SettledScene | None
     """How it settled, with the record and the pictures; None where nothing better was found."""
     found: Optimized
 
@@ -74,9 +74,9 @@ def lost(scene: Scene, at_rest: tuple[RelationResult, ...]) -> tuple[Relation, .
     return tuple(rel for rel in missed if rel in fulfilled)
 
 
-def improve(
+def optimize_scene(
     scene: Scene, *, options: OptimizeOptions, at_rest: bool | None = None, progress: Progress = silent
-) -> Improved:
+) -> OptimizedScene:
     """Optimise the initial layout of `scene` and settle from the best one.
 
     Lateral relations that the layout never fulfilled (one object carries the other, things lie as they fit) are left
@@ -106,17 +106,17 @@ def improve(
     wanted = replace(scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled))
     found = optimize_scene(wanted, options=options, pinned=given_poses(scene), at_rest=at_rest, progress=tell)
     if not found.improved:
-        return Improved(scene=scene, rest=None, found=found)
+        return OptimizedScene(scene=scene, rest=None, found=found)
     after = scene_after(scene, found.best)
     how = {"source": found.best.source, "seed": options.seed, "versions": versions()}
     after = replace(after, provenance={**after.provenance, OPTIMISATION: how})
-    rest = come_to_rest(after, device=options.device, progress=progress)
+    rest = settle_scene(after, device=options.device, progress=progress)
     after = rest.of(after)
     if _count_broken(replace(after, relations=wanted.relations)) > len(found.first.broken):
-        return Improved(scene=scene, rest=None, found=found)
+        return OptimizedScene(scene=scene, rest=None, found=found)
     progress(Event(stage="drawing the optimisation"))
     pictures = draw(found, scene_after(scene, found.first), after)
-    done = Improved(scene=after, rest=rest, found=found)
+    done = OptimizedScene(scene=after, rest=rest, found=found)
     return replace(done, rest=replace(rest, optimisation=done.record(kept=True), pictures=pictures))
 
 

@@ -1,8 +1,8 @@
-"""The stages in order: a sentence or a specification becomes a proven scene in a folder.
+"""The stages in order: a sentence or a specification becomes a verified scene in a folder.
 
-    plan -> assets -> layout -> settling -> proof -> files
+    plan -> assets -> layout -> settling -> verification -> files
 
-A layout that does not settle into a proven scene is tried again with another seed; the best attempt is delivered
+A layout that does not settle into a verified scene is tried again with another seed; the best attempt is delivered
 and the report tells of all. A folder is complete when it appears.
 """
 
@@ -20,7 +20,7 @@ from pat3d.exporters.formats import chosen, export
 from pat3d.generation.attempts import Attempts
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.report import Report
-from pat3d.generation.request import Order, order_of
+from pat3d.generation.request import SceneRequest, request_of
 from pat3d.plan.scene_plan import Planner
 from pat3d.progress import Clock, Event, Progress, silent
 from pat3d.scene.folder import check_target, replacing, write_json, write_pictures, write_trajectory
@@ -46,7 +46,7 @@ class Settings:
     """Coulomb coefficient [-] of every contact while settling."""
     device: str = "cpu"
     formats: tuple[str, ...] = ("mjcf",)
-    """Exchange formats to write; MJCF, in which the scene is proven, always is."""
+    """Exchange formats to write; MJCF, in which the scene is verified, always is."""
     resume: bool = False
     """Keep finished stages beside the folder, and use those whose inputs have not changed."""
 
@@ -82,7 +82,7 @@ def generate(
     planner: Planner | None = None,
     progress: Progress = silent,
 ) -> Scene:
-    """Make the scene that `prompt` describes, prove it and write its folder.
+    """Make the scene that `prompt` describes, verify it and write its folder.
 
     Args:
         prompt: English, such as "a red mug on a wooden table".
@@ -123,7 +123,7 @@ def build(
     resume: bool = False,
     progress: Progress = silent,
 ) -> Scene:
-    """Make the scene that a YAML specification describes, prove it and write its folder.
+    """Make the scene that a YAML specification describes, verify it and write its folder.
 
     Args:
         spec_path: the specification; `pat3d build --schema` prints what may be in it.
@@ -173,7 +173,7 @@ def run_prompt(
     with clock("planning"):
         progress(Event(stage="planning"))
         plan = (planner or GrammarPlanner(allow_proxies)).plan(prompt)
-    return make(order_of(plan, allow_proxies), folder=folder, settings=settings, clock=clock, progress=progress)
+    return make(request_of(plan, allow_proxies), folder=folder, settings=settings, clock=clock, progress=progress)
 
 
 def run_spec(
@@ -201,17 +201,17 @@ def run_spec(
         formats=tuple(formats),
         resume=resume,
     )
-    return make(spec.order(), folder=folder, settings=settings, clock=clock, progress=progress)
+    return make(spec.request(), folder=folder, settings=settings, clock=clock, progress=progress)
 
 
-def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progress: Progress) -> Outcome:
+def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Clock, progress: Progress) -> Outcome:
     """The stages after planning, and the folder."""
     from pat3d.view.preview import save_preview
 
     workspace = Workspace(folder, keep=settings.resume)
     with replacing(folder) as fresh:
         attempts = Attempts(
-            order,
+            request,
             seed=settings.seed,
             friction=settings.friction,
             device=settings.device,
@@ -235,7 +235,7 @@ def make(order: Order, *, folder: Path, settings: Settings, clock: Clock, progre
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
         report = Report(
-            order=order.record,
+            understood=request.record,
             delivery=delivery,
             reused=tuple(workspace.reused),
             seconds=clock.seconds,

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pat3d.check.proof import Proof
+    from pat3d.check.verification import Verification
     from pat3d.exporters.compare import ParityReport
-    from pat3d.generation.attempts import Delivery
-    from pat3d.generation.settle_stage import Rest
+    from pat3d.generation.attempts import ChosenAttempt
+    from pat3d.generation.settle_stage import SettledScene
     from pat3d.scene.model import Scene
 
 FORMAT = "pat3d-report"
@@ -21,9 +21,9 @@ VERSION = 1
 class Report:
     """A finished run."""
 
-    order: Mapping[str, Any]
+    understood: Mapping[str, Any]
     """How the prompt or the specification was understood."""
-    delivery: Delivery
+    delivery: ChosenAttempt
     reused: tuple[str, ...] = ()
     """Stages taken from an earlier run."""
     seconds: Mapping[str, float]
@@ -33,12 +33,12 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        """Whether the scene is proven, and every format says the same."""
+        """Whether the scene is verified, and every format says the same."""
         return self.delivery.best.passed and all(report.passed for report in self.exports.values())
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """What disproves the scene, a line each."""
+        """What contradicts the scene, a line each."""
         lines = [line for report in self.exports.values() for line in report.failures]
         return (*self.delivery.best.failures, *lines)
 
@@ -55,20 +55,20 @@ class Report:
             "failures": list(self.failures),
             "seconds": dict(self.seconds),
             "versions": scene.provenance.get("versions", {}),
-            **of_scene(scene, checked.rest, checked.proof),
-            "understood": dict(self.order),
+            **of_scene(scene, checked.rest, checked.verification),
+            "understood": dict(self.understood),
             "layout": {"seed": best.layout_seed, "notes": list(best.notes)},
             "exports": {name: report.as_dict() for name, report in self.exports.items()},
             "attempts": [attempt.as_dict() for attempt in self.delivery.tried],
             "delivered_attempt": best.number + 1,
-            "inputs": {"order": self.delivery.key, **best.inputs},
+            "inputs": {"request": self.delivery.key, **best.inputs},
             "reused": list(self.reused),
         }
 
 
-def of_scene(scene: Scene, rest: Rest, proof: Proof) -> dict[str, Any]:
+def of_scene(scene: Scene, rest: SettledScene, verification: Verification) -> dict[str, Any]:
     """What the report says about a scene at rest, however it came about."""
-    drifts = {obj.name: obj for obj in proof.mujoco.objects}
+    drifts = {obj.name: obj for obj in verification.mujoco.objects}
     objects = []
     for obj in scene.objects:
         drift = drifts.get(obj.name)
@@ -80,7 +80,7 @@ def of_scene(scene: Scene, rest: Rest, proof: Proof) -> dict[str, Any]:
                 "mass_kg": obj.asset.mass_properties.mass,
                 "parts": len(obj.asset.parts),
                 "size_m": obj.asset.size.tolist(),
-                "residual": proof.certificate.residuals.get(obj.name),
+                "residual": verification.certificate.residuals.get(obj.name),
                 "drift_mm": None if drift is None else max(drift.centre_mm, drift.origin_mm),
                 "drift_degrees": None if drift is None else drift.degrees,
             }
@@ -89,5 +89,5 @@ def of_scene(scene: Scene, rest: Rest, proof: Proof) -> dict[str, Any]:
         "objects": objects,
         "settling": {**rest.record, "friction": scene.settling_friction},
         "optimisation": rest.optimisation,
-        "proof": proof.as_dict(),
+        "verification": verification.as_dict(),
     }

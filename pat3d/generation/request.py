@@ -1,4 +1,4 @@
-"""From planned objects to assets: what an order asks for, made."""
+"""From planned objects to assets: what a request asks for, made."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Ingredient:
+class UnplacedObject:
     """One object of a scene before it has a place."""
 
     name: str
@@ -34,7 +34,7 @@ class Ingredient:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Order:
+class SceneRequest:
     """What to make, whether it came from a sentence or from a specification."""
 
     prompt: str
@@ -42,8 +42,8 @@ class Order:
     relations: tuple[Relation, ...]
     fingerprint: Any
     """JSON data that decides the assets, the relations and the given poses, apart from the seed."""
-    gather: Callable[[int, Progress], tuple[Ingredient, ...]]
-    """Makes the ingredients, in the order of `names`, for a seed."""
+    make_objects: Callable[[int, Progress], tuple[UnplacedObject, ...]]
+    """Makes the objects, in the order of `names`, for a seed."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """What the report says about how this was understood; JSON-serialisable."""
     adjustable: bool = True
@@ -60,15 +60,15 @@ def derived_seed(seed: int, *words: str | int) -> int:
     return int(np.random.SeedSequence(entropy).generate_state(1)[0])
 
 
-def order_of(plan: ScenePlan, allow_proxies: bool) -> Order:
+def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
     """What `plan` asks for."""
     objects = [_plain(obj) for obj in plan.objects]
-    return Order(
+    return SceneRequest(
         prompt=plan.prompt,
         names=tuple(obj.name for obj in plan.objects),
         relations=plan.relations,
         fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies],
-        gather=lambda seed, progress: gather_plan(plan, seed, progress),
+        make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
         record={
             "objects": objects,
             "notes": list(plan.notes),
@@ -78,10 +78,10 @@ def order_of(plan: ScenePlan, allow_proxies: bool) -> Order:
     )
 
 
-def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
+def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
     """An asset from the catalogue for every planned object; equal objects of a set share one."""
     from pat3d.assets import catalogue
-    from pat3d.generation.sizing import widened
+    from pat3d.generation.sizing import enlarged_trays
 
     planned = {obj.name: obj for obj in plan.objects}
 
@@ -112,11 +112,11 @@ def gather_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Ingredi
             made[key] = make(obj.name)
         assets[obj.name] = made[key]
     notes: dict[str, str] = {}
-    for name, (larger, factor) in widened(plan, assets, make).items():
+    for name, (larger, factor) in enlarged_trays(plan, assets, make).items():
         assets[name] = larger
         notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
     return tuple(
-        Ingredient(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
+        UnplacedObject(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
         for obj in plan.objects
     )
 

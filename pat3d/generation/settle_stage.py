@@ -16,7 +16,7 @@ from pat3d.scene.model import Scene
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Rest:
+class SettledScene:
     """How settling ended."""
 
     poses: tuple[Pose, ...]
@@ -43,22 +43,22 @@ class Rest:
         return replace(scene, objects=objects)
 
 
-def come_to_rest(scene: Scene, *, device: str = "cpu", progress: Progress = silent) -> Rest:
+def settle_scene(scene: Scene, *, device: str = "cpu", progress: Progress = silent) -> SettledScene:
     """Settle `scene` from its initial poses with its settling friction, on Warp's `device`.
 
     Raises:
         SimulationError: objects intersect at the start, the state degenerates.
     """
-    return come_to_rest_together([scene], device=device, progress=progress)[0]
+    return settle_scenes([scene], device=device, progress=progress)[0]
 
 
-def come_to_rest_together(
+def settle_scenes(
     scenes: Sequence[Scene], *, device: str = "cpu", progress: Progress = silent
-) -> tuple[Rest, ...]:
+) -> tuple[SettledScene, ...]:
     """Settle scenes side by side, a world each; frames, steps and iterations of the records are the whole batch's.
 
     Raises:
-        SimulationError: as `come_to_rest`, of any of the scenes; or they ask for different settling friction.
+        SimulationError: as `settle_scene`, of any of the scenes; or they ask for different settling friction.
     """
     from pat3d.sim.model import ModelBuilder, poses_from_states
     from pat3d.sim.run import SettleOptions
@@ -84,7 +84,7 @@ def come_to_rest_together(
     for world, scene in enumerate(scenes):
         bodies = slice(first := sum(len(one.objects) for one in scenes[:world]), first + len(scene.objects))
         rests.append(
-            Rest(
+            SettledScene(
                 poses=tuple(
                     obj.initial_pose if obj.fixed else pose
                     for obj, pose in zip(scene.objects, poses[bodies], strict=True)

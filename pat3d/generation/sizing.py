@@ -14,14 +14,14 @@ from pat3d.layout.surfaces import arrange_flat
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.asset import Asset
 
-WIDENED = frozenset({"tray", "cutting board"})
+ENLARGED = frozenset({"tray", "cutting board"})
 """Nouns of things that are made in many sizes, to carry other things."""
 
 FACTORS = (1.15, 1.3, 1.5)
 """Sizes that are tried, the smallest first, against the usual one."""
 
 
-def widened(
+def enlarged_trays(
     plan: ScenePlan, assets: Mapping[str, Asset], remake: Callable[[str, float], Asset]
 ) -> dict[str, tuple[Asset, float]]:
     """Larger assets, with their factors, for the trays of `plan` that are too small for what is on them side by side.
@@ -37,7 +37,7 @@ def widened(
     for obj in plan.objects:
         carried = [rel.child for rel in plan.relations if rel.kind == "on" and rel.parent == obj.name]
         sized = obj.scale != 1.0 or obj.extent is not None
-        if obj.noun not in WIDENED or sized or len(carried) < 2:
+        if obj.noun not in ENLARGED or sized or len(carried) < 2:
             continue
         loads = [assets[name] for name in carried]
         if _side_by_side(assets[obj.name], loads):

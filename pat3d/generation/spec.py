@@ -13,7 +13,7 @@ from typing import Any
 
 from pat3d.errors import AssetError, PromptError, SpecError
 from pat3d.generation.optimize_stage import GIVEN
-from pat3d.generation.request import Ingredient, Order, derived_seed
+from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed
 from pat3d.generation.spec_schema import BUILD_SCHEMA
 from pat3d.generation.yaml_source import Source, read_yaml
 from pat3d.geometry.pose import Pose
@@ -48,16 +48,16 @@ class Spec:
         """Coulomb coefficient [-] while settling."""
         return float(self.source.document.get("friction", 0.2))
 
-    def order(self) -> Order:
+    def request(self) -> SceneRequest:
         """What to make."""
         document = self.source.document
         hashes = [_hash(self._mesh(obj)) if "mesh" in obj else None for obj in self.objects]
-        return Order(
+        return SceneRequest(
             prompt="",
             names=tuple(obj["name"] for obj in self.objects),
             relations=self.relations,
             fingerprint=[document["objects"], document.get("relations", []), hashes],
-            gather=self.gather,
+            make_objects=self.gather,
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
             provenance={
@@ -67,7 +67,7 @@ class Spec:
             },
         )
 
-    def gather(self, seed: int, progress: Progress) -> tuple[Ingredient, ...]:
+    def gather(self, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
         found = []
         for number, obj in enumerate(self.objects):
@@ -79,7 +79,7 @@ class Spec:
                 place = ("objects", number, key)
                 raise self.source.error(place, f'"{obj["name"]}": {error}') from error
             found.append(
-                Ingredient(
+                UnplacedObject(
                     name=obj["name"], asset=asset, fixed=obj.get("fixed", False), pose=self.poses.get(obj["name"])
                 )
             )

@@ -2,7 +2,7 @@
 
 The scene tree is arranged from the leaves up: an object gathers what it contains and carries into a group
 that moves as one, and groups are arranged on what carries them, the ground last. All frames are parallel
-to the world's, so "left of" means the same everywhere. The result is proved before it is returned.
+to the world's, so "left of" means the same everywhere. The result is checked before it is returned.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ import numpy as np
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Body
+from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group, yaw_matrix
 from pat3d.layout.hanging import attachment, hang
-from pat3d.layout.proof import Proof, prove
 from pat3d.layout.surfaces import arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread
 from pat3d.scene.asset import Asset
@@ -34,7 +34,7 @@ _FURNITURE = 0.6
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """Initial poses, proved free of intersection."""
+    """Initial poses, checked to be free of intersection."""
 
     poses: Mapping[str, Pose]
     """Pose of every object, in the order of the assets."""
@@ -42,7 +42,7 @@ class Layout:
     """What holds the things that hang, in the order of the assets."""
     notes: tuple[str, ...] = ()
     """What was decided where the relations were silent or could not be honoured."""
-    proof: Proof
+    clearance: Clearance
     """Distances between neighbours."""
 
 
@@ -75,10 +75,10 @@ def arrange(
     arranger = _Arranger(assets, relations, seed, fixed, gap)
     placed = {member.body.name: member for group in arranger.ground() for member in group.members}
     bodies = [placed[name] for name in assets]
-    proof = prove(bodies)
+    clearance = require_clearance(bodies)
     poses = {body.body.name: fixed.get(body.body.name) or body.pose for body in bodies}
     attachments = tuple(arranger.attachments[name] for name in assets if name in arranger.attachments)
-    return Layout(poses=poses, attachments=attachments, notes=tuple(arranger.notes), proof=proof)
+    return Layout(poses=poses, attachments=attachments, notes=tuple(arranger.notes), clearance=clearance)
 
 
 class _Arranger:

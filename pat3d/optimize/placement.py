@@ -2,7 +2,7 @@
 
 Three lengths per movable object move it along x and y and turn it about its own origin (by an arc at the rim of its
 footprint, so that all three are metres); what it carries comes along. `Placement.project` makes the result free of
-intersection again by the layout's drop test, parents before children, and proves it.
+intersection again by the layout's drop test, parents before children, and checks it.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Body, Placed
+from pat3d.layout.clearance import require_clearance
 from pat3d.layout.containers import lower
 from pat3d.layout.group import Group, yaw_matrix
-from pat3d.layout.proof import prove
 from pat3d.optimize.loss import states
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, Scene, SceneObject, parent_of
@@ -138,7 +138,7 @@ class Placement:
             lift[name] = float(done[name].position[2] - body.position[2])
             if above == GROUND and lift[name] > SHALLOW:
                 raise LayoutError(f'"{name}" would stand on another object.')
-        prove([done[name] for name in self.names])
+        require_clearance([done[name] for name in self.names])
         return {name: self.poses[name] if name in self.held else done[name].pose for name in self.names}
 
     def scene(

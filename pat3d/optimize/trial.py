@@ -11,7 +11,7 @@ from pat3d.optimize.refine import Epoch
 from pat3d.scene.model import Attachment
 
 STEADY = 2.0
-"""Tilt of the ground [degrees] that a scene should endure, several times what its proof asks for."""
+"""Tilt of the ground [degrees] that a scene should endure, several times what its verification asks for."""
 MORE_THAN_STEADY = 4.0
 """Tilt [degrees] beyond which more is not better."""
 

@@ -9,7 +9,7 @@ VERSION = "0.1.0"
 """Of this PAT3D."""
 
 MADE_WITH = ("numpy", "scipy", "warp-lang", "mujoco", "trimesh", "manifold3d", "coacd", "clarabel", "python-fcl")
-"""Packages that decide how a scene turns out, or that it was proved with."""
+"""Packages that decide how a scene turns out, or that it was verified with."""
 
 
 @functools.cache

@@ -91,7 +91,7 @@ def test_what_slides_does_so_at_the_lower_of_two_exported_frictions(below, above
 
 
 @pytest.mark.parametrize(("width", "stands"), [(0.00055, False), (0.00065, True)])
-def test_what_balances_on_a_tip_is_proven_if_a_hundredth_of_its_weight_does_not_push_it_over(width, stands):
+def test_what_balances_on_a_tip_is_verified_if_a_hundredth_of_its_weight_does_not_push_it_over(width, stands):
     """A block whose centre is 3 cm over a tip bears a sideways push of half the tip's width over 3 cm."""
     scene = scene_of(
         placed("tip", asset_of(box(width, width, 0.05)), (0, 0, GAP), fixed=True),

@@ -3,7 +3,7 @@ import io
 from rich.console import Console
 
 from pat3d.cli.console import _length, _said_back, _words, watch
-from pat3d.generation.request import order_of
+from pat3d.generation.request import request_of
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.progress import Event
 
@@ -37,7 +37,7 @@ def test_events_read_as_sentences():
 
 def test_what_the_planner_left_out_is_printed():
     plan = GrammarPlanner().plan("An upside-down mug on the floor")
-    assert _said_back(order_of(plan, False).record) == (
+    assert _said_back(request_of(plan, False).record) == (
         '"upside-down" is left out: "An upside-down mug" is placed the way the catalogue makes it.',
         "set aside: the floor",
     )

@@ -9,20 +9,20 @@ from PIL import Image
 
 import pat3d
 from pat3d.check.certificate import steadiness
-from pat3d.check.proof import prove as prove_scene
-from pat3d.check.proof import relations_at_rest
 from pat3d.check.settle import ObjectDrift
+from pat3d.check.verification import relations_at_rest
+from pat3d.check.verification import verify as verify_scene
 from pat3d.cli.main import main
 from pat3d.exporters.compare import parity
 from pat3d.exporters.formats import export
-from pat3d.generation import optimize_stage as improve
+from pat3d.generation import optimize_stage
 from pat3d.generation.optimize_stage import GIVEN
 from pat3d.generation.pipeline import Settings, make
-from pat3d.generation.request import Ingredient, Order
+from pat3d.generation.request import SceneRequest, UnplacedObject
 from pat3d.geometry.pose import Pose
 from pat3d.layout import layout as layouts
 from pat3d.layout.bodies import place_all
-from pat3d.layout.proof import prove
+from pat3d.layout.clearance import require_clearance
 from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Scene, SceneObject
@@ -66,10 +66,10 @@ def mended(broken, tmp_path_factory):
     return out
 
 
-def test_a_mended_scene_is_proven_and_keeps_its_relations(mended):
+def test_a_mended_scene_is_verified_and_keeps_its_relations(mended):
     report = json.loads((mended / "report.json").read_text())
     assert report["passed"]
-    assert report["proof"]["mujoco"]["worst_mm"] < 1.0
+    assert report["verification"]["mujoco"]["worst_mm"] < 1.0
     scene = pat3d.load_scene(mended)
     assert all(result.holds for result in relations_at_rest(scene))
     assert scene["plank"].initial_pose.position[0] < 0.04
@@ -168,7 +168,7 @@ def test_a_folder_without_a_scene_is_refused(tmp_path, capfd):
 
 
 def test_without_torch_the_command_says_how_to_get_it(broken, monkeypatch, capfd):
-    monkeypatch.setattr(improve, "available", lambda: False)
+    monkeypatch.setattr(optimize_stage, "available", lambda: False)
     assert main(["optimize", str(broken)]) == 2
     assert "pip install 'pat3d[torch]'" in capfd.readouterr().err
 
@@ -180,20 +180,20 @@ def falling_layouts(monkeypatch):
     assets, relations, poses = overhanging()
 
     def arrange(*_, **__):
-        return layouts.Layout(poses=poses, proof=prove(list(place_all(assets, poses).values())))
+        return layouts.Layout(poses=poses, clearance=require_clearance(list(place_all(assets, poses).values())))
 
     monkeypatch.setattr(layouts, "arrange", arrange)
-    ingredients = tuple(Ingredient(name=name, asset=asset) for name, asset in assets.items())
-    return Order(
+    objects = tuple(UnplacedObject(name=name, asset=asset) for name, asset in assets.items())
+    return SceneRequest(
         prompt="a plank on a block",
         names=tuple(assets),
         relations=relations,
         fingerprint="plank",
-        gather=lambda *_: ingredients,
+        gather=lambda *_: objects,
     )
 
 
-def made(order: Order, folder, **settings):
+def made(order: SceneRequest, folder, **settings):
     return make(order, folder=folder, settings=Settings(**settings), clock=Clock(), progress=silent).report.as_dict()
 
 
@@ -224,16 +224,20 @@ def test_generate_steadies_what_stands_but_drifts_in_another_engine(falling_layo
     arrange = layouts.arrange
 
     def strict(scene, *args):
-        proof = prove_scene(scene, *args)
+        verification = verify_scene(scene, *args)
         drifts = (ObjectDrift(name="plank", centre_mm=50.0, origin_mm=50.0, degrees=90.0),)
-        return proof if steadiness(scene) >= 2.0 else replace(proof, mujoco=replace(proof.mujoco, objects=drifts))
+        return (
+            verification
+            if steadiness(scene) >= 2.0
+            else replace(verification, mujoco=replace(verification.mujoco, objects=drifts))
+        )
 
     def hardly(*args, **kwargs):
         layout = arrange(*args, **kwargs)
         return replace(layout, poses={**layout.poses, "plank": Pose(position=(0.0398, 0, 0.065))})
 
     monkeypatch.setattr(layouts, "arrange", hardly)
-    monkeypatch.setattr("pat3d.generation.attempts.prove", strict)
+    monkeypatch.setattr("pat3d.generation.attempts.verify", strict)
     report = made(falling_layouts, tmp_path / "scene")
     assert report["passed"]
     assert report["optimisation"]["source"] == "recentred"
@@ -244,7 +248,7 @@ def test_generate_steadies_what_stands_but_drifts_in_another_engine(falling_layo
 
 @pytest.mark.parametrize("record", [{}, {"kept": True}, {"kept": True, "loss_before": None, "loss_after": "x"}])
 def test_damaged_records_of_an_optimisation_are_told(record):
-    assert not improve.readable(record)
+    assert not optimize_stage.readable(record)
 
 
 def test_generate_does_without_torch(falling_layouts, tmp_path, monkeypatch):

@@ -108,7 +108,7 @@ def test_sleeping_or_not_the_pick_ends_the_same_way():
 
 
 def test_nothing_moves_while_the_robot_stands_still(env):
-    """With the robot in the world the scene is as still as it was proven to be: a tenth of a millimetre in 5 s."""
+    """With the robot in the world the scene is as still as it was verified to be: a tenth of a millimetre in 5 s."""
     env = TabletopEnv(sleep=False)
     env.reset(seed=0)
     state = env.simulation.state

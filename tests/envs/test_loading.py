@@ -1,4 +1,4 @@
-"""What is loaded: proven scenes, and nothing that moves."""
+"""What is loaded: verified scenes, and nothing that moves."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_a_scene_that_moves_is_refused_by_name_and_drift_the_second_time_too(cac
             load(folder)
 
 
-def test_the_proof_is_repeated_when_a_file_changes(cache, folder):
+def test_the_verification_is_repeated_when_a_file_changes(cache, folder):
     first = load(folder)
     path = folder / "mjcf" / "scene.xml"
     path.write_text(path.read_text(encoding="utf-8") + "<!-- -->\n", encoding="utf-8")
@@ -96,7 +96,7 @@ def test_the_proof_is_repeated_when_a_file_changes(cache, folder):
     assert len(list((cache / "settled").iterdir())) == 2
 
 
-def test_a_damaged_record_of_the_proof_is_not_believed(cache, folder):
+def test_a_damaged_record_of_the_verification_is_not_believed(cache, folder):
     load(folder)
     (record,) = (cache / "settled").iterdir()
     record.write_text('{"passed": "yes"}', encoding="utf-8")

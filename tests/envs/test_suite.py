@@ -160,7 +160,7 @@ def test_a_scene_that_hangs_is_ended_and_recorded_and_another_takes_its_place(tm
     assert Suite.open(folder.path).document["scenes"][1]["candidate"] >= 1
 
 
-def test_every_scene_is_proven_and_the_manifest_says_so(made):
+def test_every_scene_is_verified_and_the_manifest_says_so(made):
     suite = Suite.open(made)
     assert check_suite(suite) == []
     numbers = suite.document["numbers"]
@@ -178,7 +178,7 @@ def test_a_scene_whose_files_changed_is_refused_by_environments_and_by_the_check
     with pytest.raises(UnsettledSceneError, match="their checksum differs"):
         suite.load(suite.entries[2])
     assert check_suite(suite, settle=False) == [
-        "scene 2: its files are not those that were proven (their checksum differs)."
+        "scene 2: its files are not those that were verified (their checksum differs)."
     ]
     assert main(["suite", "check", str(copy), "--quick"]) == 1
 

@@ -54,7 +54,7 @@ def workplace(tmp_path):
     return tmp_path
 
 
-def test_a_specification_becomes_a_proven_scene(workplace):
+def test_a_specification_becomes_a_verified_scene(workplace):
     (workplace / "scene.yaml").write_text(GOOD)
     assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 0
     scene = pat3d.load_scene(workplace / "out")
@@ -76,7 +76,7 @@ def test_a_specification_becomes_a_proven_scene(workplace):
     assert 2 * np.degrees(np.arccos(parcel.pose.quat_wxyz[0])) == pytest.approx(30, abs=0.1)
     report = json.loads((workplace / "out" / "report.json").read_text())
     assert report["passed"]
-    assert report["proof"]["relations"]["held"] == 3
+    assert report["verification"]["relations"]["held"] == 3
     assert str(workplace) not in (workplace / "out" / "scene.json").read_text()
 
 
@@ -182,7 +182,7 @@ def test_a_scene_that_cannot_hold_is_delivered_with_its_faults_and_exit_code_1(w
     assert (workplace / "out" / "preview.png").is_file()
 
 
-def test_what_balances_on_a_tip_is_not_proven_and_the_message_says_how_little_it_stands(workplace, capfd):
+def test_what_balances_on_a_tip_is_not_verified_and_the_message_says_how_little_it_stands(workplace, capfd):
     """The tip has a radius of 0.1 mm, the middle of the plum is 26 mm over it: it tips at 0.23 degrees."""
     (workplace / "scene.yaml").write_text(
         "objects:\n"
@@ -194,7 +194,7 @@ def test_what_balances_on_a_tip_is_not_proven_and_the_message_says_how_little_it
     streams = capfd.readouterr()
     assert "stands a tilt of 0.23 degrees, then plum goes" in " ".join(streams.out.split())
     assert '"plum" balances on too little: more than 0.23 degrees of tilt upset it.' in streams.err
-    certificate = json.loads((workplace / "out" / "report.json").read_text())["proof"]["certificate"]
+    certificate = json.loads((workplace / "out" / "report.json").read_text())["verification"]["certificate"]
     assert not certificate["passed"]
     assert certificate["worst"] < 1e-6
     assert certificate["largest_tilt"] == pytest.approx(np.degrees(np.arctan(0.102 / 25.96)), abs=0.01)

@@ -1,4 +1,4 @@
-"""From the command line to a proven folder, once, on a small scene; the tests look at what it left."""
+"""From the command line to a verified folder, once, on a small scene; the tests look at what it left."""
 
 import json
 import os
@@ -54,15 +54,15 @@ def test_the_folder_holds_what_a_scene_folder_holds_and_nothing_lies_beside_it(f
     assert (folder / "mjcf" / "scene.xml").is_file()
 
 
-def test_the_report_proves_the_scene(report):
+def test_the_report_verifies_the_scene(report):
     assert report["passed"]
     assert report["failures"] == []
-    proof = report["proof"]
-    assert proof["certificate"]["worst"] <= 1e-3
-    assert proof["penetration"]["hulls"] == proof["penetration"]["visuals"] == []
-    assert proof["mujoco"]["worst_mm"] < 1.0
-    assert proof["relations"]["held"] == proof["relations"]["count"] == 1
-    assert {"planning", "assets", "layout", "settling", "proof", "preview", "total"} <= set(report["seconds"])
+    verification = report["verification"]
+    assert verification["certificate"]["worst"] <= 1e-3
+    assert verification["penetration"]["hulls"] == verification["penetration"]["visuals"] == []
+    assert verification["mujoco"]["worst_mm"] < 1.0
+    assert verification["relations"]["held"] == verification["relations"]["count"] == 1
+    assert {"planning", "assets", "layout", "settling", "verification", "preview", "total"} <= set(report["seconds"])
     assert len(report["attempts"]) == 1
     assert [obj["fixed"] for obj in report["objects"]] == [False, False]
 

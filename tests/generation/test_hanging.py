@@ -49,7 +49,7 @@ def at_rest(prompt: str, seed: int) -> Scene:
         ("A chair hanging from a tree.", 0),
     ],
 )
-def test_what_hangs_from_a_tree_is_proven_and_hangs_still_in_mujoco(prompt, seed, tmp_path):
+def test_what_hangs_from_a_tree_is_verified_and_hangs_still_in_mujoco(prompt, seed, tmp_path):
     scene = at_rest(prompt, seed)
     hung = scene.attachments[0]
     on_child, on_parent = hung.ends(scene[hung.child].pose, scene[hung.parent].pose)

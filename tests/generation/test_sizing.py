@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from pat3d.generation.request import gather_plan
+from pat3d.generation.request import objects_of_plan
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.progress import silent
 
@@ -10,7 +10,7 @@ CROWDED = "A tray with a teapot, two cups and a plate."
 
 
 def tray_of(plan):
-    return next(one for one in gather_plan(plan, 0, silent) if one.name.endswith("tray"))
+    return next(one for one in objects_of_plan(plan, 0, silent) if one.name.endswith("tray"))
 
 
 def test_a_tray_that_is_too_small_for_what_is_on_it_is_made_larger_and_says_so():

@@ -201,7 +201,7 @@ def test_two_ropes_are_tied_along_the_branch_wherever_it_points(slope, tilt):
     along = on_child[1] - on_child[0]
     assert abs(along[0]) < 1e-6 * abs(along[1])
     assert np.degrees(np.arctan2(abs(along[2]), abs(along[1]))) == pytest.approx(tilt, abs=0.05)
-    assert layout.proof.min_distance == pytest.approx(GAP, abs=1e-4)
+    assert layout.clearance.min_distance == pytest.approx(GAP, abs=1e-4)
     trunk = layout.poses["tree"].position[1] + assets["tree"].bounds[0, 1] + 0.1
     assert layout.poses["swing"].position[1] - trunk > 0.3
 

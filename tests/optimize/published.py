@@ -26,7 +26,7 @@ SOFA = (
 )
 
 
-def ingredients(prompt: str, seed: int = 0) -> tuple[dict[str, Asset], tuple[Relation, ...]]:
+def objects(prompt: str, seed: int = 0) -> tuple[dict[str, Asset], tuple[Relation, ...]]:
     plan = GrammarPlanner().plan(prompt)
     assets = {
         obj.name: make(
@@ -59,7 +59,7 @@ def askew(assets: dict[str, Asset], share: float = 0.4, gap: float = 0.003) -> d
 
 def sofa_with_a_bear_over_the_edge() -> tuple[dict[str, Asset], tuple[Relation, ...], dict[str, Pose]]:
     """The crowded sofa, laid out with one of the two large bears half a metre too far to the front."""
-    assets, relations = ingredients(SOFA)
+    assets, relations = objects(SOFA)
     placement = Placement(assets, relations, arrange(assets, relations, seed=0).poses)
     variables = np.zeros((len(assets), 3))
     variables[list(assets).index("large teddy bear 2"), 1] = -0.5

@@ -21,7 +21,7 @@ from pat3d.optimize.starts import balance, balanced, make_starts
 from pat3d.optimize.steady import deepest
 from pat3d.scene.model import Relation
 from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
-from tests.optimize.published import HATS, askew, in_mujoco, ingredients, sofa_with_a_bear_over_the_edge
+from tests.optimize.published import HATS, askew, in_mujoco, objects, sofa_with_a_bear_over_the_edge
 from tests.optimize.scenes import on, overhanging
 from tests.optimize.stacks import stack
 
@@ -279,7 +279,7 @@ def test_a_stack_of_six_irregular_blocks_stands_after_optimisation_and_collapses
 
 @pytest.mark.slow
 def test_five_hats_stay_on_the_dogs_head(tmp_path):
-    assets, relations = ingredients(HATS)
+    assets, relations = objects(HATS)
     assert len(assets) == 6
     good = optimize(assets, relations, arrange(assets, relations, seed=0).poses)
     assert good.skipped

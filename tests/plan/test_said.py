@@ -3,7 +3,7 @@
 import pytest
 
 from pat3d.errors import PromptError
-from pat3d.generation.request import gather_plan
+from pat3d.generation.request import objects_of_plan
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import Extent, PlannedObject
 from pat3d.progress import silent
@@ -90,7 +90,7 @@ def test_an_extent_scales_the_side_that_it_names(
 
 def test_an_asset_has_the_size_that_the_prompt_gives():
     plan = GrammarPlanner().plan("two 5cm cubes, a huge 30 cm plate and a 20 cm tall vase")
-    sizes = {made.name: made.asset.size for made in gather_plan(plan, 0, silent)}
+    sizes = {made.name: made.asset.size for made in objects_of_plan(plan, 0, silent)}
     assert [sizes[f"cube {number}"].max() for number in (1, 2)] == pytest.approx([0.05, 0.05])
     assert sizes["huge plate"].max() == pytest.approx(0.3)
     assert sizes["vase"][2] == pytest.approx(0.2)

@@ -13,15 +13,15 @@ from tests.sim.oracles import IntersectionOracle, intersections
 HALF_TURNS = {"parallel": 0.0, "a hair from parallel": 1e-6, "crossed": np.pi / 2}
 
 
-def proven(model: Model, **options) -> Settled:
-    """The model settled, after proof that no recorded frame intersects."""
+def verified(model: Model, **options) -> Settled:
+    """The model settled, after verification that no recorded frame intersects."""
     settled = settle(model, SettleOptions(**options), throw=False)
     assert intersections(model, settled) == {}
     return settled
 
 
 def at_rest(model: Model, **options) -> Settled:
-    settled = proven(model, **options)
+    settled = verified(model, **options)
     assert settled.at_rest.all(), settled.residual
     return settled
 
@@ -105,7 +105,7 @@ def test_card_houses_stand_on_friction(levels, friction, stands):
 @pytest.mark.parametrize("share", [0.97, 1.03])
 def test_blocks_slide_exactly_where_the_slope_exceeds_friction(degrees, share):
     angle = np.deg2rad(degrees)
-    settled = proven(cases.slope(angle), friction=share * float(np.tan(angle)), max_frames=30, max_polish_steps=40)
+    settled = verified(cases.slope(angle), friction=share * float(np.tan(angle)), max_frames=30, max_polish_steps=40)
     assert settled.at_rest.all() == (share > 1)
     slid = np.linalg.norm(settled.q[1, 0] - settled.trajectory[1, 1, 0])
     assert (slid < 2e-3) if share > 1 else (slid > 5e-3)

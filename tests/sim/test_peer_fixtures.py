@@ -39,7 +39,7 @@ The fixture at exactly mu = 0.5 is left out: to rounding, the block may do eithe
 
 
 def settled_fixture(name: str, scale: float, **options) -> tuple[Fixture, Settled]:
-    """The fixture at rest, after proof that no recorded frame intersects."""
+    """The fixture at rest, after verification that no recorded frame intersects."""
     fixture = read_fixture(name, scale)
     model = fixture.model()
     settled = settle(model, SettleOptions(friction=fixture.friction, **options), throw=False)

@@ -2,7 +2,7 @@
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAssignmentType=false
 
-"""Which bodies intersect at a state: the proof that a simulation may start.
+"""Which bodies intersect at a state: the verification that a simulation may start.
 
 Two closed parts intersect when an edge of one pierces a face of the other, or when one contains the other. Where
 nothing pierces, one vertex tells: a surface winds around a point inside it once, and around one outside not at all

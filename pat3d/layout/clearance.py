@@ -1,4 +1,4 @@
-"""The proof that ends every layout: no two objects intersect and nothing is under the ground."""
+"""What ends every layout: no two objects intersect and nothing is under the ground."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class PairDistance:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proof:
-    """What the proof measured."""
+class Clearance:
+    """What lies near what, and near the ground."""
 
     pairs: tuple[PairDistance, ...]
     """Pairs nearer than the cutoff, nearest first."""
@@ -66,8 +66,8 @@ def near_pairs(bodies: list[Placed], cutoff: float) -> Iterator[tuple[int, int]]
         yield int(i), int(j)
 
 
-def prove(bodies: list[Placed], *, cutoff: float = 0.05) -> Proof:
-    """Prove that `bodies` neither intersect nor reach under the ground.
+def require_clearance(bodies: list[Placed], *, cutoff: float = 0.05) -> Clearance:
+    """Check that `bodies` neither intersect nor reach under the ground.
 
     Raises:
         LayoutError: two bodies intersect or touch, or one is under the ground.
@@ -80,4 +80,4 @@ def prove(bodies: list[Placed], *, cutoff: float = 0.05) -> Proof:
     pairs = measure(bodies, cutoff=cutoff)
     if pairs and pairs[0].distance <= 0.0:
         raise LayoutError(f'"{pairs[0].first}" and "{pairs[0].second}" intersect in the layout. Nothing was written.')
-    return Proof(pairs=pairs, lowest=float(min((body.low[2] for body in bodies), default=0.0)))
+    return Clearance(pairs=pairs, lowest=float(min((body.low[2] for body in bodies), default=0.0)))

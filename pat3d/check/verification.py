@@ -1,4 +1,4 @@
-"""The whole proof of a scene: balanced, disjoint, still in MuJoCo, faithful to its relations."""
+"""The whole verification of a scene: balanced, disjoint, still in MuJoCo, faithful to its relations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pat3d.scene.physics import STILL_SECONDS
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proof:
+class Verification:
     """What every check found."""
 
     certificate: Certificate
@@ -27,7 +27,7 @@ class Proof:
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """One line for everything that disproves the scene, with names and figures; none for a proven scene."""
+        """One line for everything that contradicts the scene, with names and figures; none for a verified scene."""
         lines = [
             f'"{name}" is not in equilibrium: unbalanced by {self.certificate.residuals[name]:.2g} of its weight at '
             f"friction {self.certificate.friction:g}."
@@ -36,8 +36,8 @@ class Proof:
         if self.certificate.fragile:
             lines.append(
                 f"{_listed(self.certificate.first_to_go)} balances on too little: more than "
-                f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. What is proven stands {LEAST_TILT:.2f} "
-                f"degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
+                f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. A verified scene stands "
+                f"{LEAST_TILT:.2f} degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
             )
         for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
             lines += [
@@ -59,7 +59,7 @@ class Proof:
 
     @property
     def unmet(self) -> tuple[str, ...]:
-        """Lateral relations that do not hold; the scene is proven without them but less faithful."""
+        """Lateral relations that do not hold; the scene is verified without them but less faithful."""
         return tuple(
             f"{found.relation} ({found.detail})"
             for found in self.relations
@@ -68,7 +68,7 @@ class Proof:
 
     @property
     def passed(self) -> bool:
-        """Nothing disproves the scene."""
+        """Nothing contradicts the scene."""
         return not self.failures
 
     def as_dict(self) -> dict[str, Any]:
@@ -121,17 +121,21 @@ def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
     )
 
 
-def prove(scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, seconds: float = STILL_SECONDS) -> Proof:
+def verify(
+    scene: Scene, mjcf_path: str | Path, progress: Progress = silent, *, seconds: float = STILL_SECONDS
+) -> Verification:
     """Check `scene`, written as MJCF at `mjcf_path`, in every way.
 
     Raises:
         CheckError: MuJoCo refuses the file.
     """
-    progress(Event(stage="proving", detail="static equilibrium", step=0, steps=4))
+    progress(Event(stage="verifying", detail="static equilibrium", step=0, steps=4))
     certificate = certify(scene, margin=True)
-    progress(Event(stage="proving", detail="no intersections", step=1, steps=4))
+    progress(Event(stage="verifying", detail="no intersections", step=1, steps=4))
     overlaps = penetration(scene)
-    progress(Event(stage="proving", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
+    progress(Event(stage="verifying", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
     mujoco = settle_in_mujoco(mjcf_path, seconds)
-    progress(Event(stage="proving", detail="relations", step=3, steps=4))
-    return Proof(certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene))
+    progress(Event(stage="verifying", detail="relations", step=3, steps=4))
+    return Verification(
+        certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)
+    )
