@@ -39,7 +39,11 @@ def make(folder: Path, prompts: list[str]) -> None:
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[1])}
     for command in (*commands, (*SUITE, "--workers", "1"), EPISODES):
         done = subprocess.run(
-            [sys.executable, "-m", "pat3d", *command], cwd=folder, env=environment, stdout=subprocess.DEVNULL, check=False
+            [sys.executable, "-m", "pat3d", *command],
+            cwd=folder,
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            check=False,
         )
         print(f"exit {done.returncode}: pat3d {' '.join(command)[:90]}", flush=True)
 

@@ -39,7 +39,7 @@ MANIFEST, SCENES, REJECTED, WORK, LOCK, LOG, PAGE, HUB = (
     "env.py",
 )
 RECORD = "record.json"
-FORMAT, VERSION = "pat3d-suite", 1
+FORMAT, VERSION = "pat3d-suite", 2
 
 MAX_MANIFEST_BYTES = 2 * 2**30
 MAX_SCENE_FILES = 20_000

@@ -117,8 +117,9 @@ def check_version(document: Mapping[str, Any], where: Path) -> None:
     version = document.get("version")
     if document.get("format") != FORMAT or not isinstance(version, int):
         raise SuiteError(f"{where}: not a suite's description.")
-    if version > VERSION:
-        raise SuiteError(f"{where}: format {version}; this PAT3D reads up to {VERSION}. Upgrade pat3d.")
+    if version != VERSION:
+        remedy = "Upgrade pat3d." if version > VERSION else "Generate the suite again from its request."
+        raise SuiteError(f"{where}: format {version}; this PAT3D reads {VERSION}. {remedy}")
 
 
 def _entry(scene: Any, place: int, where: Path) -> Entry:

@@ -186,7 +186,8 @@ def test_a_scene_whose_files_changed_is_refused_by_environments_and_by_the_check
 def test_suites_from_a_newer_version_and_damaged_ones_are_told_apart(copy):
     document = json.loads((copy / MANIFEST).read_text())
     for change, message in (
-        ({"version": 99}, "reads up to 1. Upgrade pat3d"),
+        ({"version": 99}, "reads 2. Upgrade pat3d"),
+        ({"version": 1}, "reads 2. Generate the suite again"),
         ({"format": "other"}, "not a suite's description"),
         ({"scenes": document["scenes"][:1]}, "does not list 4 scenes"),
         (
