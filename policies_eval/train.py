@@ -67,10 +67,12 @@ def train(
     epochs: int = 200,
     seed: int = 0,
     noise: float = 0.3,
+    successes: int | None = None,
     demonstrations: str | Path | None = None,
+    overwrite: bool = False,
     target: Any = None,
-) -> None:
-    """Demonstrate, train and write a checkpoint.
+) -> int:
+    """Demonstrate, train and write a checkpoint; returns how many demonstrations it learned from.
 
     Args:
         episodes: that are demonstrated.
@@ -78,17 +80,20 @@ def train(
         epochs: passes over the demonstrations.
         seed: of the training.
         noise: of the demonstrating hand.
+        successes: after which no more are demonstrated; None for all episodes.
         demonstrations: file or folder to write them to, if any.
+        overwrite: replace what is there.
         target: a console for the progress.
     """
     if Path(out).suffix != ".pt":
         raise EvaluationError(f'a checkpoint is FILE.pt, not "{out}".')
     begun = time.perf_counter()
-    shown = demonstrate(episodes, noise=noise, target=target)
+    shown = demonstrate(episodes, noise=noise, successes=successes, target=target)
     if demonstrations is not None:
-        write_demonstrations(shown, demonstrations)
+        write_demonstrations(shown, demonstrations, overwrite=overwrite)
     network, error = fit(shown, epochs=epochs, seed=seed, target=target)
     save(network, out, {"demonstrations": len(shown), "epochs": epochs, "error": error, "seed": seed})
     if target is not None:
         seconds = time.perf_counter() - begun
         target.print(f"{out}: {len(shown)} demonstrations, error {error:.4f}, {seconds:.0f} s", highlight=False)
+    return len(shown)

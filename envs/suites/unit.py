@@ -115,7 +115,7 @@ def _fault(attempt: Attempt) -> str:
     """What kind of fault an attempt has, in a word; empty for none."""
     if attempt.error is not None:
         return "layout" if isinstance(attempt.error, LayoutError) else "simulation"
-    if attempt.rest is not None and not attempt.rest.at_rest:
+    if attempt.settled is not None and not attempt.settled.at_rest:
         return "not at rest"
     if attempt.broken:
         return "relations"

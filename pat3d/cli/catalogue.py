@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 from collections.abc import Iterator
 from contextlib import suppress
 from itertools import groupby
 from pathlib import Path
 
-from pat3d.assets import catalogue
+from pat3d.assets import catalogue as nouns
 from pat3d.cli.console import console, watch
-from pat3d.errors import PromptError
+from pat3d.cli.options import command, option
+from pat3d.errors import PromptError, SpecError
 from pat3d.progress import Event, Progress
 from pat3d.scene.asset import VisualMesh
 from pat3d.scene.cache import cache_root
@@ -18,11 +20,31 @@ from pat3d.scene.folder import read_json, write_json
 from pat3d.scene.naming import slug
 
 
+@command(
+    option("name", "noun or synonym", metavar="NAME", nargs="?"),
+    option("--sheet", "write pictures of everything", metavar="PNG"),
+    option("--out", "picture of NAME", metavar="PNG", shown="./NAME.png"),
+    option("--seed", "variation of what is drawn", type=int, default=0, shown=""),
+    examples="""
+    pat3d catalogue                        list everything by family
+    pat3d catalogue mug                    one object, with a picture in mug.png
+    pat3d catalogue --sheet catalogue.png  pictures of everything
+    """,
+)
+def catalogue(options: argparse.Namespace) -> int:
+    """`pat3d catalogue`."""
+    if options.name is not None:
+        return one(options.name, seed=options.seed, out=options.out)
+    if options.out is not None:
+        raise SpecError("--out is the picture of one object; name it, or use --sheet for pictures of everything.")
+    return everything(seed=options.seed, sheet=options.sheet)
+
+
 def everything(*, seed: int, sheet: str | None) -> int:
     """Print every noun by family; with `sheet`, draw them all into that PNG file."""
     from rich.table import Table
 
-    target, found = console(), catalogue.entries()
+    target, found = console(), nouns.entries()
     written: list[Path] = []
     with watch(console(stderr=True)) as progress:
         sizes = _sizes(seed, progress)
@@ -44,25 +66,25 @@ def everything(*, seed: int, sheet: str | None) -> int:
     return 0
 
 
-def _drawn(found: tuple[catalogue.Entry, ...], seed: int, progress: Progress) -> Iterator[tuple[str, VisualMesh]]:
+def _drawn(found: tuple[nouns.Entry, ...], seed: int, progress: Progress) -> Iterator[tuple[str, VisualMesh]]:
     """Name and mesh of every noun, made when it is their turn."""
     for number, entry in enumerate(found):
         progress(Event(stage="drawing", detail=entry.noun, step=number, steps=len(found)))
-        yield entry.noun, catalogue.make(entry.noun, seed=seed).visual
+        yield entry.noun, nouns.make(entry.noun, seed=seed).visual
 
 
 def _sizes(seed: int, progress: Progress) -> dict[str, list[float]]:
     """Extents of every noun [m]; kept in the cache, for as long as no recipe changes."""
-    recipes = sorted(Path(catalogue.__file__).parent.parent.rglob("*.py"))
+    recipes = sorted(Path(nouns.__file__).parent.parent.rglob("*.py"))
     digest = hashlib.sha256(b"".join(path.read_bytes() for path in recipes)).hexdigest()
     cache = cache_root() / f"catalogue-{digest[:16]}-{seed}.json"
-    found = catalogue.entries()
+    found = nouns.entries()
     sizes = read_json(cache)
     if all(_is_size(sizes.get(entry.noun)) for entry in found):
         return sizes
     for number, entry in enumerate(found):
         progress(Event(stage="measuring", detail=entry.noun, step=number, steps=len(found)))
-        sizes[entry.noun] = catalogue.make(entry.noun, seed=seed).size.tolist()
+        sizes[entry.noun] = nouns.make(entry.noun, seed=seed).size.tolist()
     # A folder that cannot be written only costs the time again.
     with suppress(OSError):
         cache.parent.mkdir(parents=True, exist_ok=True)
@@ -83,11 +105,11 @@ def one(name: str, *, seed: int, out: str | None) -> int:
     from pat3d.view.preview import save_turntable
 
     words = " ".join(name.lower().split())
-    entry = catalogue.find(words)
+    entry = nouns.find(words)
     if entry is None:
-        near = ", ".join(f'"{other}"' for other in catalogue.nearest(words)) or "see `pat3d catalogue`"
+        near = ", ".join(f'"{other}"' for other in nouns.nearest(words)) or "see `pat3d catalogue`"
         raise PromptError(f'"{name}" is not in the catalogue. Nearest: {near}.')
-    asset = catalogue.make(entry.noun, seed=seed)
+    asset = nouns.make(entry.noun, seed=seed)
     picture = Path(out) if out is not None else Path(f"{slug(entry.noun)}.png")
     properties, material = asset.mass_properties, asset.material
     places = ", ".join(

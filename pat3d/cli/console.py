@@ -18,11 +18,13 @@ if TYPE_CHECKING:
     from pat3d.check.engines.check import Verdict
     from pat3d.check.verification import Verification
     from pat3d.exporters.compare import ParityReport
+    from pat3d.generation.many import Row
     from pat3d.generation.optimize_folder import Outcome
     from pat3d.generation.report import Report
+    from pat3d.generation.settle_folder import Outcome as SettledOutcome
     from pat3d.scene.model import Scene
 
-_QUIET_SECONDS = 10.0
+QUIET_SECONDS = 5.0
 """A log that is no terminal hears of a stage in progress at most this often."""
 
 
@@ -34,6 +36,14 @@ def console(*, stderr: bool = False) -> Console:
     if not made.is_terminal:
         made = Console(stderr=stderr, highlight=False, emoji=False, width=120)
     return made
+
+
+def verdict(failures: Sequence[str]) -> int:
+    """Print a line for every failure on stderr; returns the exit code."""
+    errors = console(stderr=True)
+    for line in failures:
+        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
+    return 1 if failures else 0
 
 
 @contextmanager
@@ -60,7 +70,7 @@ class _Lines:
 
     def tell(self, event: Event) -> None:
         now = time.perf_counter()
-        if event.stage == self._stage and now - self._last < _QUIET_SECONDS:
+        if event.stage == self._stage and now - self._last < QUIET_SECONDS:
             return
         self._stage, self._last = event.stage, now
         self._console.print(f"{now - self._start:6.1f} s  {_words(event)}", markup=False)
@@ -204,17 +214,17 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
     """The summary that ends a run."""
     from pat3d.generation.optimize_stage import TORCH, available
 
-    delivery = report.delivery
-    best = delivery.best
-    show_verification(target, delivery.checked.scene, delivery.checked.verification)
-    show_optimisation(target, delivery.checked.rest.optimisation)
+    chosen = report.chosen
+    best = chosen.best
+    show_verification(target, chosen.checked.scene, chosen.checked.verification)
+    show_optimisation(target, chosen.checked.settled.optimisation)
     show_parity(target, report.exports)
     for note in (*_said_back(report.understood), *best.notes):
         target.print(f"note  {note}", markup=False)
-    if report.failures and delivery.checked.rest.optimisation is None and not available():
+    if report.failures and chosen.checked.settled.optimisation is None and not available():
         target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
-    if len(delivery.tried) > 1:
-        target.print(f"note  attempt {best.number + 1} of {len(delivery.tried)} was kept", markup=False)
+    if len(chosen.tried) > 1:
+        target.print(f"note  attempt {best.number + 1} of {len(chosen.tried)} was kept", markup=False)
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
@@ -228,19 +238,59 @@ def _said_back(understood: Mapping[str, Any]) -> tuple[str, ...]:
     return (*understood.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
 
 
-def show_mended(target: Console, outcome: Outcome) -> None:
+def show_optimized(target: Console, outcome: Outcome) -> None:
     """The summary that ends `pat3d optimize`."""
-    if outcome.skipped:
-        target.print("every relation holds already; the scene is left as it is", markup=False)
-        return
+    _show_edited(target, outcome.edited)
     if outcome.verification is None:
-        show_optimisation(target, outcome.improved.record(kept=False))
-        target.print("the scene is left as it is", markup=False)
+        if outcome.skipped:
+            target.print("every relation holds already; the scene is left as it is", markup=False)
+        else:
+            show_optimisation(target, outcome.optimized.record(kept=False))
+            target.print("the scene is left as it is", markup=False)
         return
     show_verification(target, outcome.scene, outcome.verification)
-    show_optimisation(target, outcome.improved.record(kept=True))
+    if outcome.skipped:
+        target.print("every relation holds where the edited scene came to rest", markup=False)
+    else:
+        show_optimisation(target, outcome.optimized.record(kept=outcome.optimized.settled is not None))
     target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
     show_files(target, outcome.folder)
+
+
+def show_settled(target: Console, outcome: SettledOutcome) -> None:
+    """The summary that ends `pat3d settle`."""
+    _show_edited(target, outcome.edited)
+    show_verification(target, outcome.scene, outcome.written.verification)
+    name, metres = max(outcome.moved.items(), key=lambda item: item[1])
+    target.print(f"came to rest at most {_length(metres)} from where it was put ({name})", markup=False)
+    target.print(f"\n{outcome.seconds:.1f} s in all; written to:", markup=False)
+    show_files(target, outcome.folder)
+
+
+def _show_edited(target: Console, names: Sequence[str]) -> None:
+    if names:
+        target.print(f"note  edited since it settled: {', '.join(names)}", markup=False)
+
+
+def show_many(target: Console, rows: Sequence[Row]) -> None:
+    """A line for every prompt of a file."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("scene", overflow="fold")
+    for title in ("objects", "drift mm", "s"):
+        table.add_column(title, justify="right", no_wrap=True)
+    table.add_column("")
+    colours = {"verified": "green", "faulty": "bold red", "refused": "bold red"}
+    for row in rows:
+        figures = ("-", "-", "-")
+        if row.state != "refused":
+            figures = (str(row.objects), f"{row.drift_mm:.3f}", "kept" if row.kept else f"{row.seconds:.1f}")
+        said = f": {row.message}".replace("[", r"\[") if row.message else ""
+        table.add_row(row.folder, *figures, f"[{colours[row.state]}]{row.state}[/]{said}")
+    target.print(table)
+    good = sum(row.state == "verified" for row in rows)
+    target.print(f"\n{good} of {len(rows)} scenes verified", markup=False)
 
 
 def show_optimisation(target: Console, record: Mapping[str, Any] | None) -> None:

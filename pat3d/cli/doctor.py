@@ -2,134 +2,152 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import platform
 import re
 import sys
-from importlib import metadata
+import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Literal
 
+from pat3d.cli.console import console, watch
+from pat3d.cli.extras import DEVELOPMENT, ENABLES, requirements
+from pat3d.cli.options import command
+from pat3d.progress import Event, Progress
 from pat3d.scene.versions import version_of
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
-NEEDED = {
-    "numpy": "2.0",
-    "scipy": "1.13",
-    "warp-lang": "1.15",
-    "mujoco": "3.9",
-    "trimesh": "4.5",
-    "manifold3d": "3.0",
-    "coacd": "1.0.5",
-    "python-fcl": "0.7.0.8",
-    "clarabel": "0.9",
-    "embreex": "2.17",
-    "pillow": "10.0",
-    "pyyaml": "6.0",
-    "jsonschema": "4.20",
-    "networkx": "3.0",
-    "rich": "13.0",
-    "ipctk": "1.3",
-}
-"""Least versions that are supported."""
-
-OPTIONAL = {
-    "torch": "losses and gradients in PyTorch",
-    "usd-core": "USD files",
-    "gymnasium": "reinforcement-learning environments",
-    "robosuite": "robots and controllers",
-    "pyarrow": "records of policy evaluations",
-    "websockets": "policies on openpi servers",
-    "imageio-ffmpeg": "films of episodes as MP4",
-    "h5py": "demonstrations for robomimic",
-    "lerobot": "checkpoints of LeRobot as policies",
-    "ray": "suites made by a cluster",
-    "mujoco-warp": "thousands of scenes at once on a GPU",
-}
+State = Literal["ok", "no", "FAULT"]
+"""Works; is not here, and need not be; is wrong."""
 
 
-def examine(target: Console) -> int:
-    """Print what was found; returns 1 if something that is needed is missing."""
-    from rich.table import Table
+class Table:
+    """What was found, a row each."""
 
-    good = True
-    table = Table(box=None, pad_edge=False, show_header=False)
-    table.add_column(width=6)
-    table.add_column()
-    table.add_column(overflow="fold")
+    def __init__(self) -> None:
+        from rich.table import Table as Rows
 
-    def row(state: str, what: str, text: str) -> None:
-        text = text.replace("[", r"\[")
+        self.rows = Rows(box=None, pad_edge=False, show_header=False)
+        self.rows.add_column(width=6)
+        self.rows.add_column()
+        self.rows.add_column(overflow="fold")
+        self.faults = 0
+
+    def add(self, state: State, what: str, text: str) -> None:
+        """Add a row; a fault makes the exit code 1."""
+        self.faults += state == "FAULT"
         colour = {"ok": "green", "no": "yellow", "FAULT": "red"}[state]
-        table.add_row(f"[{colour}]{state}[/]", what, text)
+        self.rows.add_row(f"[{colour}]{state}[/]", what, text.replace("[", r"\["))
 
-    row("ok" if sys.version_info >= (3, 11) else "FAULT", "Python", f"{platform.python_version()}, {sys.executable}")
-    row("ok", "computer", f"{platform.system()} {platform.machine()}, {_cores()} cores, {_memory()}")
-    for package, least in NEEDED.items():
-        found = version_of(package)
-        fits = found is not None and _number(found) >= _number(least)
-        good &= fits
-        advice = "" if fits else ": pip install pat3d again"
-        row("ok" if fits else "FAULT", package, f"{found or 'missing'} (needs {least} or newer){advice}")
-    good &= _warp(row)
-    row("ok", "pictures", "drawn on the CPU; no GL library is needed")
-    _egl(row)
-    for package, what in OPTIONAL.items():
-        found = version_of(package)
-        if found:
-            row("ok", package, f"{found}: {what}")
-        else:
-            row("no", package, f"not installed; would enable {what}: {_extra(package)}")
-    _engines(row)
+
+@command(
+    examples="""
+    pat3d doctor
+    """
+)
+def doctor(options: argparse.Namespace) -> int:
+    """`pat3d doctor`: 1 where something that is needed is missing, or something that is installed does not work."""
+    table = Table()
+    with watch(console(stderr=True)) as progress:
+        _computer(table)
+        _packages(table)
+        _warp(table)
+        _parts(table, progress)
+        _egl(table)
+        _engines(table)
     from pat3d.scene.cache import cache_root
 
-    row("ok", "mesh cache", _folder(cache_root()))
-    target.print(table)
-    return 0 if good else 1
+    table.add("ok", "mesh cache", _folder(cache_root()))
+    console().print(table.rows)
+    return 1 if table.faults else 0
 
 
-def _warp(row: Any) -> bool:
+def _computer(table: Table) -> None:
+    table.add("ok", "Python", f"{platform.python_version()}, {sys.executable}")
+    table.add("ok", "computer", f"{platform.system()} {platform.machine()}, {_cores()} cores, {_memory()}")
+
+
+def _packages(table: Table) -> None:
+    """Every package that the metadata names: the needed ones, then those of the extras."""
+    asked = requirements()
+    if not asked:
+        table.add("no", "packages", "pat3d itself is not installed, so nothing says what it needs: pip install -e .")
+    seen = set()
+    for one in sorted(asked, key=lambda one: one.extra != ""):
+        if one.extra == DEVELOPMENT or one.name in seen or one.name == "pat3d":
+            continue
+        seen.add(one.name)
+        found = version_of(one.name)
+        least = f"needs {one.least} or newer" if one.least else "any version"
+        what = f": {ENABLES[one.extra]}" if one.extra in ENABLES else ""
+        if found is None and one.extra:
+            advice = f"pip install 'pat3d[{one.extra}]'"
+            table.add("no", one.name, f"not installed; would enable{what.removeprefix(':')}: {advice}")
+        elif found is None or _number(found) < _number(one.least):
+            advice = f"pip install 'pat3d[{one.extra}]' again" if one.extra else "pip install pat3d again"
+            table.add("FAULT", one.name, f"{found or 'missing'} ({least}): {advice}")
+        else:
+            table.add("ok", one.name, f"{found} ({least}){what}")
+
+
+def _parts(table: Table, progress: Progress) -> None:
+    """One real step of every part that can be here."""
+    from pat3d.cli.parts import PARTS
+    from pat3d.sim.compilation import quiet_warp
+
+    for number, part in enumerate(PARTS):
+        progress(Event(stage="trying", detail=part.name, step=number, steps=len(PARTS)))
+        if part.missing:
+            table.add("no", part.name, f"not tried for want of {', '.join(part.missing)}")
+            continue
+        if part.gpu and not quiet_warp().is_cuda_available():
+            table.add("no", part.name, "not tried for want of a GPU")
+            continue
+        with tempfile.TemporaryDirectory(prefix="pat3d-doctor-") as scratch:
+            try:
+                table.add("ok", part.name, part.step(Path(scratch)))
+            except Exception as error:
+                # Whatever a broken installation raises is the finding.
+                table.add("FAULT", part.name, f"{type(error).__name__}: {error}")
+
+
+def _warp(table: Table) -> None:
     """Report Warp's devices and its compiled kernels."""
     try:
         from pat3d.sim.compilation import cache_folder, is_warm, quiet_warp
 
         devices = [f"{device.alias} ({device.name})" for device in quiet_warp().get_devices()]
-        gpus = [name for name in devices if name.startswith("cuda")]
-        row("ok", "simulator", "runs on " + ", ".join(devices))
-        if not gpus:
-            row("no", "GPU", "none that CUDA knows; an NVIDIA driver would enable --device cuda")
-        warm = "compiled" if is_warm() else "not compiled yet; the first run takes up to a minute longer"
-        row("ok", "kernels", f"{warm}: {_folder(cache_folder())}")
+        table.add("ok", "simulator", "runs on " + ", ".join(devices))
+        if not any(name.startswith("cuda") for name in devices):
+            table.add("no", "GPU", "none that CUDA knows; an NVIDIA driver would enable --device cuda")
+        warm = "compiled" if is_warm() else "not compiled before this; that takes up to a minute"
+        table.add("ok", "kernels", f"{warm}: {_folder(cache_folder())}")
     except Exception as error:
         # Whatever a broken installation raises is the finding.
-        row("FAULT", "simulator", f"Warp does not start: {type(error).__name__}: {error}")
-        return False
-    return True
+        table.add("FAULT", "simulator", f"Warp does not start: {type(error).__name__}: {error}")
 
 
-def _engines(row: Any) -> None:
+def _engines(table: Table) -> None:
     """Report which engines `pat3d check --engines` can run."""
     from pat3d.check.engines.environments import NAMES, engines_root, how_to_get, is_made
 
     for name in NAMES:
         if is_made(name):
-            row("ok", name, f"engine for pat3d check --engines, in {engines_root() / name}")
+            table.add("ok", name, f"engine for pat3d check --engines, in {engines_root() / name}")
         else:
-            row("no", name, f"would let pat3d check --engines run scenes there: {how_to_get(name)}")
+            table.add("no", name, f"would let pat3d check --engines run scenes there: {how_to_get(name)}")
 
 
-def _egl(row: Any) -> None:
+def _egl(table: Table) -> None:
     from pat3d.view.gl import egl_renderer, is_software
 
     card = egl_renderer()
     if card is None:
-        row("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
+        table.add("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
     elif is_software(card):
-        row("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
+        table.add("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
     else:
-        row("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
+        table.add("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
 
 
 def _cores() -> int:
@@ -156,13 +174,3 @@ def _folder(path: Path) -> str:
 def _number(version: str) -> tuple[int, ...]:
     """The numbers of a version: (3, 9, 0) for "3.9.0rc1"."""
     return tuple(int(part) for part in re.findall(r"\d+", re.split(r"[a-z+]", version)[0]))
-
-
-def _extra(package: str) -> str:
-    """How to install an optional package."""
-    try:
-        wanted = [line for line in metadata.requires("pat3d") or [] if line.lower().startswith(package)]
-    except metadata.PackageNotFoundError:
-        wanted = []
-    extra = re.search(r"extra == ['\"](\w+)['\"]", wanted[0]) if wanted else None
-    return f"pip install 'pat3d[{extra.group(1)}]'" if extra else f"pip install {package}"

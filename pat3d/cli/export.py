@@ -8,24 +8,67 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pat3d.cli.console import console, watch
+from pat3d.cli.console import console, verdict, watch
+from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
-from pat3d.exporters.formats import FORMATS, chosen, export, has_usd
+from pat3d.exporters.formats import FORMATS, chosen, has_usd
+from pat3d.exporters.formats import export as write_formats
 from pat3d.progress import Event
 
 if TYPE_CHECKING:
     from pat3d.generation.asset_export import ExportedAsset
 
-MESH_OPTIONS = ("mass", "density", "material", "friction", "units", "scale", "size", "up", "parts", "thickness")
+_MESHES = "meshes only"
+
+_MESH_OPTIONS = (
+    option("--mass", "mass of the object", type=float, metavar="KG", group=_MESHES, rival="weight"),
+    option("--density", "density of the closed surface", type=float, metavar="KG/M3", group=_MESHES, rival="weight"),
+    option("--material", "for density and friction", metavar="NAME", group=_MESHES, shown="plastic"),
+    option("--friction", "friction coefficient", type=float, metavar="MU", group=_MESHES, shown="the material's"),
+    option("--units", "of the file: m, cm, mm, in", metavar="UNIT", group=_MESHES, shown="m"),
+    option("--scale", "factor on the file's coordinates", type=float, group=_MESHES),
+    option("--size", "longest side, instead of units and scale", type=float, metavar="M", group=_MESHES),
+    option(
+        "--up",
+        "the file's axis that points up: z, -y, ...",
+        metavar="AXIS",
+        group=_MESHES,
+        shown="y for glTF, else z",
+    ),
+    option("--parts", "convex parts by coacd, hull or box", metavar="HOW", group=_MESHES, shown="coacd"),
+    option("--thickness", "of the walls of an open shell", type=float, metavar="M", group=_MESHES),
+)
+"""Arguments of `import_mesh`, which knows their defaults."""
 
 
-def run(options: argparse.Namespace) -> int:
-    """Run `pat3d export`."""
+@command(
+    option("source", "a scene folder, a mesh file, or a folder of meshes", metavar="SOURCE"),
+    option("--out", "where to write; each format has its folder", metavar="FOLDER", required=True),
+    option(
+        "--formats",
+        f"{', '.join(FORMATS)}, with commas or spaces between",
+        nargs="+",
+        metavar="FORMAT",
+        shown="all",
+    ),
+    option("--usda", "USD as text, scene.usda", action="store_true"),
+    option("--usdz", "USD also in one file, scene.usdz", action="store_true"),
+    *_MESH_OPTIONS,
+    examples="""
+    pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
+    pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
+    pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
+    pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
+    """,
+)
+def export(options: argparse.Namespace) -> int:
+    """`pat3d export`."""
     source, out = Path(options.source).expanduser(), Path(options.out).expanduser()
     formats, notes = _formats(options.formats)
     usd = {"text": options.usda, "package": options.usdz}
-    mesh = {name: value for name in MESH_OPTIONS if (value := getattr(options, name)) is not None}
+    names = (one.name.removeprefix("--") for one in _MESH_OPTIONS)
+    mesh = {name: value for name in names if (value := getattr(options, name)) is not None}
     if (source / "scene.json").is_file() or source.name == "scene.json":
         if mesh:
             raise SpecError(f"--{next(iter(mesh))} is for meshes; {source} is a scene, whose objects are weighed.")
@@ -54,7 +97,7 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
     with watch(console(stderr=True)) as progress:
         scene = load_scene(folder)
         start = time.perf_counter()
-        paths = export(scene, formats, out, progress=progress, **usd)
+        paths = write_formats(scene, formats, out, progress=progress, **usd)
         seconds = time.perf_counter() - start
         reports = {name: parity(scene, path) for name, path in paths.items()}
     target = console()
@@ -62,7 +105,7 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
-    return _verdict(tuple(line for report in reports.values() for line in report.failures))
+    return verdict(tuple(line for report in reports.values() for line in report.failures))
 
 
 def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh: dict[str, Any]) -> int:
@@ -97,15 +140,8 @@ def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, An
     errors = console(stderr=True)
     for error in refused:
         errors.print(f"pat3d: {type(error).__name__}: {error}", markup=False, soft_wrap=True)
-    code = _verdict(tuple(line for one in made for line in one.failures))
+    code = verdict(tuple(line for one in made for line in one.failures))
     return max((error.exit_code for error in refused), default=code)
-
-
-def _verdict(failures: tuple[str, ...]) -> int:
-    errors = console(stderr=True)
-    for line in failures:
-        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
-    return 1 if failures else 0
 
 
 def parity_table(reports: Mapping[str, ParityReport]) -> Any:

@@ -9,77 +9,62 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pat3d.cli.console import console
+from pat3d.cli.console import QUIET_SECONDS, console, verdict
+from pat3d.cli.options import command, fields, option, values, with_verbs
+from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
 from pat3d.errors import SuiteError
 
 if TYPE_CHECKING:
     from pat3d.envs.suites.generate import Status, Watcher
 
-_QUIET_SECONDS = 10.0
-"""A log that is no terminal hears at most this often."""
+_WORKERS = option("--workers", "processes; auto for one a core", default="auto")
+_FOLDER = option("folder", "suite folder", metavar="OUT")
 
 
-def add_arguments(to: argparse.ArgumentParser, formatter: Any) -> None:
-    """The verbs of `pat3d suite`."""
-    verbs = to.add_subparsers(dest="verb", required=True, metavar="VERB")
-    making = verbs.add_parser(
-        "generate",
-        help="make a suite, or what is missing of it",
-        formatter_class=formatter,
-        epilog="Interrupted or killed, the same command goes on where it stopped. The same seed "
-        "gives the same suite with any number of workers (on a GPU, to 1e-9 m).",
-    )
-    making.add_argument("folder", metavar="OUT", help="suite folder to write")
-    making.add_argument("--tasks", default=",".join(TASKS[:5]), help=f"any of {', '.join(TASKS)} (all but retrieve)")
-    making.add_argument("--scenes", type=int, default=100, help="how many (100); a larger number makes a suite longer")
-    making.add_argument("--seed", type=int, default=0, help="the same seed gives the same suite (0)")
-    making.add_argument("--objects", default="5-8", metavar="N or N-M", help="objects of a scene (5-8)")
-    making.add_argument("--robot", default="Panda", help="that must be able to do the tasks (Panda)")
-    making.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
-    making.add_argument(
-        "--device", choices=DEVICES, default="cpu", help="where scenes settle; on a GPU, many side by side (cpu)"
-    )
-    making.add_argument("--ray", metavar="ADDRESS", help="let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto")
-    making.add_argument(
+@command(
+    option("folder", "suite folder to write", metavar="OUT"),
+    *fields(
+        Request,
+        {
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve"},
+            "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
+            "device": {"choices": DEVICES},
+            "picture": {"metavar": "PIXELS"},
+        },
+        tasks=f"any of {', '.join(TASKS)}",
+        scenes="how many; a larger number makes a suite longer",
+        seed="the same seed gives the same suite",
+        objects="objects of a scene",
+        robot="that must be able to do the tasks",
+        device="where scenes settle; on a GPU, many side by side",
+        picture="width of the scenes' pictures; 0 for none",
+    ),
+    _WORKERS,
+    option("--ray", "let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto", metavar="ADDRESS"),
+    option(
         "--limit",
+        "for one scene; one that takes longer twice is replaced",
         type=float,
-        default=300.0,
+        default=LIMIT,
         metavar="SECONDS",
-        help="for one scene; one that takes longer twice is replaced (300)",
-    )
-    making.add_argument(
-        "--picture", type=int, default=320, metavar="PIXELS", help="width of the scenes' pictures; 0 for none (320)"
-    )
-    checking = verbs.add_parser("check", help="verify a suite again: files, splits, stillness in MuJoCo")
-    checking.add_argument("folder", metavar="OUT", help="suite folder")
-    checking.add_argument("--quick", action="store_true", help="checksums and splits only")
-    checking.add_argument("--workers", default="auto", help="processes; auto for one a core (auto)")
-    showing = verbs.add_parser("show", help="numbers in the terminal; pictures on the page index.html")
-    showing.add_argument("folder", metavar="OUT", help="suite folder")
-
-
-def run(options: argparse.Namespace) -> int:
-    """`pat3d suite VERB`."""
-    return {"generate": _generate, "check": _check, "show": _show}[options.verb](options)
-
-
-def _generate(options: argparse.Namespace) -> int:
+    ),
+    summary="make a suite, or what is missing of it",
+    examples="""
+    pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+    """,
+    notes="Interrupted or killed, the same command goes on where it stopped. The same seed gives the same suite with "
+    "any number of workers (on a GPU, to 1e-9 m).",
+)
+def generate(options: argparse.Namespace) -> int:
+    """`pat3d suite generate`."""
     from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.generate import generate
     from pat3d.envs.suites.suite import Suite
 
     worker_count(options.workers)
-
-    request = Request(
-        tasks=tuple(name.strip() for name in options.tasks.split(",")),
-        scenes=options.scenes,
-        seed=options.seed,
-        objects=_range(options.objects),
-        robot=options.robot,
-        picture=options.picture,
-        device=options.device,
-    )
+    tasks = tuple(name.strip() for name in options.tasks.split(","))
+    request = Request(**values(Request, options) | {"tasks": tasks, "objects": _range(options.objects)})
     with _progress() as tell:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
@@ -94,7 +79,14 @@ def _generate(options: argparse.Namespace) -> int:
     return 0
 
 
-def _check(options: argparse.Namespace) -> int:
+@command(
+    _FOLDER,
+    option("--quick", "checksums and splits only", action="store_true"),
+    _WORKERS,
+    summary="verify a suite again: files, splits, stillness in MuJoCo",
+)
+def check(options: argparse.Namespace) -> int:
+    """`pat3d suite check`."""
     from pat3d.envs.suites.check import check_suite
     from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.suite import Suite
@@ -102,16 +94,15 @@ def _check(options: argparse.Namespace) -> int:
     suite = Suite.open(options.folder)
     with _counting("checking") as tell:
         lines = check_suite(suite, settle=not options.quick, workers=worker_count(options.workers), tell=tell)
-    errors = console(stderr=True)
-    for line in lines:
-        errors.print(f"pat3d: {line}", markup=False, soft_wrap=True)
     how = "files and splits" if options.quick else "files, splits and stillness in MuJoCo"
     if not lines:
         console().print(f"pass  {len(suite.entries)} scenes: {how}", markup=False)
-    return 1 if lines else 0
+    return verdict(lines)
 
 
-def _show(options: argparse.Namespace) -> int:
+@command(_FOLDER, summary="numbers in the terminal; pictures on the page index.html")
+def show(options: argparse.Namespace) -> int:
+    """`pat3d suite show`."""
     from pat3d.envs.suites.folder import PAGE, write_text
     from pat3d.envs.suites.page import page
     from pat3d.envs.suites.suite import Suite
@@ -121,6 +112,18 @@ def _show(options: argparse.Namespace) -> int:
     write_text(suite.folder.path / PAGE, page(suite.folder.path.name, suite.document))
     console().print(f"\n  {suite.folder.path / PAGE}", markup=False, soft_wrap=True)
     return 0
+
+
+suite = with_verbs(
+    generate=generate,
+    check=check,
+    show=show,
+    examples="""
+    pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+    pat3d suite check suites/tabletop
+    pat3d suite show suites/tabletop
+    """,
+)
 
 
 def _range(text: str) -> tuple[int, int]:
@@ -193,11 +196,11 @@ def _bar(target: Any, words: str) -> Any:
 
 class _Lines:
     def __init__(self, target: Any) -> None:
-        self._console, self._start, self._last = target, time.perf_counter(), -_QUIET_SECONDS
+        self._console, self._start, self._last = target, time.perf_counter(), -QUIET_SECONDS
 
     def tell(self, status: Status) -> None:
         now = time.perf_counter()
-        if now - self._last < _QUIET_SECONDS and status.done < status.total:
+        if now - self._last < QUIET_SECONDS and status.done < status.total:
             return
         self._last = now
         line = f"{now - self._start:6.0f} s  {status.done} of {status.total} scenes  {_words(status)}"

@@ -36,7 +36,7 @@ class Checked:
     """A settled scene, exported and checked; it may have failed."""
 
     scene: Scene
-    rest: SettledScene
+    settled: SettledScene
     verification: Verification
     mjcf: Path
     """Folder of the export that was checked."""
@@ -51,7 +51,7 @@ class Attempt:
     layout_seed: int
     scene: Scene | None = None
     """None where no layout was found or it could not be simulated."""
-    rest: SettledScene | None = None
+    settled: SettledScene | None = None
     notes: tuple[str, ...] = ()
     """The layout's."""
     inputs: Mapping[str, str] = field(default_factory=dict)
@@ -68,16 +68,16 @@ class Attempt:
         if self.error is not None:
             return (str(self.error),)
         lines = self.checked.verification.failures if self.checked is not None else self.broken
-        if self.rest is not None and not self.rest.at_rest:
-            frames, steps = self.rest.record["frames"], self.rest.record["polish_steps"]
+        if self.settled is not None and not self.settled.at_rest:
+            frames, steps = self.settled.record["frames"], self.settled.record["polish_steps"]
             still = f"settling did not come to rest in {frames} frames and {steps} steps of polish (unbalanced by "
-            lines = (still + f"{self.rest.record['residual']:.2g} of a weight).", *lines)
+            lines = (still + f"{self.settled.record['residual']:.2g} of a weight).", *lines)
         return lines
 
     @property
     def lost(self) -> tuple[Relation, ...]:
         """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
-        if self.scene is None or self.rest is None:
+        if self.scene is None or self.settled is None:
             return ()
         return lost(self.scene, self.checked.verification.relations if self.checked else relations_at_rest(self.scene))
 
@@ -89,12 +89,12 @@ class Attempt:
     @property
     def rank(self) -> tuple[bool, bool, int, int]:
         """The least is the best attempt."""
-        restless = self.rest is None or not self.rest.at_rest
+        restless = self.settled is None or not self.settled.at_rest
         return self.error is not None, restless, len(self.failures), len(self.lost)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
-        settling = dict(self.rest.record) if self.rest is not None else None
+        settling = dict(self.settled.record) if self.settled is not None else None
         return {
             "attempt": self.number + 1,
             "layout_seed": self.layout_seed,
@@ -102,7 +102,7 @@ class Attempt:
             "checked": self.checked is not None,
             "failures": list(self.failures),
             "settling": settling,
-            "optimised": self.rest is not None and self.rest.optimisation is not None,
+            "optimised": self.settled is not None and self.settled.optimisation is not None,
         }
 
 
@@ -116,6 +116,11 @@ class ChosenAttempt:
     """All attempts, the best among them."""
     key: str
     """Fingerprint of the request and the settings."""
+
+
+def request_key(request: SceneRequest, *, seed: int, friction: float, device: str) -> str:
+    """Fingerprint of everything that decides what comes of a request."""
+    return key_of(versions(), request.fingerprint, seed, friction, device)
 
 
 class Attempts:
@@ -136,8 +141,8 @@ class Attempts:
         self.request, self.seed, self.friction, self.device = request, seed, friction, device
         self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
         self._objects: tuple[UnplacedObject, ...] = ()
-        self._made = False
-        self.key = key_of(versions(), request.fingerprint, seed, friction, device)
+        self._objects_made = False
+        self.key = request_key(request, seed=seed, friction=friction, device=device)
 
     def best_of(self, count: int) -> ChosenAttempt:
         """The first attempt that passes, else the best of `count` with its faults.
@@ -146,24 +151,24 @@ class Attempts:
             LayoutError: no attempt found a layout.
             SimulationError: no attempt could be simulated.
         """
-        made: list[Attempt] = []
-        known = self.workspace.delivered(self.key)
+        tried: list[Attempt] = []
+        known = self.workspace.chosen(self.key)
         count = count if self.request.adjustable else 1
         for number in range(count) if known is None else (known,):
             attempt = self._attempt(number)
             if not attempt.failures:
                 attempt = self._checked(attempt)
-            made.append(attempt)
+            tried.append(attempt)
             if attempt.passed:
                 break
-        best = min(made, key=lambda attempt: attempt.rank)
+        best = min(tried, key=lambda attempt: attempt.rank)
         if best.error is not None:
             raise best.error
-        place = made.index(best)
-        made[place] = best = self._checked(self._improved(best))
+        place = tried.index(best)
+        tried[place] = best = self._checked(self._optimized(best))
         if best.checked is None:
             raise SimulationError("; ".join(best.failures))
-        return ChosenAttempt(best=best, checked=best.checked, tried=tuple(made), key=self.key)
+        return ChosenAttempt(best=best, checked=best.checked, tried=tuple(tried), key=self.key)
 
     def first(self) -> Attempt:
         """The first layout, settled, and checked where it came to rest; it may have failed."""
@@ -174,9 +179,9 @@ class Attempts:
         """The first layout, not settled yet: its scene, or its error."""
         return self._begun(0)
 
-    def settled(self, attempt: Attempt, rest: SettledScene) -> Attempt:
+    def settled(self, attempt: Attempt, settled: SettledScene) -> Attempt:
         """`attempt`, which is `begun`, at rest as somebody else settled it; checked like `first`."""
-        attempt = _rested(attempt, rest)
+        attempt = _with_settled(attempt, settled)
         return attempt if attempt.failures else self._checked(attempt)
 
     def layout(self) -> Scene:
@@ -185,24 +190,24 @@ class Attempts:
         Raises:
             LayoutError: there is none.
         """
-        made_of = key_of(versions(), self.request.fingerprint, self.seed, self.seed)
-        return self._laid_out(0, self.seed, {"layout": made_of})[0]
+        layout_key = key_of(versions(), self.request.fingerprint, self.seed, self.seed)
+        return self._laid_out(0, self.seed, {"layout": layout_key})[0]
 
     def _attempt(self, number: int) -> Attempt:
         attempt = self._begun(number)
         if attempt.scene is None:
             return attempt
         try:
-            rest = self._settled(number, attempt.scene, attempt.notes, attempt.inputs)
+            settled = self._settled(number, attempt.scene, attempt.notes, attempt.inputs)
         except (LayoutError, SimulationError) as error:
             return replace(attempt, scene=None, error=error)
-        return _rested(attempt, rest)
+        return _with_settled(attempt, settled)
 
     def _begun(self, number: int) -> Attempt:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)
-        made_of = key_of(versions(), self.request.fingerprint, self.seed, layout_seed)
-        inputs = {"layout": made_of, "rest": key_of(made_of, self.friction, self.device)}
+        layout_key = key_of(versions(), self.request.fingerprint, self.seed, layout_seed)
+        inputs = {"layout": layout_key, "rest": key_of(layout_key, self.friction, self.device)}
         try:
             scene, notes = self._laid_out(number, layout_seed, inputs)
         except (LayoutError, SimulationError) as error:
@@ -219,9 +224,9 @@ class Attempts:
             return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
         from pat3d.layout.layout import arrange
 
-        if not self._made:
+        if not self._objects_made:
             with self.clock("assets"):
-                self._objects, self._made = self.request.make_objects(self.seed, self.progress), True
+                self._objects, self._objects_made = self.request.make_objects(self.seed, self.progress), True
         again = f"attempt {number + 1}" if number else ""
         with self.clock("layout"):
             self.progress(Event(stage="arranging", detail=again))
@@ -246,20 +251,20 @@ class Attempts:
         return scene, notes
 
     def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> SettledScene:
-        kept = self.workspace.rest(number, inputs["rest"], scene)
+        kept = self.workspace.settled(number, inputs["rest"], scene)
         if kept is not None:
             return kept
         with self.clock("kernels"):
             device = prepare(self.device, self.progress)
         with self.clock("settling"):
-            rest = settle_scene(scene, device=device, progress=self.progress)
-        self.workspace.save_rest(number, inputs, rest.of(scene), notes, rest)
-        return rest
+            settled = settle_scene(scene, device=device, progress=self.progress)
+        self.workspace.save_settled(number, inputs, settled.of(scene), notes, settled)
+        return settled
 
-    def _improved(self, attempt: Attempt) -> Attempt:
+    def _optimized(self, attempt: Attempt) -> Attempt:
         """`attempt` from a better initial layout, where it needs one and there is one."""
-        scene, rest = attempt.scene, attempt.rest
-        if scene is None or rest is None or rest.optimisation is not None or not available():
+        scene, settled = attempt.scene, attempt.settled
+        if scene is None or settled is None or settled.optimisation is not None or not available():
             return attempt
         if not attempt.failures and not attempt.lost:
             return attempt
@@ -279,30 +284,30 @@ class Attempts:
         )
         with self.clock("optimising"):
             try:
-                done = optimize_scene(scene, options=options, at_rest=rest.at_rest, progress=self.progress)
+                done = optimize_scene(scene, options=options, at_rest=settled.at_rest, progress=self.progress)
             except SimulationError:
                 return attempt
         # Recorded even where it changed nothing, so that it is not repeated when the run is resumed.
-        kept_scene, kept_rest = scene, replace(rest, optimisation=done.record(kept=False))
-        if done.rest is not None:
+        kept_scene, kept = scene, replace(settled, optimisation=done.record(kept=False))
+        if done.settled is not None:
             faults = broken(relations_at_rest(done.scene))
-            other = replace(attempt, scene=done.scene, rest=done.rest, broken=faults, checked=None)
+            other = replace(attempt, scene=done.scene, settled=done.settled, broken=faults, checked=None)
             other = self._checked(other) if not other.failures else other
             if other.rank < attempt.rank:
-                attempt, kept_scene, kept_rest = other, done.scene, done.rest
-        self.workspace.save_rest(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept_rest)
-        checked = replace(attempt.checked, rest=kept_rest) if attempt.checked is not None else None
-        return replace(attempt, rest=kept_rest, checked=checked)
+                attempt, kept_scene, kept = other, done.scene, done.settled
+        self.workspace.save_settled(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept)
+        checked = replace(attempt.checked, settled=kept) if attempt.checked is not None else None
+        return replace(attempt, settled=kept, checked=checked)
 
     def _checked(self, attempt: Attempt) -> Attempt:
-        if attempt.checked is not None or attempt.scene is None or attempt.rest is None:
+        if attempt.checked is not None or attempt.scene is None or attempt.settled is None:
             return attempt
-        mjcf = self.scratch / f"mjcf_{attempt.number + 1}{'' if attempt.rest.optimisation is None else '_optimised'}"
+        mjcf = self.scratch / f"mjcf_{attempt.number + 1}{'' if attempt.settled.optimisation is None else '_optimised'}"
         with self.clock("export"):
             path = write_mjcf(attempt.scene, mjcf)
         with self.clock("verification"):
             verification = verify(attempt.scene, path, self.progress)
-        checked = Checked(scene=attempt.scene, rest=attempt.rest, verification=verification, mjcf=mjcf)
+        checked = Checked(scene=attempt.scene, settled=attempt.settled, verification=verification, mjcf=mjcf)
         return replace(attempt, checked=checked)
 
     def _provenance(self, layout_seed: int) -> dict[str, Any]:
@@ -313,16 +318,16 @@ class Attempts:
         }
 
 
-def _rested(attempt: Attempt, rest: SettledScene) -> Attempt:
+def _with_settled(attempt: Attempt, settled: SettledScene) -> Attempt:
     """An attempt whose layout has come to rest; nothing is checked but its relations."""
     if attempt.scene is None:
         return attempt
-    scene = rest.of(attempt.scene)
-    return replace(attempt, scene=scene, rest=rest, broken=broken(relations_at_rest(scene)))
+    scene = settled.of(attempt.scene)
+    return replace(attempt, scene=scene, settled=settled, broken=broken(relations_at_rest(scene)))
 
 
 def _placed(one: UnplacedObject, pose: Pose, relations: tuple[Relation, ...]) -> SceneObject:
-    """An ingredient where the layout put it; fixed ones never fall, so they are set down on the ground."""
+    """An object where the layout put it; fixed ones never fall, so they are set down on the ground."""
     if one.fixed and one.pose is None and parent_of(one.name, relations) == GROUND:
         lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
         x, y, z = pose.position

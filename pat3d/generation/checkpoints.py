@@ -19,8 +19,6 @@ from pat3d.scene.folder import (
     read_pictures,
     read_trajectory,
     write_json,
-    write_pictures,
-    write_trajectory,
 )
 from pat3d.scene.io import load_scene, save_scene
 from pat3d.scene.model import Scene
@@ -39,8 +37,8 @@ class Workspace:
         if keep and self.partial.exists() and any(self.partial.iterdir()) and not (self.partial / _MARKER).is_file():
             raise ExportError(f"{self.partial} is needed for unfinished work but holds something else; move it away.")
 
-    def delivered(self, key: str) -> int | None:
-        """The attempt that an earlier run of the same request delivered in the finished folder, from 0."""
+    def chosen(self, key: str) -> int | None:
+        """The attempt that an earlier run of the same request chose for the finished folder, from 0."""
         if not self.keep:
             return None
         report = read_json(self.folder / "report.json")
@@ -63,7 +61,7 @@ class Workspace:
             return scene, tuple(str(note) for note in notes)
         return None
 
-    def rest(self, attempt: int, key: str, scene: Scene) -> SettledScene | None:
+    def settled(self, attempt: int, key: str, scene: Scene) -> SettledScene | None:
         """How an earlier run of `scene` settled."""
         for folder, report in self._candidates(attempt):
             trajectory = read_trajectory(folder / "trajectory.npz")
@@ -71,16 +69,16 @@ class Workspace:
             if _inputs(report).get("rest") != key or trajectory is None or not isinstance(record, dict):
                 continue
             try:
-                settled = load_scene(folder)
+                found = load_scene(folder)
             except SpecError:
                 continue
-            if [obj.name for obj in settled.objects] != [obj.name for obj in scene.objects]:
+            if [obj.name for obj in found.objects] != [obj.name for obj in scene.objects]:
                 continue
             optimisation = report.get("optimisation")
             optimisation = optimisation if isinstance(optimisation, dict) and readable(optimisation) else None
             self.reused.append(f"settling {attempt + 1}")
             return SettledScene(
-                poses=tuple(obj.pose for obj in settled.objects),
+                poses=tuple(obj.pose for obj in found.objects),
                 states=trajectory["states"],
                 centres=trajectory["centres"],
                 record=record,
@@ -94,22 +92,21 @@ class Workspace:
         if self.keep:
             self._save(attempt, scene, {"inputs": dict(inputs), "layout": {"notes": list(notes)}})
 
-    def save_rest(
-        self, attempt: int, inputs: Mapping[str, str], scene: Scene, notes: Sequence[str], rest: SettledScene
+    def save_settled(
+        self, attempt: int, inputs: Mapping[str, str], scene: Scene, notes: Sequence[str], settled: SettledScene
     ) -> None:
         """Keep a settled scene."""
         if self.keep:
             folder = self._save(attempt, scene, {})
             names = tuple(obj.name for obj in scene.objects)
-            write_trajectory(folder / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
-            write_pictures(rest.pictures, folder)
+            settled.write(names, folder)
             write_json(
                 folder / "report.json",
                 {
                     "inputs": dict(inputs),
                     "layout": {"notes": list(notes)},
-                    "settling": dict(rest.record),
-                    "optimisation": rest.optimisation,
+                    "settling": dict(settled.record),
+                    "optimisation": settled.optimisation,
                 },
             )
 

@@ -41,7 +41,7 @@ class OptimizedScene:
 
     scene: Scene
     """At rest, from the layout that was found; as it was where nothing better was found."""
-    rest: SettledScene | None
+    settled: SettledScene | None
     """How it settled, with the record and the pictures; None where nothing better was found."""
     found: Optimized
 
@@ -106,18 +106,18 @@ def optimize_scene(
     wanted = replace(scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled))
     found = optimize_scene(wanted, options=options, pinned=given_poses(scene), at_rest=at_rest, progress=tell)
     if not found.improved:
-        return OptimizedScene(scene=scene, rest=None, found=found)
+        return OptimizedScene(scene=scene, settled=None, found=found)
     after = scene_after(scene, found.best)
     how = {"source": found.best.source, "seed": options.seed, "versions": versions()}
     after = replace(after, provenance={**after.provenance, OPTIMISATION: how})
-    rest = settle_scene(after, device=options.device, progress=progress)
-    after = rest.of(after)
+    settled = settle_scene(after, device=options.device, progress=progress)
+    after = settled.of(after)
     if _count_broken(replace(after, relations=wanted.relations)) > len(found.first.broken):
-        return OptimizedScene(scene=scene, rest=None, found=found)
+        return OptimizedScene(scene=scene, settled=None, found=found)
     progress(Event(stage="drawing the optimisation"))
     pictures = draw(found, scene_after(scene, found.first), after)
-    done = OptimizedScene(scene=after, rest=rest, found=found)
-    return replace(done, rest=replace(rest, optimisation=done.record(kept=True), pictures=pictures))
+    done = OptimizedScene(scene=after, settled=settled, found=found)
+    return replace(done, settled=replace(settled, optimisation=done.record(kept=True), pictures=pictures))
 
 
 def _fulfilled(scene: Scene) -> set[Relation]:

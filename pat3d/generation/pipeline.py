@@ -2,62 +2,35 @@
 
     plan -> assets -> layout -> settling -> verification -> files
 
-A layout that does not settle into a verified scene is tried again with another seed; the best attempt is delivered
-and the report tells of all. A folder is complete when it appears.
+A layout that does not settle into a verified scene is tried again with another seed; the best attempt is chosen and
+the report tells of all. A folder is complete when it appears.
 """
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pat3d.errors import SpecError
-from pat3d.exporters.formats import chosen, export
+from pat3d.exporters.formats import export
 from pat3d.generation.attempts import Attempts
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.report import Report
 from pat3d.generation.request import SceneRequest, request_of
+from pat3d.generation.settings import Settings
 from pat3d.plan.scene_plan import Planner
 from pat3d.progress import Clock, Event, Progress, silent
-from pat3d.scene.folder import check_target, replacing, write_json, write_pictures, write_trajectory
+from pat3d.scene.folder import check_target, replacing, write_json
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Scene
-from pat3d.scene.physics import SETTLING_FRICTION
 
 if TYPE_CHECKING:
     from pat3d.exporters.compare import ParityReport
 
 ATTEMPTS = 3
-"""Layouts tried before the best one is delivered with its faults reported."""
-
-MAX_SEED = 2**32 - 1
-
-
-@dataclass(frozen=True, kw_only=True)
-class Settings:
-    """How to make a scene, whatever it is a scene of."""
-
-    seed: int = 0
-    friction: float = SETTLING_FRICTION
-    """Coulomb coefficient [-] of every contact while settling."""
-    device: str = "cpu"
-    formats: tuple[str, ...] = ("mjcf",)
-    """Exchange formats to write; MJCF, in which the scene is verified, always is."""
-    resume: bool = False
-    """Keep finished stages beside the folder, and use those whose inputs have not changed."""
-
-    def __post_init__(self) -> None:
-        if not 0 <= self.seed <= MAX_SEED:
-            raise SpecError(f"the seed must be a whole number from 0 to {MAX_SEED}, got {self.seed}.")
-        if not (math.isfinite(self.friction) and 0.0 < self.friction <= 2.0):
-            raise SpecError(f"friction must be more than 0 and at most 2, got {self.friction}.")
-        object.__setattr__(self, "formats", chosen(self.formats))
-        if self.device not in ("cpu", "cuda"):
-            raise SpecError(f'unknown device "{self.device}". Valid: cpu, cuda.')
+"""Layouts tried before the best one is chosen, its faults reported."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,11 +46,11 @@ def generate(
     prompt: str,
     *,
     out: str | os.PathLike[str],
-    seed: int = 0,
-    friction: float = SETTLING_FRICTION,
-    device: str = "cpu",
-    formats: Sequence[str] = ("mjcf",),
-    resume: bool = False,
+    seed: int = Settings.seed,
+    friction: float = Settings.friction,
+    device: str = Settings.device,
+    formats: Sequence[str] = Settings.formats,
+    resume: bool = Settings.resume,
     allow_proxies: bool = False,
     planner: Planner | None = None,
     progress: Progress = silent,
@@ -118,9 +91,9 @@ def build(
     out: str | os.PathLike[str],
     seed: int | None = None,
     friction: float | None = None,
-    device: str = "cpu",
-    formats: Sequence[str] = ("mjcf",),
-    resume: bool = False,
+    device: str = Settings.device,
+    formats: Sequence[str] = Settings.formats,
+    resume: bool = Settings.resume,
     progress: Progress = silent,
 ) -> Scene:
     """Make the scene that a YAML specification describes, verify it and write its folder.
@@ -182,9 +155,9 @@ def run_spec(
     out: str | os.PathLike[str],
     seed: int | None = None,
     friction: float | None = None,
-    device: str = "cpu",
-    formats: Sequence[str] = ("mjcf",),
-    resume: bool = False,
+    device: str = Settings.device,
+    formats: Sequence[str] = Settings.formats,
+    resume: bool = Settings.resume,
     progress: Progress = silent,
 ) -> Outcome:
     """`build`, with the report."""
@@ -220,15 +193,14 @@ def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Cloc
             progress=progress,
             scratch=fresh.parent,
         )
-        delivery = attempts.best_of(ATTEMPTS)
-        scene, rest = delivery.checked.scene, delivery.checked.rest
+        chosen = attempts.best_of(ATTEMPTS)
+        scene, settled = chosen.checked.scene, chosen.checked.settled
         with clock("files"):
             progress(Event(stage="writing the folder"))
             save_scene(scene, fresh)
-            delivery.checked.mjcf.rename(fresh / "mjcf")
+            chosen.checked.mjcf.rename(fresh / "mjcf")
             names = tuple(obj.name for obj in scene.objects)
-            write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
-            write_pictures(rest.pictures, fresh)
+            settled.write(names, fresh)
         with clock("formats"):
             exports = _exports(scene, settings.formats, fresh, folder, progress)
         with clock("preview"):
@@ -236,7 +208,7 @@ def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Cloc
             save_preview(scene, fresh / "preview.png")
         report = Report(
             understood=request.record,
-            delivery=delivery,
+            chosen=chosen,
             reused=tuple(workspace.reused),
             seconds=clock.seconds,
             exports=exports,

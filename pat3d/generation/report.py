@@ -23,7 +23,7 @@ class Report:
 
     understood: Mapping[str, Any]
     """How the prompt or the specification was understood."""
-    delivery: ChosenAttempt
+    chosen: ChosenAttempt
     reused: tuple[str, ...] = ()
     """Stages taken from an earlier run."""
     seconds: Mapping[str, float]
@@ -34,17 +34,17 @@ class Report:
     @property
     def passed(self) -> bool:
         """Whether the scene is verified, and every format says the same."""
-        return self.delivery.best.passed and all(report.passed for report in self.exports.values())
+        return self.chosen.best.passed and all(report.passed for report in self.exports.values())
 
     @property
     def failures(self) -> tuple[str, ...]:
         """What contradicts the scene, a line each."""
         lines = [line for report in self.exports.values() for line in report.failures]
-        return (*self.delivery.best.failures, *lines)
+        return (*self.chosen.best.failures, *lines)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
-        best, checked = self.delivery.best, self.delivery.checked
+        best, checked = self.chosen.best, self.chosen.checked
         scene = checked.scene
         return {
             "format": FORMAT,
@@ -55,18 +55,18 @@ class Report:
             "failures": list(self.failures),
             "seconds": dict(self.seconds),
             "versions": scene.provenance.get("versions", {}),
-            **of_scene(scene, checked.rest, checked.verification),
+            **of_scene(scene, checked.settled, checked.verification),
             "understood": dict(self.understood),
             "layout": {"seed": best.layout_seed, "notes": list(best.notes)},
             "exports": {name: report.as_dict() for name, report in self.exports.items()},
-            "attempts": [attempt.as_dict() for attempt in self.delivery.tried],
+            "attempts": [attempt.as_dict() for attempt in self.chosen.tried],
             "delivered_attempt": best.number + 1,
-            "inputs": {"request": self.delivery.key, **best.inputs},
+            "inputs": {"request": self.chosen.key, **best.inputs},
             "reused": list(self.reused),
         }
 
 
-def of_scene(scene: Scene, rest: SettledScene, verification: Verification) -> dict[str, Any]:
+def of_scene(scene: Scene, settled: SettledScene, verification: Verification) -> dict[str, Any]:
     """What the report says about a scene at rest, however it came about."""
     drifts = {obj.name: obj for obj in verification.mujoco.objects}
     objects = []
@@ -87,7 +87,7 @@ def of_scene(scene: Scene, rest: SettledScene, verification: Verification) -> di
         )
     return {
         "objects": objects,
-        "settling": {**rest.record, "friction": scene.settling_friction},
-        "optimisation": rest.optimisation,
+        "settling": {**settled.record, "friction": scene.settling_friction},
+        "optimisation": settled.optimisation,
         "verification": verification.as_dict(),
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,13 @@ from numpy.typing import NDArray
 from pat3d.errors import SimulationError
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
+from pat3d.scene.folder import write_pictures, write_trajectory
 from pat3d.scene.model import Scene
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SettledScene:
-    """How settling ended."""
+    """A scene at rest, or as near to it as settling came."""
 
     poses: tuple[Pose, ...]
     """Of every object, in the order of the scene."""
@@ -36,6 +38,11 @@ class SettledScene:
     def at_rest(self) -> bool:
         """Whether the simulator met its tolerances."""
         return bool(self.record["at_rest"])
+
+    def write(self, names: tuple[str, ...], folder: Path) -> None:
+        """Write the settling motion of the objects `names`, and the pictures, into a scene folder."""
+        write_trajectory(folder / "trajectory.npz", names, self.states, self.centres, self.record["time_step"])
+        write_pictures(self.pictures, folder)
 
     def of(self, scene: Scene) -> Scene:
         """`scene` with its objects at these poses."""
@@ -80,10 +87,10 @@ def settle_scenes(
     found = settle(model, options, tell, throw=False)
     poses = poses_from_states(model, found.q)
     states = np.concatenate([found.trajectory, found.q[None].astype(np.float32)])
-    rests = []
+    settled = []
     for world, scene in enumerate(scenes):
         bodies = slice(first := sum(len(one.objects) for one in scenes[:world]), first + len(scene.objects))
-        rests.append(
+        settled.append(
             SettledScene(
                 poses=tuple(
                     obj.initial_pose if obj.fixed else pose
@@ -103,4 +110,4 @@ def settle_scenes(
                 },
             )
         )
-    return tuple(rests)
+    return tuple(settled)

@@ -57,7 +57,7 @@ class Spec:
             names=tuple(obj["name"] for obj in self.objects),
             relations=self.relations,
             fingerprint=[document["objects"], document.get("relations", []), hashes],
-            make_objects=self.gather,
+            make_objects=self.make_objects,
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
             provenance={
@@ -67,7 +67,7 @@ class Spec:
             },
         )
 
-    def gather(self, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
+    def make_objects(self, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
         found = []
         for number, obj in enumerate(self.objects):

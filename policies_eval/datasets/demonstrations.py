@@ -68,20 +68,31 @@ class Demonstrator:
 
 
 def demonstrate(
-    episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
+    episodes: Sequence[Episode],
+    *,
+    noise: float = 0.3,
+    successes: int | None = None,
+    settings: RolloutSettings | None = None,
+    target: Any = None,
 ) -> list[Demonstration]:
     """Successful demonstrations of `episodes`; see `demonstrations`."""
-    return list(demonstrations(episodes, noise=noise, settings=settings, target=target))
+    return list(demonstrations(episodes, noise=noise, successes=successes, settings=settings, target=target))
 
 
 def demonstrations(
-    episodes: Sequence[Episode], *, noise: float = 0.3, settings: RolloutSettings | None = None, target: Any = None
+    episodes: Sequence[Episode],
+    *,
+    noise: float = 0.3,
+    successes: int | None = None,
+    settings: RolloutSettings | None = None,
+    target: Any = None,
 ) -> Iterator[Demonstration]:
     """Successful demonstrations of `episodes`, one after the other.
 
     Args:
         episodes: to do.
         noise: of the hand, in actions.
+        successes: after which no more are done; None for all episodes.
         settings: of the environment.
         target: a console for the progress.
 
@@ -95,11 +106,12 @@ def demonstrations(
     try:
         for episode in episodes:
             result = runner.run(episode, policy)
+            succeeded += result.success
             if target is not None:
-                target.print(f"demonstration {episode.index + 1}/{len(episodes)}: {result.outcome}", highlight=False)
+                of = len(episodes) if successes is None else f"{len(episodes)} at most, {succeeded}/{successes} done"
+                target.print(f"demonstration {episode.index + 1}/{of}: {result.outcome}", highlight=False)
             if not result.success:
                 continue
-            succeeded += 1
             yield Demonstration(
                 episode=episode,
                 instruction=result.instruction,
@@ -107,6 +119,8 @@ def demonstrations(
                 actions=np.stack(policy.answers),
                 done=result.actions,
             )
+            if succeeded == successes:
+                break
     finally:
         runner.close()
     if not succeeded:

@@ -49,8 +49,17 @@ Values = dict[str, NDArray[Any]]
 """By feature, the first axis along the frames."""
 
 
+def is_dataset(folder: Path) -> bool:
+    """Whether `folder` holds a LeRobotDataset."""
+    return (folder / "meta" / "info.json").is_file()
+
+
 def write_lerobot(
-    demonstrations: Iterable[Demonstration], folder: str | os.PathLike[str], settings: RolloutSettings | None = None
+    demonstrations: Iterable[Demonstration],
+    folder: str | os.PathLike[str],
+    settings: RolloutSettings | None = None,
+    *,
+    overwrite: bool = False,
 ) -> None:
     """Write demonstrations; they are taken one at a time, so that pictures of many need not fit into memory.
 
@@ -58,13 +67,15 @@ def write_lerobot(
         demonstrations: one or more.
         folder: to be made; not there yet, or empty.
         settings: of the environment in which they were done.
+        overwrite: replace a dataset that is there, once the new one is complete.
 
     Raises:
         EvaluationError: pyarrow is missing, `folder` holds something, or the control frequency is no whole number.
     """
     settings, path = settings or RolloutSettings(), Path(folder)
     arrow()
-    if path.exists() and (not path.is_dir() or any(path.iterdir())):
+    replaced = overwrite and is_dataset(path)
+    if path.exists() and not replaced and (not path.is_dir() or any(path.iterdir())):
         raise EvaluationError(f"{path} is there already; a dataset is written into a new folder.")
     if settings.control_freq != round(settings.control_freq):
         raise EvaluationError(f"datasets have whole frames a second, not {settings.control_freq:g}.")
@@ -75,7 +86,9 @@ def write_lerobot(
         for one in demonstrations:
             writer.add(one)
         writer.close()
-        if path.is_dir():
+        if replaced:
+            shutil.rmtree(path)
+        elif path.is_dir():
             path.rmdir()
         os.replace(temporary, path)
     finally:

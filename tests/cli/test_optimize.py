@@ -17,8 +17,9 @@ from pat3d.exporters.compare import parity
 from pat3d.exporters.formats import export
 from pat3d.generation import optimize_stage
 from pat3d.generation.optimize_stage import GIVEN
-from pat3d.generation.pipeline import Settings, make
+from pat3d.generation.pipeline import make
 from pat3d.generation.request import SceneRequest, UnplacedObject
+from pat3d.generation.settings import Settings
 from pat3d.geometry.pose import Pose
 from pat3d.layout import layout as layouts
 from pat3d.layout.bodies import place_all
@@ -189,12 +190,12 @@ def falling_layouts(monkeypatch):
         names=tuple(assets),
         relations=relations,
         fingerprint="plank",
-        gather=lambda *_: objects,
+        make_objects=lambda *_: objects,
     )
 
 
-def made(order: SceneRequest, folder, **settings):
-    return make(order, folder=folder, settings=Settings(**settings), clock=Clock(), progress=silent).report.as_dict()
+def made(request: SceneRequest, folder, **settings):
+    return make(request, folder=folder, settings=Settings(**settings), clock=Clock(), progress=silent).report.as_dict()
 
 
 def test_generate_optimises_what_no_attempt_solves_and_resumes_without_doing_it_again(falling_layouts, tmp_path):

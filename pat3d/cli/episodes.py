@@ -1,0 +1,70 @@
+"""Options that say which episodes, in what environment; shared by the commands that do episodes."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from pat3d.cli.options import fields, option, values
+from pat3d.errors import EvaluationError
+from pat3d.policies_eval.run.settings import RolloutSettings
+
+EPISODE_COUNT = 100
+
+EPISODES = (
+    option("--scene", "scene folder; may be repeated", action="append", default=[], metavar="FOLDER"),
+    option("--task", '"pick:red mug"; may be repeated', action="append", default=[], metavar="TASK"),
+    option("--suite", "scenes and tasks of a suite", metavar="FOLDER"),
+    option("--split", "of the suite", default="test"),
+    option("--episodes", "number of episodes", type=int, default=EPISODE_COUNT),
+    option("--seed", "the same seed gives the same episodes", type=int, default=0),
+    option(
+        "--perturb",
+        "pose [m], friction, mass, camera, light, words; all 0 by default",
+        nargs="+",
+        default=[],
+        metavar="AXIS=STRENGTH",
+    ),
+)
+
+SETTINGS = fields(
+    RolloutSettings,
+    robot="Panda, UR5e, Sawyer or IIWA",
+    control="osc, joint_velocity or joint_position",
+    obs="state, rgb or rgbd",
+    control_freq="actions a second",
+    max_steps="of an episode",
+    image_size="of observations [pixel]",
+    replan="actions done of a chunk before the policy is asked again",
+    act_seconds="a policy that thinks for longer hangs [s]",
+    clip="clip actions that are out of range",
+)
+
+
+def settings_of(options: argparse.Namespace) -> RolloutSettings:
+    """What is the same for every episode."""
+    return RolloutSettings(**values(RolloutSettings, options))
+
+
+def episodes_from(options: argparse.Namespace, count: int | None = None) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """The episodes that a command line asks for, or `count` of them, and their source for the manifest."""
+    from pat3d.policies_eval.run import episodes as listed
+    from pat3d.policies_eval.run.perturb import parse
+
+    perturbation = parse(options.perturb)
+    source: dict[str, Any] = {"seed": options.seed, "perturbation": perturbation.to_json()}
+    if options.suite:
+        if options.scene or options.task:
+            raise EvaluationError("a suite brings its scenes and tasks; leave out --scene and --task.")
+        from pat3d.policies_eval.run.suites import suite_settings
+
+        settings, identity = suite_settings(options.suite, options.split)
+        source |= identity
+    else:
+        settings = listed.settings_of(options.scene, options.task)
+        source |= {
+            "scenes": sorted({Path(one.scene).name or "shipped scene" for one in settings}),
+            "tasks": [s.task for s in settings],
+        }
+    return listed.episodes_of(settings, count or options.episodes, seed=options.seed, perturbation=perturbation), source

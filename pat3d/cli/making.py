@@ -1,0 +1,111 @@
+"""`pat3d generate` and `pat3d build`: scenes from sentences and specifications."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pat3d.cli.console import console, show_many, show_report, verdict, watch
+from pat3d.cli.options import command, fields, option, values
+from pat3d.errors import SpecError
+from pat3d.exporters.formats import FORMATS
+from pat3d.generation.settings import DEVICES, Settings
+
+if TYPE_CHECKING:
+    from pat3d.generation.pipeline import Outcome
+
+_HELPS = {
+    "seed": "the same seed gives the same scene",
+    "friction": "friction coefficient while settling",
+    "device": "where to simulate",
+    "formats": f"{', '.join(FORMATS)}, with commas or spaces between",
+    "resume": "keep finished stages in FOLDER.partial, and go on from those of an earlier run",
+}
+_KEYWORDS = {"device": {"choices": DEVICES}, "formats": {"metavar": "FORMAT"}}
+_FROM_FILE = {name: {"default": None, "shown": "the file's"} for name in ("seed", "friction")}
+_OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
+
+
+@command(
+    option("prompt", "what the scene shows, in English", metavar="PROMPT", nargs="?"),
+    option(
+        "--prompts",
+        "a scene for every line of FILE, each in its own folder of --out; those that are there are kept",
+        metavar="FILE",
+    ),
+    option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true"),
+    _OUT,
+    *fields(Settings, _KEYWORDS, **_HELPS),
+    examples="""
+    pat3d generate "a red mug on a wooden table" --out scenes/mug
+    pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
+    pat3d generate --prompts prompts.txt --out scenes      one a line; the same command goes on where it stopped
+    """,
+)
+def generate(options: argparse.Namespace) -> int:
+    """`pat3d generate`."""
+    if (options.prompt is None) == (options.prompts is None):
+        raise SpecError('give either a sentence, pat3d generate "a red mug on a table", or --prompts FILE.')
+    if options.out is None:
+        raise SpecError("give the folder to write: --out scenes/NAME.")
+    settings = Settings(**values(Settings, options))
+    if options.prompts is not None:
+        return _generate_many(options, settings)
+    from pat3d.generation.pipeline import run_prompt
+
+    with watch(console(stderr=True)) as progress:
+        outcome = run_prompt(
+            options.prompt, out=options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+        )
+    return _finished(outcome, options.out)
+
+
+def _generate_many(options: argparse.Namespace, settings: Settings) -> int:
+    from pat3d.generation.many import TABLE, generate_many, read_prompts
+
+    prompts, rows = read_prompts(options.prompts), []
+    errors = console(stderr=True)
+    with watch(errors) as progress:
+        scenes = generate_many(
+            prompts, options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+        )
+        for row in scenes:
+            rows.append(row)
+            how = "there already" if row.kept else row.state
+            errors.print(f"{len(rows)}/{len(prompts)} {row.folder}: {how}", markup=False, soft_wrap=True)
+    show_many(console(), rows)
+    console().print(f"\ntable: {Path(options.out) / TABLE}", markup=False, soft_wrap=True)
+    return max(row.exit_code for row in rows)
+
+
+@command(
+    option("spec", "the specification", metavar="SCENE.YAML", nargs="?"),
+    option("--schema", "print the JSON schema of specifications and stop", action="store_true"),
+    _OUT,
+    *fields(Settings, _KEYWORDS | _FROM_FILE, **_HELPS),
+    examples="""
+    pat3d build scene.yaml --out scenes/mine
+    pat3d build --schema > scene.schema.json
+    """,
+)
+def build(options: argparse.Namespace) -> int:
+    """`pat3d build`."""
+    if options.schema:
+        from pat3d.generation.spec_schema import BUILD_SCHEMA
+
+        print(json.dumps(BUILD_SCHEMA, indent=2))
+        return 0
+    from pat3d.generation.pipeline import run_spec
+
+    if options.spec is None or options.out is None:
+        raise SpecError("give the specification and the folder to write: pat3d build scene.yaml --out scenes/NAME.")
+    with watch(console(stderr=True)) as progress:
+        outcome = run_spec(options.spec, out=options.out, progress=progress, **values(Settings, options))
+    return _finished(outcome, options.out)
+
+
+def _finished(outcome: Outcome, out: str) -> int:
+    show_report(console(), outcome.report, Path(out))
+    return verdict(outcome.report.failures)
