@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from pat3d.assets.mesh.cover import planes
 from pat3d.assets.mesh.regions import height_map
 from pat3d.envs.robots.arms import Gripper
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.planes import planes
 from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Scene, SceneObject
 from pat3d.scene.physics import GRAVITY

@@ -13,6 +13,7 @@ from pat3d.envs.grasping.hand import hand_pose
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.robots.arms import measure_gripper
 from pat3d.errors import EnvironmentSetupError
+from pat3d.geometry.rotations import rotation_vector
 
 Array = NDArray[np.float64]
 
@@ -93,7 +94,7 @@ class Servo:
         c, s = math.cos(yaw), math.sin(yaw)
         to_base = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         move = to_base @ (position - state.hand)
-        turn = to_base @ _rotation_vector(rotation @ state.hand_rotation.T)
+        turn = to_base @ rotation_vector(rotation @ state.hand_rotation.T)
         command = np.concatenate(
             [_limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]]
         )
@@ -115,9 +116,3 @@ class Servo:
 def _limited(values: Array) -> Array:
     """`values` scaled down together so that none is beyond 1."""
     return values / max(1.0, float(np.abs(values).max()))
-
-
-def _rotation_vector(rotation: Array) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_matrix(rotation).as_rotvec()

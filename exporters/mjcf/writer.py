@@ -43,6 +43,7 @@ from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, b
 from pat3d.geometry.contacts import find_contacts
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
+from pat3d.geometry.rotations import principal_frame
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import hull_obj, part_file, visual_obj, write_texture
@@ -373,12 +374,7 @@ def _inertial(properties: MassProperties) -> dict[str, str]:
     MuJoCo's own diagonalisation of fullinertia stops at 1e-12 kg m^2 off the diagonal, a tenth of a per cent
     of a pencil; numpy's is exact to rounding.
     """
-    from scipy.spatial.transform import Rotation
-
-    moments, axes = np.linalg.eigh(np.array(properties.inertia))
-    if np.linalg.det(axes) < 0:
-        axes[:, 0] *= -1
-    quat = Rotation.from_matrix(axes).as_quat(scalar_first=True)
+    moments, quat = principal_frame(np.array(properties.inertia))
     return {
         "pos": text(*properties.centre_of_mass),
         "quat": text(*quat),

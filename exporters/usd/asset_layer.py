@@ -36,8 +36,10 @@ from pat3d.exporters.usd.openusd import (
 )
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.normals import corner_normals, triangle_areas, unit_normals
+from pat3d.geometry.rotations import principal_frame
 from pat3d.scene.asset import Asset, VisualMesh
-from pat3d.scene.obj_files import corner_normals, write_texture
+from pat3d.scene.obj_files import write_texture
 
 GUIDE_COLOUR = (0.4, 0.6, 0.9)
 """Linear RGB of colliders where guides are shown."""
@@ -165,12 +167,7 @@ def place(
 
 def _mass(prim: Prim, properties: MassProperties) -> None:
     """Mass, centre and principal inertia."""
-    from scipy.spatial.transform import Rotation
-
-    moments, axes = np.linalg.eigh(np.array(properties.inertia))
-    if np.linalg.det(axes) < 0:
-        axes[:, 0] *= -1
-    w, x, y, z = Rotation.from_matrix(axes).as_quat(scalar_first=True).tolist()
+    moments, (w, x, y, z) = principal_frame(np.array(properties.inertia))
     first, second, largest = map(float, _single(moments))
     # The largest moment of a sheet is the sum of the others; rounding must not make it more.
     while largest > first + second:
@@ -209,8 +206,7 @@ def _apart(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
         rank = np.arange(len(points)) - np.repeat(np.cumsum(count) - count, count)
         points[order, 0] += rank.astype(np.float32) * step
         corners = points[faces]
-        area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        flat = np.flatnonzero(np.linalg.norm(area, axis=1) == 0.0)
+        flat = np.flatnonzero(triangle_areas(corners) == 0.0)
         if len(flat) == 0 and (count == 1).all():
             break
         edges = np.roll(corners[flat], 1, axis=1) - np.roll(corners[flat], -1, axis=1)
@@ -258,9 +254,7 @@ def _part(stage: Stage, path: PrimPath, part: ConvexPart, friction: Surface, *, 
         centre = part.bounds.mean(axis=0)
         local = part.vertices - centre
         corners = local[part.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-        mesh = define_mesh(stage, path, local, part.faces, np.repeat(normals[:, None], 3, axis=1))
+        mesh = define_mesh(stage, path, local, part.faces, np.repeat(unit_normals(corners)[:, None], 3, axis=1))
         prim = mesh.GetPrim()
         place(prim, tuple(centre.tolist()))
         UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(UsdPhysics.Tokens.convexHull)

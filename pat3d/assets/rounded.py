@@ -17,6 +17,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.spatial import HalfspaceIntersection
 
 from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex
+from pat3d.geometry.normals import enclosed_volume
 
 Profile = Sequence[tuple[float, float]]
 
@@ -332,8 +333,7 @@ def _skin(rings: NDArray[np.float64], centres: NDArray[np.float64], closed: bool
         faces.append(np.column_stack([np.full(around, first), (k + 1) % around, k]))
         faces.append(np.column_stack([np.full(around, last), final + k, final + (k + 1) % around]))
     triangles = np.concatenate(faces)
-    corners = vertices[triangles]
-    if np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0:
+    if enclosed_volume(vertices[triangles]) < 0:
         triangles = triangles[:, ::-1]
     mesh = manifold3d.Mesh64(np.ascontiguousarray(vertices), np.ascontiguousarray(triangles, dtype=np.uint64))
     return manifold3d.Manifold(mesh)

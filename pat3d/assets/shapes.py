@@ -17,9 +17,9 @@ import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
-from scipy.spatial.transform import Rotation
 
 from pat3d.errors import AssetError
+from pat3d.geometry.rotations import about, frame_along
 
 Vector = tuple[float, float, float]
 
@@ -49,7 +49,7 @@ class Shape:
 
     def turned(self, axis: Literal["x", "y", "z"], degrees: float) -> Shape:
         """The shape rotated about an axis through the origin."""
-        return self.transformed(Rotation.from_euler(axis, degrees, degrees=True).as_matrix())
+        return self.transformed(about(axis, math.radians(degrees)))
 
     def scaled(self, x: float, y: float | None = None, z: float | None = None) -> Shape:
         """The shape stretched about the origin; one value scales uniformly."""
@@ -152,11 +152,7 @@ def rod(start: Vector, end: Vector, radius: float, end_radius: float | None = No
     length = float(np.linalg.norm(b - a))
     shape = frustum(radius, radius if end_radius is None else end_radius, length, sides)
     direction = (b - a) / length
-    helper = np.array([1.0, 0.0, 0.0]) if abs(direction[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
-    side = np.cross(direction, helper)
-    side /= np.linalg.norm(side)
-    frame = np.column_stack([np.cross(side, direction), side, direction])
-    return shape.transformed(frame, a)
+    return shape.transformed(frame_along(direction), a)
 
 
 def bent_rod(points: Sequence[Vector], radius: float, sides: int = 8) -> Shape:

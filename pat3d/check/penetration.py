@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.normals import area_vectors
 from pat3d.geometry.pose import Pose
 from pat3d.scene.model import GROUND, Scene, SceneObject
 
@@ -174,8 +175,7 @@ def _contained(inner: SceneObject, outer: SceneObject) -> bool:
 
 def _inside(point: NDArray[np.float64], part: ConvexPart) -> bool:
     corners = part.vertices[part.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return bool(np.all(np.einsum("fi,fi->f", normals, point - corners[:, 0]) < 0.0))
+    return bool(np.all(np.einsum("fi,fi->f", area_vectors(corners), point - corners[:, 0]) < 0.0))
 
 
 def _depth(first: SceneObject, second: SceneObject) -> float:

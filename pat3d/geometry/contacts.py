@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from pat3d.geometry.edges import sharp_edges
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.normals import unit_normals
 from pat3d.geometry.pose import Pose
 
 GROUND_INDEX = -1
@@ -67,11 +69,10 @@ class WorldPart:
         """Place `part` at `pose`."""
         self.vertices = pose.apply(part.vertices)
         self.triangles = self.vertices[part.faces]
-        normal = np.cross(self.triangles[:, 1] - self.triangles[:, 0], self.triangles[:, 2] - self.triangles[:, 0])
-        self.normals = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+        self.normals = unit_normals(self.triangles)
         self.offsets = np.einsum("fi,fi->f", self.normals, self.triangles[:, 0])
         self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
-        self.edges = self.vertices[_sharp_edges(part.faces, self.normals)]
+        self.edges = self.vertices[sharp_edges(part)]
 
     def near(self, other: WorldPart, reach: float) -> bool:
         """Whether the bounding boxes come within `reach` [m]."""
@@ -334,16 +335,3 @@ def _closest_on_triangles(
         squared = np.where(better, distance, squared)
         best = np.where(better[..., None], foot, best)
     return best, squared
-
-
-def _sharp_edges(faces: NDArray[np.int32], normals: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Vertex pairs of the edges between faces that are not coplanar, shape (edges, 2)."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    owner = np.tile(np.arange(len(faces)), 3)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    edges, owner = edges[order].astype(np.int64), owner[order]
-    twin = np.all(edges[1:] == edges[:-1], axis=1)
-    flat = np.einsum("ei,ei->e", normals[owner[1:]], normals[owner[:-1]]) > 1.0 - 1e-12
-    first = np.concatenate([[True], ~twin])
-    dropped = np.concatenate([twin & flat, [False]])
-    return edges[first & ~dropped]

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import AssetError
+from pat3d.geometry.normals import area_vectors
+from pat3d.geometry.rotations import quat_of
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,9 +47,7 @@ def convex_part(points: NDArray[np.float64]) -> ConvexPart:
     renumber[keep] = np.arange(len(keep), dtype=np.int32)
     vertices = points[keep]
     faces = renumber[hull.simplices]
-    corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    inward = np.einsum("fi,fi->f", normals, hull.equations[:, :3]) < 0
+    inward = np.einsum("fi,fi->f", area_vectors(vertices[faces]), hull.equations[:, :3]) < 0
     faces[inward] = faces[inward][:, ::-1]
     return ConvexPart(vertices=vertices, faces=faces, box=_as_box(vertices))
 
@@ -84,10 +84,7 @@ def _as_box(vertices: NDArray[np.float64]) -> Any:
                 projected = np.abs(offsets @ axes)
                 if np.abs(projected - half).max() > 1e-9 * scale:
                     continue
-                from scipy.spatial.transform import Rotation
-
-                quat = Rotation.from_matrix(axes).as_quat(scalar_first=True)
-                return (tuple(map(float, centre)), tuple(map(float, half)), tuple(map(float, quat)))
+                return (tuple(map(float, centre)), tuple(map(float, half)), quat_of(axes))
     return None
 
 

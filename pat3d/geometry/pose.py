@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import SpecError
+from pat3d.geometry.rotations import matrix_of, quat_of, yaw_quat
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,27 +37,18 @@ class Pose:
     @staticmethod
     def from_matrix(rotation: NDArray[np.float64], position: NDArray[np.float64]) -> Pose:
         """The pose with rotation matrix `rotation`, shape (3, 3), and `position` [m], shape (3,)."""
-        from scipy.spatial.transform import Rotation
-
-        quat = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
-        return Pose(position=tuple(map(float, position)), quat_wxyz=tuple(map(float, quat)))  # type: ignore[arg-type]
+        x, y, z = map(float, position)
+        return Pose(position=(x, y, z), quat_wxyz=quat_of(rotation))
 
     @staticmethod
     def from_yaw(yaw: float, position: tuple[float, float, float]) -> Pose:
         """The pose turned by `yaw` [rad] about the vertical through its origin."""
-        return Pose(position=position, quat_wxyz=(math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
+        return Pose(position=position, quat_wxyz=yaw_quat(yaw))
 
     @property
     def rotation(self) -> NDArray[np.float64]:
         """Rotation matrix, shape (3, 3)."""
-        w, x, y, z = self.quat_wxyz
-        return np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-            ]
-        )
+        return matrix_of(self.quat_wxyz)
 
     def apply(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Local points [m], shape (n, 3), in the world frame."""

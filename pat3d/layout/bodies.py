@@ -15,6 +15,7 @@ import fcl
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.normals import unit_normals
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 
@@ -33,8 +34,7 @@ class Body:
         self.starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
         """First vertex of every part, shape (parts,)."""
         corners = np.concatenate([part.vertices[part.faces] for part in asset.parts])
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        self.normals: Array = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+        self.normals: Array = unit_normals(corners)
         """Outward unit normals of all faces, shape (faces, 3), asset frame."""
         self.offsets: Array = np.einsum("fi,fi->f", self.normals, corners[:, 0])
         """Face planes are normal . x = offset [m], shape (faces,)."""

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.rotations import about, yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.drop import clear, fall
-from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
 
 CELLS = 36
@@ -291,7 +292,7 @@ def orientations(group: Group, column: Column, rng: np.random.Generator) -> Iter
     steepest = min(math.atan2(max(0.0, 2 * column.half_size.min() - 1.2 * wide), column.height), math.radians(50))
     spins = (0.0, math.pi / 2) if thin < 0.6 * wide else (0.0,)
     for share in (1.0, 0.85, 0.6, 0.0):
-        lean = _about("y", share * steepest)
+        lean = about("y", share * steepest)
         for k in range(6 if share else 1):
             for spin in spins:
                 yield yaw_matrix(start + k * math.pi / 3) @ lean @ yaw_matrix(spin) @ on_end
@@ -305,15 +306,15 @@ def other_faces(group: Group, rng: np.random.Generator) -> Iterator[Array]:
     for axis in ("x", "y"):
         for angle in (-math.pi / 2, math.pi / 2):
             for k in range(4):
-                yield yaw_matrix(start + k * math.pi / 4) @ _about(axis, angle)
-    yield _about("x", math.pi)
+                yield yaw_matrix(start + k * math.pi / 4) @ about(axis, angle)
+    yield about("x", math.pi)
 
 
 def _onto_end(group: Group, axis: int, end: float) -> Array:
     """The rotation that takes the `end` (+1 or -1) of the box's `axis` up."""
     if axis == 2:
-        return np.eye(3) if end > 0 else _about("x", math.pi)
-    return _about("y", -end * math.pi / 2) if axis == 0 else _about("x", end * math.pi / 2)
+        return np.eye(3) if end > 0 else about("x", math.pi)
+    return about("y", -end * math.pi / 2) if axis == 0 else about("x", end * math.pi / 2)
 
 
 def _upper_end(body: Placed, axis: int, deep: float) -> float:
@@ -333,12 +334,6 @@ def _upper_end(body: Placed, axis: int, deep: float) -> float:
     as_made = axis == 2 and abs(top - bottom) < 0.1 * max(top, bottom)
     wide = 1.0 if as_made or top >= bottom else -1.0
     return -wide if heavy * wide > 0.0 and 2 * reach + heavy * wide > deep else wide
-
-
-def _about(axis: str, angle: float) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_euler(axis, angle).as_matrix()
 
 
 def _refusal(container: Placed, column: Column, group: Group, before: list[str]) -> LayoutError:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
+from pat3d.geometry.rotations import yaw_of
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column
 from pat3d.layout.flat import Surface
@@ -42,7 +43,7 @@ def column_of(body: Placed) -> Column | None:
     return Column(
         centre=body.rotation @ np.array(region.floor) + body.position,
         half_size=np.array(region.half_size),
-        yaw=_yaw(body),
+        yaw=yaw_of(body.rotation),
         disc=region.shape == "disc",
         height=region.height if math.isfinite(region.height) else float(body.body.asset.size[2]),
         capped=region.enclosed,
@@ -65,7 +66,7 @@ def _flat(region: Region, body: Placed) -> FlatRegion:
     a, b = region.half_size
     if region.shape != "disc":
         # The largest rectangle of the same proportions, parallel to the axes, inside the turned one.
-        c, s = abs(math.cos(_yaw(body))), abs(math.sin(_yaw(body)))
+        c, s = abs(math.cos(yaw_of(body.rotation))), abs(math.sin(yaw_of(body.rotation)))
         x, y = (b, a) if s > c else (a, b)
         c, s = max(c, s), min(c, s)
         share = min(x / (x * c + y * s), y / (x * s + y * c))
@@ -84,7 +85,3 @@ def outline(points: Array) -> Array:
         return points[ConvexHull(points).vertices]
     except QhullError:
         return np.stack([points.min(axis=0), points.max(axis=0)])
-
-
-def _yaw(body: Placed) -> float:
-    return math.atan2(body.rotation[1, 0], body.rotation[0, 0])

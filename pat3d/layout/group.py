@@ -9,12 +9,6 @@ import numpy as np
 from pat3d.layout.bodies import Array, Placed
 
 
-def yaw_matrix(yaw: float) -> Array:
-    """Rotation about z by `yaw` [rad], shape (3, 3)."""
-    c, s = np.cos(yaw), np.sin(yaw)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
 @dataclass(frozen=True, eq=False)
 class Group:
     """Placed bodies; the first is the root, whose origin is the group's origin."""

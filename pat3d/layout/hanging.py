@@ -14,9 +14,10 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.rotations import turn, yaw_matrix
 from pat3d.layout.bodies import Array, Body, Placed
 from pat3d.layout.drop import clear, fall
-from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map, resting_heights, top_map
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Attachment
@@ -128,7 +129,7 @@ def _tied(group: Group, carrier: Group, spot: Array, gap: float) -> tuple[Group,
         slope = math.atan2(above[1] - above[0], float(np.linalg.norm(span)))
         if abs(slope) > _STEEPEST:
             return None
-        group = group.turned(_turn(np.array([span[1], -span[0], 0.0]), slope))
+        group = group.turned(turn(np.array([span[1], -span[0], 0.0]), slope))
         anchors = _anchors(group.root)
     highest = max(float(group.high[2] - anchors[:, 2].max()), 0.0)
     height = float((above - anchors[:, 2]).min()) - highest - gap - 0.02
@@ -153,7 +154,7 @@ def _plumb(group: Group) -> Group:
     if len(anchors) == 2:
         line = anchors[1] - anchors[0]
         flat = math.atan2(line[2], float(np.linalg.norm(line[:2])))
-        group = group.turned(_turn(np.array([line[1], -line[0], 0.0]), -flat))
+        group = group.turned(turn(np.array([line[1], -line[0], 0.0]), -flat))
         anchors = _anchors(group.root)
     down = group.centre_of_mass - anchors.mean(axis=0)
     if len(anchors) == 2:
@@ -164,7 +165,7 @@ def _plumb(group: Group) -> Group:
         return group
     target = np.array([0.0, 0.0, -1.0])
     axis = np.cross(down / length, target)
-    return group.turned(_turn(axis, math.atan2(float(np.linalg.norm(axis)), float(down @ target) / length)))
+    return group.turned(turn(axis, math.atan2(float(np.linalg.norm(axis)), float(down @ target) / length)))
 
 
 def _under_the_ridge(root: Placed, spot: Array, anchors: Array, cell: float) -> Array:
@@ -197,11 +198,3 @@ def _underside(body: Placed, point: Array) -> float:
 
 def _anchors(body: Placed) -> Array:
     return anchors_of(body.body.asset) @ body.rotation.T + body.position
-
-
-def _turn(axis: Array, angle: float) -> Array:
-    """Rotation by `angle` [rad] about `axis`, shape (3, 3); the identity for an axis of no length."""
-    from scipy.spatial.transform import Rotation
-
-    length = float(np.linalg.norm(axis))
-    return np.eye(3) if length < 1e-12 else Rotation.from_rotvec(axis / length * angle).as_matrix()

@@ -14,12 +14,13 @@ import numpy as np
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
+from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.bodies import Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.frames import column_of, flat_regions
-from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.group import Group
 from pat3d.layout.hanging import attachment, hang
 from pat3d.layout.surfaces import arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread

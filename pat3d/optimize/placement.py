@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
+from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.bodies import Body, Placed
 from pat3d.layout.clearance import require_clearance
 from pat3d.layout.containers import lower
-from pat3d.layout.group import Group, yaw_matrix
+from pat3d.layout.group import Group
 from pat3d.optimize.loss import states
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, Scene, SceneObject, parent_of

@@ -17,7 +17,9 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.errors import SimulationError
+from pat3d.geometry.edges import sharp_edges
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.normals import enclosed_volume
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
@@ -26,9 +28,6 @@ from pat3d.sim.clusters import ClusteredPart, cluster
 
 ATTACHMENT_STRETCH = 5.0e-7
 """How far an anchor gives way under the weight of the lighter of the two bodies that it joins [m]."""
-
-FLAT_EDGE = 1e-6
-"""Edges whose two faces' normals differ by less than this [rad] are inside a flat facet: no contact needs them."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -192,8 +191,7 @@ class ModelBuilder:
         if not np.all(np.isfinite(moments)) or moments[0] <= 0:
             raise SimulationError(f'body "{label}": the second moment of mass {moments} must be positive definite.')
         for part in parts:
-            corners = part.vertices[part.faces]
-            if np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) <= 0:
+            if enclosed_volume(part.vertices[part.faces]) <= 0:
                 raise SimulationError(f'body "{label}" has a part that is flat or inside out.')
         self._bodies.append(
             {
@@ -353,25 +351,6 @@ def poses_from_states(model: Model, q: NDArray[np.float64]) -> list[Pose]:
         rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
         poses.append(Pose.from_matrix(rotation, state[0] - rotation @ centre))
     return poses
-
-
-def sharp_edges(part: ConvexPart) -> NDArray[np.int32]:
-    """Edges of a part whose faces are not coplanar, shape (edges, 2)."""
-    corners = part.vertices[part.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = normals / np.maximum(lengths, 1e-300)
-    halves = np.sort(part.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    unique, inverse = np.unique(halves, axis=0, return_inverse=True)
-    face = np.repeat(np.arange(len(part.faces)), 3)
-    order = np.argsort(inverse.ravel(), kind="stable")
-    counts = np.bincount(inverse.ravel(), minlength=len(unique))
-    if np.any(counts != 2):
-        raise SimulationError("a part's surface is open or not manifold; every edge needs exactly two faces.")
-    sides = face[order].reshape(-1, 2)
-    angle_sine = np.linalg.norm(np.cross(normals[sides[:, 0]], normals[sides[:, 1]]), axis=1)
-    folded = np.einsum("ei,ei->e", normals[sides[:, 0]], normals[sides[:, 1]]) < 0
-    return unique[(angle_sine > FLAT_EDGE) | folded].astype(np.int32)
 
 
 def _part_pairs(owner: NDArray[np.int32], world: NDArray[np.int32], dof: NDArray[np.int32]) -> NDArray[np.int32]:

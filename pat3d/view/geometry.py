@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,57 +10,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.normals import area_vectors, crease_normals, triangle_areas
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
 from pat3d.view.textures import TextureAtlas
-
-CREASE_ANGLE = 40.0
-"""Faces that meet at a larger angle [deg] keep a sharp edge."""
-_LARGEST_FAN = 256
-"""Corners of a vertex with more faces than this stay flat: pairs grow with the square."""
-
-
-def crease_normals(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float32]:
-    """Normals of every face corner: the mean over the faces at its vertex within the crease angle of its own face.
-
-    Faces count by area, so that the slivers of boolean operations, whose own normals are noise, do not show.
-
-    Args:
-        vertices: [m], shape (v, 3).
-        faces: vertex indices, shape (f, 3).
-
-    Returns:
-        Unit normals, shape (f, 3, 3).
-    """
-    corners = vertices[faces]
-    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    flat = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
-    vertex_of = faces.reshape(-1)
-    order = np.argsort(vertex_of, kind="stable")
-    face_of = order // 3
-    fan = np.bincount(vertex_of, minlength=len(vertices))
-    start = np.cumsum(fan) - fan
-    limit = math.cos(math.radians(CREASE_ANGLE))
-    # Where every face is within half the crease angle of the mean, all pairs are within the whole.
-    weights = [np.bincount(vertex_of, area[:, axis].repeat(3), len(vertices)) for axis in range(3)]
-    mean = np.stack(weights, axis=1)
-    mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
-    apart = np.einsum("ij,ij->i", flat.repeat(3, axis=0), mean[vertex_of]) < math.cos(math.radians(CREASE_ANGLE / 2))
-    creased = np.bincount(vertex_of, apart, len(vertices)) > 0
-    sums = np.where(creased[vertex_of][:, None], area.repeat(3, axis=0), mean[vertex_of])
-    # Corner i of its vertex's fan against the corner `shift` places further round, for all vertices at once.
-    rank = np.arange(len(order)) - start.repeat(fan)
-    valence, first = fan.repeat(fan), start.repeat(fan)
-    active = np.flatnonzero(creased.repeat(fan) & (valence <= _LARGEST_FAN))
-    for shift in range(1, _LARGEST_FAN):
-        active = active[valence[active] > shift]
-        if len(active) == 0:
-            break
-        theirs = face_of[first[active] + (rank[active] + shift) % valence[active]]
-        close = np.einsum("ij,ij->i", flat[face_of[active]], flat[theirs]) > limit
-        sums[order[active[close]]] += area[theirs[close]]
-    length = np.linalg.norm(sums, axis=1)
-    return (sums / np.maximum(length, 1e-300)[:, None]).reshape(-1, 3, 3).astype(np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +34,7 @@ def _prepared(mesh: VisualMesh) -> _Prepared:
     found = _PREPARED.get(mesh)
     if found is None:
         corners = mesh.vertices[mesh.faces]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        area = 2.0 * triangle_areas(corners)
         edge, other = mesh.uv[:, 1] - mesh.uv[:, 0], mesh.uv[:, 2] - mesh.uv[:, 0]
         texels = np.abs(edge[:, 0] * other[:, 1] - edge[:, 1] * other[:, 0]) * mesh.texture[..., 0].size
         density = np.sqrt(texels / np.maximum(area, 1e-18)).astype(np.float32)
@@ -134,7 +86,7 @@ class Geometry:
         counts = [len(mesh.faces) for mesh, _ in items]
         self._item = np.repeat(np.arange(len(items), dtype=np.int32), counts)
         self._atlas = TextureAtlas([mesh.texture for mesh, _ in items])
-        area = np.cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
+        area = area_vectors(self.corners)
         length = np.linalg.norm(area, axis=1)
         self.face_normals: NDArray[np.float32] = area / np.maximum(length, 1e-30)[:, None]
         centre = self._uv.mean(axis=1)

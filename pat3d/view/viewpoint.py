@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.geometry.normals import triangle_areas
 from pat3d.view.camera import ELEVATION, Camera
 from pat3d.view.geometry import Geometry
 from pat3d.view.render import Item, frame_items
@@ -46,7 +47,7 @@ def share_seen(items: Sequence[Item], camera: Camera) -> NDArray[np.float64]:
     seen = np.empty(len(items))
     for index, (mesh, pose) in enumerate(items):
         corners = mesh.vertices[mesh.faces[:: -(-len(mesh.faces) // _SAMPLES)]]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        area = triangle_areas(corners)
         rays = pose.apply(corners.mean(axis=1)) - geometry.origin - eye
         rays /= np.linalg.norm(rays, axis=1)[:, None]
         first = geometry.first_items(np.tile(eye, (len(rays), 1)).astype(np.float32), rays.astype(np.float32))

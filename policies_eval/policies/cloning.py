@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
+from pat3d.geometry.rotations import matrix_of
 from pat3d.policies_eval.policies.policy import EpisodeStart
 
 FORMAT = 1
@@ -36,7 +37,7 @@ def features(observation: Mapping[str, Any]) -> NDArray[np.float32]:
         raise EvaluationError(f'a cloned policy needs obs="state"; {", ".join(sorted(missing))} are missing.')
     target = np.asarray(observation["target"], dtype=np.float64)
     hand = np.asarray(observation["eef_pos"], dtype=np.float64)
-    hand_rotation, rotation = _matrix(observation["eef_quat"]), _matrix(target[3:7])
+    hand_rotation, rotation = matrix_of(observation["eef_quat"]), matrix_of(target[3:7])
     away, goal = target[:3] - hand, target[7:10] - target[:3]
     fingers = np.asarray(observation["gripper_pos"], dtype=np.float64)[:2]
     return np.concatenate(
@@ -170,17 +171,6 @@ def load(file: str | Path) -> Any:
     if not all(bool(torch.isfinite(value).all()) for value in network.state_dict().values()):
         raise EvaluationError(f"{path}: weights that are not finite.")
     return network.eval()
-
-
-def _matrix(quat_wxyz: Any) -> NDArray[np.float64]:
-    w, x, y, z = (float(value) for value in quat_wxyz)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def _torch() -> Any:

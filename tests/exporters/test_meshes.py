@@ -2,7 +2,8 @@ import numpy as np
 import trimesh
 
 from pat3d.assets.shapes import box, cylinder
-from pat3d.scene.obj_files import corner_normals, write_visual
+from pat3d.geometry.normals import corner_normals
+from pat3d.scene.obj_files import write_visual
 from tests.scenes import asset_of
 
 

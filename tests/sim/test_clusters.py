@@ -6,13 +6,14 @@ import trimesh
 import warp as wp
 
 from pat3d.errors import SimulationError
+from pat3d.geometry.edges import sharp_edges
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.pose import Pose
 from pat3d.sim import clusters
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.intersection import GROUND_BODY, intersecting_bodies
-from pat3d.sim.model import ModelBuilder, sharp_edges
+from pat3d.sim.model import ModelBuilder
 from pat3d.sim.run import Run, SettleOptions
 from tests.sim.builders import box_points
 

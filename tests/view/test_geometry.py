@@ -2,8 +2,9 @@ import numpy as np
 import trimesh
 from scipy.ndimage import map_coordinates
 
+from pat3d.geometry.normals import crease_normals
 from pat3d.geometry.pose import Pose
-from pat3d.view.geometry import Geometry, crease_normals
+from pat3d.view.geometry import Geometry
 from pat3d.view.textures import TextureAtlas
 from pat3d.view.tone import compress, decode, encode, quantise
 from tests.view.shapes import ball, block

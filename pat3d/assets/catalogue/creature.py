@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull
 
 from pat3d.assets.catalogue.registry import RGB, Build, Style
 from pat3d.assets.shapes import Shape, ellipsoid, join
+from pat3d.geometry.rotations import frame_along
 from pat3d.scene.asset import Region
 
 DARK: RGB = (34, 30, 32)
@@ -109,10 +110,7 @@ def limb(start: Sequence[float], end: Sequence[float], radius: float, end_radius
     points = np.concatenate([np.column_stack([ring * r, np.full(sides, z)]) for r, z in levels])
     shape = Shape(manifold3d.Manifold.batch_hull(balls), (points[_extreme(points)],))
     direction = (b - a) / length
-    helper = np.array([1.0, 0.0, 0.0]) if abs(direction[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
-    side = np.cross(direction, helper)
-    side /= np.linalg.norm(side)
-    return shape.transformed(np.column_stack([np.cross(side, direction), side, direction]), a.tolist())
+    return shape.transformed(frame_along(direction), a.tolist())
 
 
 def _extreme(points: np.ndarray) -> np.ndarray:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.mesh.cover import planes
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.planes import planes
 from pat3d.scene.asset import Region
 
 

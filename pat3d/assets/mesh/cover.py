@@ -8,22 +8,13 @@ from numpy.typing import NDArray
 from pat3d.assets.mesh.reduce import reduce_hull
 from pat3d.assets.mesh.topology import Indices
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.planes import plane_distances, planes
 
 TOLERANCE = 1e-5
 """Points of the visual mesh may stick out of the parts by this much [m]."""
 
 MAX_SAMPLES = 100_000
 _CHUNK = 20_000
-
-
-def planes(part: ConvexPart) -> NDArray[np.float64]:
-    """Outward unit normals and offsets of a part's faces, inside where n x + d <= 0, shape (faces, 4)."""
-    corners = part.vertices[part.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    keep = lengths > 1e-12 * lengths.max()
-    normals = normals[keep] / lengths[keep, None]
-    return np.column_stack([normals, -np.einsum("fi,fi->f", normals, corners[keep].mean(axis=1))])
 
 
 def outside(points: NDArray[np.float64], parts: list[ConvexPart]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -38,7 +29,7 @@ def outside(points: NDArray[np.float64], parts: list[ConvexPart]) -> tuple[NDArr
         chosen = np.flatnonzero((distance > 0.0) & (gap < distance))
         for start in range(0, len(chosen), _CHUNK):
             some = chosen[start : start + _CHUNK]
-            depth = (points[some] @ sides[:, :3].T + sides[:, 3]).max(axis=1)
+            depth = plane_distances(points[some], sides)
             closer = depth < distance[some]
             distance[some[closer]] = depth[closer]
             nearest[some[closer]] = index
@@ -132,7 +123,7 @@ def _depth(points: NDArray[np.float64], part: ConvexPart) -> NDArray[np.float32]
     chosen = np.flatnonzero(found < 0.5 * reach)
     for start in range(0, len(chosen), _CHUNK):
         some = chosen[start : start + _CHUNK]
-        found[some] = (points[some] @ sides[:, :3].T + sides[:, 3]).max(axis=1)
+        found[some] = plane_distances(points[some], sides)
     return found
 
 

@@ -17,7 +17,7 @@ from scipy.spatial import KDTree
 
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.cavity import cavity_loss
-from pat3d.assets.mesh.cover import cover, planes, surface_patches, surface_points
+from pat3d.assets.mesh.cover import cover, surface_patches, surface_points
 from pat3d.assets.mesh.decompose import DEFAULT_OPTIONS, decompose
 from pat3d.assets.mesh.load import LoadedMesh, load_mesh
 from pat3d.assets.mesh.reduce import inflation
@@ -27,6 +27,7 @@ from pat3d.assets.mesh.topology import signed_volume
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
+from pat3d.geometry.planes import planes
 from pat3d.scene.asset import Asset, VisualMesh
 from pat3d.scene.cache import cache_root, content_key, load_points, load_record, store_points
 

@@ -21,6 +21,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
+from pat3d.geometry.normals import triangle_areas
 
 SHORT_EDGE = 0.01
 """Edges shorter than this fraction of the hull's longest side are removed."""
@@ -110,7 +111,7 @@ def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:
     """Planes (outward normal, offset) worth keeping, most important first, shape (planes, 4)."""
     planes, group = _merged_planes(hull.equations)
     corners = hull.points[hull.simplices]
-    areas = _areas(corners)
+    areas = triangle_areas(corners)
     area = np.bincount(group, weights=areas, minlength=len(planes)) / areas.sum()
     upright = np.abs(planes[:, 2]) > 1 - 1e-9
     wanted = np.flatnonzero((area > 0.05) | (upright & (area > 0.005)))
@@ -154,7 +155,7 @@ def _few_planes(corners: NDArray[np.float64], hull: ConvexHull, supports: NDArra
 
 def _short_edge(corners: NDArray[np.float64], hull: ConvexHull) -> float:
     """Length below which an edge of a hull of unit size is removed; well below the thickness of a thin hull."""
-    largest = np.argsort(-_areas(corners[hull.simplices]))[:200]
+    largest = np.argsort(-triangle_areas(corners[hull.simplices]))[:200]
     depth = -(corners @ hull.equations[largest, :3].T + hull.equations[largest, 3]).min(axis=0)
     return min(SHORT_EDGE, 0.2 * float(depth.min()))
 
@@ -256,7 +257,7 @@ def _outer_point(
         fixed: planes that must hold the point, shape (planes, 4).
         bounds: least and greatest height of the point.
     """
-    areas = _areas(triangles)
+    areas = triangle_areas(triangles)
     planes = _distinct(equations)
     free = planes
     if len(fixed):
@@ -378,11 +379,6 @@ def _inner_point(
     if not len(candidates):
         return None
     return _snapped(candidates[int(np.argmin(candidates @ gradient))], fixed)
-
-
-def _areas(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Areas of triangles, shape (faces, 3, 3) to (faces,)."""
-    return np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
 
 
 def _distinct(equations: NDArray[np.float64]) -> NDArray[np.float64]:

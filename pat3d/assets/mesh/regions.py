@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.assets.mesh.cover import planes
 from pat3d.geometry.hulls import ConvexPart
+from pat3d.geometry.planes import planes
 from pat3d.scene.asset import Region
 
 CELLS = 128

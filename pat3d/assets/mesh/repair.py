@@ -25,6 +25,7 @@ from pat3d.assets.mesh.topology import (
 )
 from pat3d.assets.mesh.wrap import RESOLUTION, voxel_wrap
 from pat3d.errors import AssetError
+from pat3d.geometry.normals import area_vectors, triangle_areas
 
 VolumeSource = Literal["closed surface", "hole filled", "thickened shell", "voxel wrap"]
 
@@ -96,8 +97,7 @@ def repair(vertices: Points, faces: Indices, *, thickness: float | None = None) 
         AssetError: the mesh has no area, or encloses nothing by any means.
     """
     size = float(np.ptp(vertices[np.unique(faces)], axis=0).max()) if len(faces) else 0.0
-    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
-    if size <= 0.0 or np.linalg.norm(normals, axis=1).sum() <= 1e-12 * size**2:
+    if size <= 0.0 or 2.0 * triangle_areas(vertices[faces]).sum() <= 1e-12 * size**2:
         raise AssetError("the mesh has zero area: its triangles are all lines or points.")
     repairs: list[str] = []
     points, welded, joined = weld(vertices, faces, WELD * size)
@@ -281,7 +281,7 @@ def _thicken(piece: _Piece, depth: float) -> None:
 def _inward(piece: _Piece, depth: float) -> Points:
     """Offset of every vertex that moves the planes of its faces inwards by `depth` [m], shape (vertices, 3)."""
     corners = piece.vertices[piece.faces]
-    weighted = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    weighted = area_vectors(corners)
     areas = np.linalg.norm(weighted, axis=1)
     normals = weighted / np.maximum(areas, 1e-300)[:, None]
     areas = areas + 1e-12 * areas.max()

@@ -15,6 +15,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 from scipy.spatial import KDTree
 
+from pat3d.geometry.normals import enclosed_volume
+
 Points = NDArray[np.float64]
 Indices = NDArray[np.integer[Any]]
 
@@ -133,8 +135,7 @@ def boundary_loops(faces: Indices) -> list[Indices]:
 
 def signed_volume(vertices: Points, faces: Indices) -> float:
     """Volume enclosed by closed faces, positive when they face outwards."""
-    corners = (vertices - vertices[faces[0, 0]])[faces]
-    return float(np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0)
+    return enclosed_volume((vertices - vertices[faces[0, 0]])[faces])
 
 
 def winding_number(points: Points, vertices: Points, faces: Indices) -> NDArray[np.float64]:

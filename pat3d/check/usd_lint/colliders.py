@@ -14,6 +14,7 @@ from pat3d.exporters.usd.openusd import Prim, UsdGeom, UsdPhysics
 from pat3d.exporters.usd.stage import bound_friction, collider_points
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import MassProperties
+from pat3d.geometry.normals import enclosed_volume
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset, Material, VisualMesh
 from pat3d.scene.model import GROUND, Scene, SceneObject
@@ -113,8 +114,7 @@ def overlap(file: LintFile) -> Faults:
 
 
 def _volume(points: NDArray[np.float64], faces: NDArray[Any]) -> float:
-    corners = points[faces] - points.mean(axis=0)
-    return float(np.einsum("fi,fi->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6.0
+    return enclosed_volume(points[faces] - points.mean(axis=0))
 
 
 def _object(file: LintFile, path: str, prims: tuple[Prim, ...]) -> SceneObject | None:

@@ -1,0 +1,241 @@
+"""Mutation testing: do the tests notice when a sign, a constant, a comparison or a statement of the code is wrong?
+
+    python benchmarks/mutants.py pat3d/geometry pat3d/layout --count 60 --seed 0
+
+Places are drawn at random from the syntax trees of the given files and folders; each is changed alone, in a temporary
+copy of the tree, and the tests that belong to the module run until the first fails (killed) or none does (survived).
+Tests belong to a module when they lie in the folder of tests/ that mirrors its own, or in the files given with --tests,
+and run some line of it; those that run the changed line come first. The time limit of a mutant is a multiple of what
+its tests take on the unchanged code, so a slow machine changes nothing but the time. Exit code 1 where the share that
+is killed is below --least.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from benchmarks.mutations import Mutation, mutations
+
+ROOT = Path(__file__).resolve().parents[1]
+LEFT_OUT = (".git", ".venv", ".hypothesis", ".pytest_cache", ".ruff_cache", "__pycache__", "*.egg-info", "build")
+GRACE = 60.0
+"""Seconds that every run may take beside the multiple of the unchanged run: starting Python, compiling kernels."""
+
+
+@dataclass
+class Baseline:
+    """The tests of one folder on the unchanged code."""
+
+    seconds: dict[str, float] = field(default_factory=dict)
+    """Time of every test [s]."""
+    lines: dict[str, dict[int, list[str]]] = field(default_factory=dict)
+    """Tests that run each line of each module; the empty name stands for the import of the module."""
+
+    def tests_of(self, module: str, first: int, last: int) -> list[str]:
+        """Tests that run the module, those of lines `first` to `last` before the others, quick ones before slow."""
+        lines = self.lines.get(module, {})
+        near = {test for line in range(first, last + 1) for test in lines.get(line, ())}
+        # What runs at import, or is compiled by Warp and never run by Python, may matter to any test of the folder.
+        touching = {test for tests in lines.values() for test in tests if test} or set(self.seconds)
+        chosen = [test for test in self.seconds if test in touching]
+        return sorted(chosen, key=lambda test: (test not in near, self.seconds[test]))
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the tests made of one mutant."""
+
+    mutation: Mutation
+    outcome: str
+    """killed, timeout (which counts as killed), or survived."""
+    by: str
+    """The test that failed."""
+    seconds: float
+
+
+class Tree:
+    """A temporary copy of the repository in which files may be broken."""
+
+    def __init__(self, root: Path, folder: Path) -> None:
+        self.root = folder / "tree"
+        shutil.copytree(root, self.root, symlinks=True, ignore=shutil.ignore_patterns(*LEFT_OUT))
+        self._folder = folder
+
+    def pytest(self, paths: Sequence[str], order: dict[str, object], limit: float | None) -> tuple[int | None, str]:
+        """Exit code (None: out of time) and output of pytest under the plugin that `order` instructs."""
+        orders, scratch = self._folder / "order.json", self._folder / "scratch"
+        orders.write_text(json.dumps(order), encoding="utf-8")
+        # Caches know contents, not the code that made them: every mutant gets its own.
+        shutil.rmtree(scratch, ignore_errors=True)
+        scratch.mkdir()
+        environment = {
+            **os.environ,
+            "PYTHONPATH": str(self.root),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "PAT3D_CACHE": str(scratch / "cache"),
+            "PAT3D_MUTANT_ORDER": str(orders),
+            "TMPDIR": str(scratch),
+        }
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "--no-header", "-m", "not slow", "--hypothesis-seed=0"]
+        command += ["-p", "no:xdist", "-p", "no:cacheprovider", "-p", "benchmarks.mutants_plugin", *paths]
+        process = subprocess.Popen(
+            command, cwd=self.root, env=environment, text=True, start_new_session=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        try:
+            output, _ = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            process.communicate()
+            return None, ""
+        return process.returncode, output
+
+    def baseline(self, tests: Sequence[str], modules: Sequence[str]) -> Baseline:
+        """Run `tests` on the unchanged code and note which of them run which lines of `modules`.
+
+        Raises:
+            SystemExit: they fail, so nothing can be said about mutants.
+        """
+        out = self._folder / "baseline.json"
+        code, output = self.pytest(tests, {"watch": list(modules), "out": str(out)}, None)
+        if code != 0:
+            raise SystemExit(f"{' '.join(tests)}: the tests fail on the unchanged code:\n{output[-3000:]}")
+        found = json.loads(out.read_text(encoding="utf-8"))
+        lines = {
+            module: {int(line): names for line, names in by_line.items()} for module, by_line in found["lines"].items()
+        }
+        return Baseline(found["seconds"], lines)
+
+    def judge(self, mutation: Mutation, tests: Sequence[str], limit: float) -> Verdict:
+        """Run `tests`, in this order, with `mutation` in the code."""
+        file = self.root / mutation.path
+        original = file.read_bytes()
+        start = time.perf_counter()
+        try:
+            file.write_bytes(mutation.applied(original))
+            files = sorted({test.partition("::")[0] for test in tests})
+            code, output = self.pytest(files, {"tests": list(tests)}, limit)
+        finally:
+            file.write_bytes(original)
+        seconds = time.perf_counter() - start
+        if code is None:
+            return Verdict(mutation, "timeout", "", seconds)
+        if code == 0:
+            return Verdict(mutation, "survived", "", seconds)
+        failed = [line for line in output.splitlines() if line.startswith(("FAILED", "ERROR"))]
+        return Verdict(mutation, "killed", failed[0].split(" - ")[0].split(" ", 1)[1] if failed else "import", seconds)
+
+
+def mirrored(module: str) -> str:
+    """The folder of tests that mirrors a module: pat3d/assets/mesh/load.py -> tests/assets."""
+    parts = Path(module).parts[1:-1] if module.startswith("pat3d/") else Path(module).parts[:-1]
+    while parts and not (ROOT / "tests" / Path(*parts)).is_dir():
+        parts = parts[:-1]
+    return str(Path("tests", *parts))
+
+
+def drawn(modules: Iterable[str], count: int, seed: int) -> list[Mutation]:
+    """`count` mutations, spread evenly over their kinds."""
+    rng = random.Random(seed)
+    by_kind: dict[str, list[Mutation]] = defaultdict(list)
+    for module in modules:
+        for mutation in mutations(module, (ROOT / module).read_bytes()):
+            by_kind[mutation.kind].append(mutation)
+    for found in by_kind.values():
+        rng.shuffle(found)
+    chosen: list[Mutation] = []
+    while len(chosen) < count and any(by_kind.values()):
+        chosen += [found.pop() for _, found in sorted(by_kind.items()) if found][: count - len(chosen)]
+    return sorted(chosen, key=lambda one: (mirrored(one.path), one.path, one.start))
+
+
+def modules_in(paths: Sequence[str]) -> list[str]:
+    """Python files among and under `paths`, relative to the repository."""
+    found: list[Path] = []
+    for path in paths:
+        whole = ROOT / path
+        if not whole.exists():
+            raise SystemExit(f"{path}: no such file or folder in {ROOT}.")
+        found += sorted(whole.rglob("*.py")) if whole.is_dir() else [whole]
+    return [str(file.relative_to(ROOT)) for file in dict.fromkeys(found)]
+
+
+def table(verdicts: Sequence[Verdict]) -> str:
+    """Mutants by folder, and every survivor."""
+    folders: dict[str, Counter[str]] = defaultdict(Counter)
+    for one in verdicts:
+        folders[str(Path(one.mutation.path).parent)][one.outcome] += 1
+    lines = [f"{'folder':32} {'killed':>7} {'timeout':>8} {'survived':>9}"]
+    total: Counter[str] = Counter()
+    for folder, counts in sorted(folders.items()):
+        total += counts
+        lines.append(f"{folder:32} {counts['killed']:7} {counts['timeout']:8} {counts['survived']:9}")
+    lines.append(f"{'together':32} {total['killed']:7} {total['timeout']:8} {total['survived']:9}")
+    lines += [f"survived: {one.mutation}" for one in verdicts if one.outcome == "survived"]
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """Draw, run and print."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("paths", nargs="+", help="modules and folders to break, relative to the repository")
+    parser.add_argument("--count", type=int, default=60, help="mutants (default 60)")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--tests", nargs="+", default=[], help="further test files or folders for all of them")
+    parser.add_argument("--factor", type=float, default=10.0, help="time limit over the unchanged run (default 10)")
+    parser.add_argument("--least", type=float, default=0.0, help="share that must be killed, 0 to 1")
+    parser.add_argument("--place", action="append", default=[], help="only FILE:LINE, again after writing a test")
+    parser.add_argument("--out", type=Path, help="verdicts as lines of JSON; those that are there are not run again")
+    options = parser.parse_args()
+    modules = modules_in(options.paths)
+    chosen = drawn(modules, 10**9 if options.place else options.count, options.seed)
+    if options.place:
+        chosen = [one for one in chosen if one.place in options.place]
+    known = _known(options.out)
+    verdicts: list[Verdict] = []
+    with tempfile.TemporaryDirectory(prefix="pat3d-mutants-") as scratch:
+        tree = Tree(ROOT, Path(scratch))
+        baselines: dict[str, Baseline] = {}
+        for mutation in chosen:
+            if str(mutation) in known:
+                verdicts.append(Verdict(mutation, *known[str(mutation)]))
+                continue
+            home = mirrored(mutation.path)
+            if home not in baselines:
+                watched = [module for module in modules if mirrored(module) == home]
+                baselines[home] = tree.baseline([home, *options.tests], watched)
+            baseline = baselines[home]
+            tests = baseline.tests_of(mutation.path, mutation.line, mutation.last_line)
+            limit = GRACE + options.factor * sum(baseline.seconds[test] for test in tests)
+            verdict = tree.judge(mutation, tests, limit)
+            verdicts.append(verdict)
+            print(f"{verdict.outcome:8} {verdict.seconds:6.1f} s  {mutation}  {verdict.by}", flush=True)
+            if options.out is not None:
+                with options.out.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps({"name": str(mutation), **asdict(verdict)}) + "\n")
+    print(table(verdicts))
+    survived = sum(one.outcome == "survived" for one in verdicts)
+    return int(bool(verdicts) and 1.0 - survived / len(verdicts) < options.least)
+
+
+def _known(out: Path | None) -> dict[str, tuple[str, str, float]]:
+    if out is None or not out.is_file():
+        return {}
+    rows = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()]
+    return {row["name"]: (row["outcome"], row["by"], row["seconds"]) for row in rows}
+
+
+if __name__ == "__main__":
+    sys.exit(main())
