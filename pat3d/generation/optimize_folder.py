@@ -22,6 +22,7 @@ from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import SettledScene
 from pat3d.optimize.optimize import OptimizeOptions
 from pat3d.progress import Clock, Event, Progress, silent
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.folder import (
     OWN,
     check_target,
@@ -151,6 +152,7 @@ def _write(
     with clock("files"):
         progress(Event(stage="writing the folder"))
         save_scene(scene, fresh)
+        record_checksums(fresh)
         names = tuple(obj.name for obj in scene.objects)
         write_trajectory(fresh / "trajectory.npz", names, rest.states, rest.centres, rest.record["time_step"])
         write_pictures(rest.pictures, fresh)
