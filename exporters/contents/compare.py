@@ -20,6 +20,7 @@ from pat3d.errors import Pat3dError
 from pat3d.exporters.compare import locate
 from pat3d.exporters.contents.mujoco_models import model_differences
 from pat3d.exporters.contents.texts import json_differences, obj_differences, png_differences, text_differences
+from pat3d.exporters.contents.values import FOREIGN
 from pat3d.exporters.contents.xml_trees import xml_differences
 from pat3d.exporters.formats import export
 from pat3d.scene.checksums import BYPRODUCTS, MANIFEST
@@ -51,6 +52,11 @@ class ContentsReport:
         """It says what the scene says."""
         return not self.failures
 
+    @property
+    def foreign(self) -> bool:
+        """There is something in it that other programs should not be let loose on."""
+        return any(FOREIGN in line for line in self.failures)
+
 
 def contents(scene: Scene, path: str | Path) -> ContentsReport:
     """Compare everything in the folder of the export at `path` with what would be written of `scene`.
@@ -78,7 +84,7 @@ def _folders(found: Path, expected: Path) -> Iterator[tuple[str, str]]:
     """(file, what is different in it) of two folders."""
     here, there = _names(found), _names(expected)
     for name in sorted(here - there - {MANIFEST}):
-        yield name, "is not part of the export"
+        yield name, f"is a file that {FOREIGN}"
     for name in sorted(there - here):
         yield name, "is missing"
     for name in sorted(here & there):

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
-from pat3d.exporters.contents.values import same_numbers, same_words, shown
+from pat3d.exporters.contents.values import FOREIGN, same_numbers, same_words, shown
 from pat3d.scene.obj_files import MAX_FILE_BYTES, read_texture
 
 _NORMAL = 3e-6
@@ -52,7 +52,7 @@ def obj_differences(found: Path, expected: Path) -> Iterator[str]:
     """
     here, there = _Mesh(found), _Mesh(expected)
     if here.rest != there.rest:
-        yield "says something that PAT3D does not write, or lacks what it writes"
+        yield f"says something that {FOREIGN}, or lacks what it writes"
     for what, mine, theirs, relative in (
         ("vertices", here.points, there.points, 1e-9),
         ("triangles", here.corners, there.corners, 1e-9),
@@ -141,7 +141,7 @@ def _json(found: Any, expected: Any, place: str) -> Iterator[str]:
             if key not in found:
                 yield f"{where} is missing"
             elif key not in expected:
-                yield f"{where} is nothing that PAT3D writes there"
+                yield f"{where} is there, which {FOREIGN}"
             else:
                 yield from _json(found[key], expected[key], where)
     elif _are_numbers(found) and _are_numbers(expected):

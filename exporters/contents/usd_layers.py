@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from pat3d.errors import ExportError
 from pat3d.exporters.contents.inertia import same_tensor
-from pat3d.exporters.contents.values import RELATIVE, same_numbers, shown
+from pat3d.exporters.contents.values import FOREIGN, RELATIVE, same_numbers, shown
 from pat3d.exporters.usd.openusd import Gf, Sdf, Tf
 from pat3d.scene.obj_files import MAX_FILE_BYTES
 
@@ -35,7 +35,7 @@ def layer_differences(found: Path, expected: Path) -> Iterator[str]:
     mine, theirs = _specs(here), _specs(there)
     for path in mine:
         if path not in theirs and not _below(path, mine, theirs):
-            yield f"{path} is nothing that PAT3D writes there"
+            yield f"{path} is there, which {FOREIGN}"
     for path in theirs:
         if path not in mine and not _below(path, theirs, mine):
             yield f"{path} is missing"
@@ -86,7 +86,7 @@ def _spec(found: Any, expected: Any, path: str) -> Iterator[str]:
         return
     mine, theirs = set(found.ListInfoKeys()), set(expected.ListInfoKeys())
     for key in sorted(mine - theirs):
-        yield f"{path} has {key} = {shown(found.GetInfo(key))}, which PAT3D does not write"
+        yield f"{path} has {key} = {shown(found.GetInfo(key))}, which {FOREIGN}"
     for key in sorted(theirs - mine):
         yield f"{path} lacks {key} = {shown(expected.GetInfo(key))}"
     relative = RELATIVE if "typeName" in theirs and _is_double(expected.GetInfo("typeName")) else _SINGLE

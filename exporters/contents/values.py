@@ -17,6 +17,9 @@ RELATIVE = 1e-9
 ABSOLUTE = 1e-12
 """Where all of them are tiny, such as a coordinate that is zero but for rounding."""
 
+FOREIGN = "PAT3D does not write"
+"""Words in the line of everything that is there although it should not be; other differences are of values."""
+
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 """Stricter than Python, which reads 1_0 as ten."""
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from pat3d.errors import ExportError
 from pat3d.exporters.common.xml_files import MAX_XML_BYTES
 from pat3d.exporters.contents.inertia import same_inertia
-from pat3d.exporters.contents.values import same_words, shown
+from pat3d.exporters.contents.values import FOREIGN, same_words, shown
 
 _IDENTITY = ("name", "class", "file", "filename")
 """Attributes that tell an element from its siblings, in this order."""
@@ -58,7 +58,7 @@ def _element(found: ET.Element, expected: ET.Element, above: str) -> Iterator[st
     if found.tag == "inertial" and same_inertia(found, expected):
         return
     for name in found.attrib.keys() - expected.attrib.keys():
-        yield f'{place} has {name}="{shown(found.attrib[name])}", which PAT3D does not write'
+        yield f'{place} has {name}="{shown(found.attrib[name])}", which {FOREIGN}'
     for name in expected.attrib.keys() - found.attrib.keys():
         yield f'{place} lacks {name}="{shown(expected.attrib[name])}"'
     for name in found.attrib.keys() & expected.attrib.keys():
@@ -73,7 +73,7 @@ def _element(found: ET.Element, expected: ET.Element, above: str) -> Iterator[st
         if key in there:
             yield from _element(here[key], there[key], place)
         else:
-            yield f"{place}/{_title(here[key])} is nothing that PAT3D writes there"
+            yield f"{place}/{_title(here[key])} is there, which {FOREIGN}"
     for key in there:
         if key not in here:
             yield f"{place}/{_title(there[key])} is missing"

@@ -27,7 +27,9 @@ EXAMPLES = {
 """,
     "check": """
   pat3d check scenes/mug
+  pat3d check scenes/mug --seconds 60                    a minute: what creeps?
   pat3d check scenes/mug --engines mujoco,newton,pybullet,drake,physx
+  pat3d check scenes/mug --settings all                  other integrators, solvers, time steps: what still stands?
 """,
     "export": """
   pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
@@ -122,7 +124,14 @@ def parser() -> argparse.ArgumentParser:
         help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
         "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all",
     )
-    checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
+    checking.add_argument(
+        "--settings",
+        nargs="+",
+        metavar="SETTING",
+        help="tell instead what still stands in MuJoCo with other integrators, solvers, cones, time steps and contact "
+        "parameters: all, or some of them",
+    )
+    checking.add_argument("--seconds", type=float, default=5.0, help="simulated time (5); 60 to see what creeps")
 
     exporting = command(
         "export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"
