@@ -18,6 +18,7 @@ from pat3d.generation.attempts import Attempt, Attempts
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.request import request_of
 from pat3d.progress import Clock, silent
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import GROUND, Scene
 from pat3d.scene.physics import SETTLING_FRICTION
@@ -238,6 +239,7 @@ def _write(
     fresh.mkdir()
     save_scene(checked.scene, fresh)
     checked.mjcf.rename(fresh / "mjcf")
+    record_checksums(fresh)
     if request.picture:
         with clock("picture"):
             save_picture(checked.scene, fresh / "preview.png", width=request.picture, height=request.picture * 3 // 4)

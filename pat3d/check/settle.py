@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.errors import CheckError
 from pat3d.scene.physics import STILL_SECONDS
 
 SAMPLE_STEPS = 5
 """Time steps between two measurements of the drift."""
+
+CREEP_MM = 0.1
+"""Objects that are slower than this late in a run [mm a minute] stand still for as long as anybody watches..."""
+
+CREEP_DEGREES = 0.05
+"""...and turn less than this [degrees a minute]."""
+
+Change = Callable[[Any], None]
+"""Something done to an MjModel before it is simulated."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +39,10 @@ class ObjectDrift:
     """Displacement of the body origin [mm]."""
     degrees: float
     """Rotation [degrees]."""
+    creep_mm: float | None = None
+    """Speed of the centre of mass late in the run [mm a minute], see `creep`; None where it was not measured."""
+    creep_degrees: float | None = None
+    """Rotation late in the run [degrees a minute]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +73,25 @@ class SettleReport:
         """Largest rotation of any object [degrees]."""
         return max((obj.degrees for obj in self.objects), default=0.0)
 
+    @property
+    def worst_creep_mm(self) -> float | None:
+        """Largest speed late in the run [mm a minute]; None where it was not measured."""
+        return max((obj.creep_mm for obj in self.objects if obj.creep_mm is not None), default=None)
+
+    @property
+    def worst_creep_degrees(self) -> float | None:
+        """Largest rotation late in the run [degrees a minute]."""
+        return max((obj.creep_degrees for obj in self.objects if obj.creep_degrees is not None), default=None)
+
+    def creeping(self) -> tuple[ObjectDrift, ...]:
+        """The objects that still move late in the run, though they may not have come far."""
+        return tuple(
+            obj
+            for obj in self.objects
+            if (obj.creep_mm is not None and not obj.creep_mm < CREEP_MM)
+            or (obj.creep_degrees is not None and not obj.creep_degrees < CREEP_DEGREES)
+        )
+
     def moved(self, *, mm: float = 1.0, degrees: float = 1.0) -> tuple[ObjectDrift, ...]:
         """The objects that strayed by `mm` or `degrees` or more (or to nowhere)."""
         return tuple(
@@ -72,15 +105,53 @@ class SettleReport:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
-        return {**asdict(self), "worst_mm": self.worst_mm, "worst_degrees": self.worst_degrees, "passed": self.passed}
+        return {
+            **asdict(self),
+            "worst_mm": self.worst_mm,
+            "worst_degrees": self.worst_degrees,
+            "worst_creep_mm_per_minute": self.worst_creep_mm,
+            "worst_creep_degrees_per_minute": self.worst_creep_degrees,
+            "passed": self.passed,
+        }
 
 
-def settle_in_mujoco(mjcf_path: str | Path, seconds: float = STILL_SECONDS) -> SettleReport:
+def creep(
+    times: NDArray[np.float64], centres: NDArray[np.float64], quats: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """How fast bodies move late in a run: from the mean pose of its third quarter to that of its last.
+
+    Means, because an object that trembles by a micrometre goes nowhere.
+
+    Args:
+        times: of the records [s], shape (records,).
+        centres: of mass [m], shape (records, bodies, 3).
+        quats: unit quaternions, any sign, shape (records, bodies, 4).
+
+    Returns:
+        [mm a minute] and [degrees a minute], shape (bodies,) each; None where a quarter has no record.
+    """
+    start, end = float(times[0]), float(times[-1])
+    third = (times >= start + 0.5 * (end - start)) & (times < start + 0.75 * (end - start))
+    last = times >= start + 0.75 * (end - start)
+    if not (third.any() and last.any()) or end <= start:
+        return None
+    minutes = float(times[last].mean() - times[third].mean()) / 60.0
+    aligned = quats * np.where(np.einsum("rbi,bi->rb", quats, quats[-1]) < 0, -1.0, 1.0)[:, :, None]
+    before, after = aligned[third].mean(axis=0), aligned[last].mean(axis=0)
+    before, after = (mean / np.linalg.norm(mean, axis=1, keepdims=True) for mean in (before, after))
+    shift = np.linalg.norm(centres[last].mean(axis=0) - centres[third].mean(axis=0), axis=1)
+    return 1e3 * shift / minutes, np.degrees(_angle(after, before)) / minutes
+
+
+def settle_in_mujoco(
+    mjcf_path: str | Path, seconds: float = STILL_SECONDS, change: Change | None = None
+) -> SettleReport:
     """Load an MJCF file with MuJoCo, simulate it untouched, and measure how far everything strays.
 
     Args:
         mjcf_path: the file, loaded from the path as any user would; poses are those of the bodies.
         seconds: simulated time [s].
+        change: done to the compiled model first, to ask what other settings would do.
 
     Raises:
         CheckError: MuJoCo refuses the file; the message is MuJoCo's.
@@ -96,6 +167,8 @@ def settle_in_mujoco(mjcf_path: str | Path, seconds: float = STILL_SECONDS) -> S
             model = mujoco.MjModel.from_xml_path(str(mjcf_path))
         except ValueError as error:
             raise CheckError(f"MuJoCo {mujoco.__version__} refuses {mjcf_path}: {error}") from error
+        if change is not None:
+            change(model)
         data = mujoco.MjData(model)
         drift = _run(mujoco, model, data, seconds)
         wall = time.perf_counter() - start
@@ -123,23 +196,34 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrif
     mujoco.mj_forward(model, data)
     origin, centre, quat = data.xpos[bodies].copy(), data.xipos[bodies].copy(), data.xquat[bodies].copy()
     worst = np.zeros((3, len(bodies)))
+    records: list[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = []
     left = max(1, round(seconds / model.opt.timestep))
     while left > 0:
         mujoco.mj_step(model, data, nstep=min(SAMPLE_STEPS, left))
         left -= SAMPLE_STEPS
         # The positions that a step leaves behind lag half a step; the joint state does not.
         mujoco.mj_kinematics(model, data)
-        worst[0] = np.maximum(worst[0], np.linalg.norm(data.xipos[bodies] - centre, axis=1))
+        records.append((data.time, data.xipos[bodies], data.xquat[bodies]))
+        worst[0] = np.maximum(worst[0], np.linalg.norm(records[-1][1] - centre, axis=1))
         worst[1] = np.maximum(worst[1], np.linalg.norm(data.xpos[bodies] - origin, axis=1))
-        worst[2] = np.maximum(worst[2], _angle(data.xquat[bodies], quat))
+        worst[2] = np.maximum(worst[2], _angle(records[-1][2], quat))
         if data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number or not np.isfinite(data.qpos).all():
             # The state was reset after an explosion: the drift is unbounded.
             worst[:] = np.inf
+            records = []
             break
+    late = creep(*map(np.array, zip(*records, strict=True))) if records else (worst[0], worst[2])
     names = [_object_name(mujoco, model, body) for body in bodies]
     return tuple(
-        ObjectDrift(name=name, centre_mm=float(c), origin_mm=float(o), degrees=float(a))
-        for name, c, o, a in zip(names, 1e3 * worst[0], 1e3 * worst[1], np.degrees(worst[2]), strict=True)
+        ObjectDrift(
+            name=name,
+            centre_mm=float(1e3 * worst[0, k]),
+            origin_mm=float(1e3 * worst[1, k]),
+            degrees=float(np.degrees(worst[2, k])),
+            creep_mm=None if late is None else float(late[0][k]),
+            creep_degrees=None if late is None else float(late[1][k]),
+        )
+        for k, name in enumerate(names)
     )
 
 

@@ -50,7 +50,7 @@ class Verification:
             for obj in self.mujoco.moved()
         ]
         lines += [f"MuJoCo warns: {warning}" for warning in self.mujoco.warnings]
-        return (*lines, *self.broken)
+        return (*lines, *self.broken, *(f"not met: {line}." for line in self.unmet))
 
     @property
     def broken(self) -> tuple[str, ...]:
@@ -59,7 +59,7 @@ class Verification:
 
     @property
     def unmet(self) -> tuple[str, ...]:
-        """Lateral relations that do not hold; the scene is verified without them but less faithful."""
+        """Lateral relations that do not hold: nothing falls over, but the scene is not what was asked for."""
         return tuple(
             f"{found.relation} ({found.detail})"
             for found in self.relations
@@ -80,6 +80,7 @@ class Verification:
             "certificate": self.certificate.as_dict(),
             "penetration": self.penetration.as_dict(),
             "mujoco": self.mujoco.as_dict(),
+            "settings": "MuJoCo with the options of mjcf/scene.xml; for others see: pat3d check --settings all",
             "displacement_m": displacement(self.mujoco),
             "share_still": share_still(self.mujoco),
             "relations": {

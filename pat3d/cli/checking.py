@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import tempfile
-from dataclasses import replace
 from pathlib import Path
 
-from pat3d.cli.console import console, show_engines, show_verification, verdict, watch
+from pat3d.cli.console import console, show_engines, show_settings, show_verification, verdict, watch
 from pat3d.cli.options import command, option
 from pat3d.errors import SpecError
 from pat3d.scene.physics import STILL_SECONDS
@@ -24,36 +22,51 @@ MAX_SECONDS = 600.0
         nargs="+",
         metavar="ENGINE",
     ),
-    option("--seconds", "simulated time with --engines", type=float, default=STILL_SECONDS),
+    option(
+        "--settings",
+        "tell instead what still stands in MuJoCo with other integrators, solvers, cones, time steps and contact "
+        "parameters: all, or some of them",
+        nargs="+",
+        metavar="SETTING",
+    ),
+    option("--seconds", "simulated time; 60 to see what creeps", type=float, default=STILL_SECONDS),
     examples="""
     pat3d check scenes/mug
+    pat3d check scenes/mug --seconds 60                    a minute: what creeps?
     pat3d check scenes/mug --engines mujoco,newton,pybullet,drake,physx
+    pat3d check scenes/mug --settings all                  other integrators, solvers, time steps: what still stands?
     """,
 )
 def check(options: argparse.Namespace) -> int:
-    """`pat3d check`: the scene of scene.json, and the MJCF as it is in the folder; with --engines, only those."""
+    """`pat3d check`: everything in the folder; with --engines or --settings, only those."""
+    if not 0.0 < options.seconds <= MAX_SECONDS:
+        raise SpecError(
+            f"--seconds {options.seconds:g}: give a simulated time of more than 0 and at most {MAX_SECONDS:g} s."
+        )
     if options.engines:
         return _check_engines(options)
-    from pat3d.check.settle import settle_in_mujoco
-    from pat3d.check.verification import verify
-    from pat3d.exporters.compare import differences
-    from pat3d.exporters.mjcf.writer import write_mjcf
-    from pat3d.scene.io import load_scene
+    if options.settings:
+        return _check_settings(options)
+    from pat3d.check.folder import check_folder
 
-    folder = Path(options.folder)
-    scene = load_scene(folder)
-    delivered = folder / "mjcf" / "scene.xml"
-    with watch(console(stderr=True)) as progress, tempfile.TemporaryDirectory(prefix="pat3d-check-") as scratch:
-        verification = verify(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
-        failures = list(verification.failures)
-        if delivered.is_file():
-            failures += differences(scene, delivered)
-            found = replace(verification, mujoco=settle_in_mujoco(delivered))
-            failures += [f"{line} ({delivered})" for line in found.failures if line not in verification.failures]
-    show_verification(console(), scene, verification)
-    if not delivered.is_file():
-        console().print(f"note  there is no {delivered}; what would be written there was checked.", markup=False)
-    return verdict(tuple(failures))
+    with watch(console(stderr=True)) as progress:
+        report = check_folder(options.folder, seconds=options.seconds, progress=progress)
+    if report.scene is not None and report.verification is not None:
+        show_verification(console(), report.scene, report.verification)
+    for note in report.notes:
+        console().print(f"note  {note}", markup=False)
+    return verdict(report.failures)
+
+
+def _check_settings(options: argparse.Namespace) -> int:
+    """What still stands otherwise; fails only when the scene as it is written does not."""
+    from pat3d.check.settings import check_settings, chosen_settings
+
+    settings, path = chosen_settings(options.settings), Path(options.folder) / "mjcf" / "scene.xml"
+    with watch(console(stderr=True)) as progress:
+        reports = check_settings(path, settings, seconds=options.seconds, progress=progress)
+    show_settings(console(), reports)
+    return 0 if reports[0].report.passed else 1
 
 
 def _check_engines(options: argparse.Namespace) -> int:
@@ -63,10 +76,6 @@ def _check_engines(options: argparse.Namespace) -> int:
     from pat3d.check.engines.registry import chosen
     from pat3d.scene.io import load_scene
 
-    if not 0.0 < options.seconds <= MAX_SECONDS:
-        raise SpecError(
-            f"--seconds {options.seconds:g}: give a simulated time of more than 0 and at most {MAX_SECONDS:g} s."
-        )
     engines, folder = chosen(options.engines), Path(options.folder)
     named = {engine.title for engine in chosen([name for name in _words(options.engines) if name != "all"])}
     scene = load_scene(folder)

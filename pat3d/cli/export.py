@@ -15,6 +15,7 @@ from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import FORMATS, chosen, has_usd
 from pat3d.exporters.formats import export as write_formats
 from pat3d.progress import Event
+from pat3d.scene.checksums import record_checksums
 
 if TYPE_CHECKING:
     from pat3d.generation.asset_export import ExportedAsset
@@ -99,6 +100,7 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
         start = time.perf_counter()
         paths = write_formats(scene, formats, out, progress=progress, **usd)
         seconds = time.perf_counter() - start
+        record_checksums(out, formats)
         reports = {name: parity(scene, path) for name, path in paths.items()}
     target = console()
     target.print(parity_table(reports))

@@ -18,6 +18,7 @@ from pat3d.exporters.formats import chosen, export
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.asset import Asset, VisualMesh
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.folder import check_target, replacing, write_json
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Scene, SceneObject
@@ -165,6 +166,7 @@ def export_asset(
     with replacing(folder) as fresh:
         save_scene(scene, fresh)
         paths = export(scene, names, fresh, progress=progress, **(usd or {}))
+        record_checksums(fresh)
         progress(Event(stage="reading back", detail=asset.noun))
         parities = {name: parity(scene, file) for name, file in paths.items()}
         progress(Event(stage="dropping", detail=asset.noun))

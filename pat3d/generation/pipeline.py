@@ -22,6 +22,7 @@ from pat3d.generation.request import SceneRequest, request_of
 from pat3d.generation.settings import Settings
 from pat3d.plan.scene_plan import Planner
 from pat3d.progress import Clock, Event, Progress, silent
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.folder import check_target, replacing, write_json
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Scene
@@ -203,6 +204,7 @@ def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Cloc
             settled.write(names, fresh)
         with clock("formats"):
             exports = _exports(scene, settings.formats, fresh, folder, progress)
+            record_checksums(fresh)
         with clock("preview"):
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")

@@ -15,6 +15,7 @@ from pat3d.exporters.formats import export, exported
 from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import SettledScene
 from pat3d.progress import Clock, Event, Progress
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.folder import OWN, read_json, replacing, write_json
 from pat3d.scene.io import load_scene, save_scene
 from pat3d.scene.model import Scene
@@ -74,6 +75,7 @@ def rewrite(
             progress(Event(stage="writing the folder"))
             save_scene(scene, fresh)
             settled.write(tuple(obj.name for obj in scene.objects), fresh)
+            record_checksums(fresh)
         with clock("preview"):
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
@@ -84,11 +86,11 @@ def rewrite(
 
 def _report(scene: Scene, written: Rewritten, earlier: Mapping[str, Any], clock: Clock) -> dict[str, Any]:
     return {
-        "format": FORMAT,
-        "version": VERSION,
         "prompt": scene.prompt,
         "seed": scene.seed,
         **{key: value for key, value in earlier.items() if key not in _STALE},
+        "format": FORMAT,
+        "version": VERSION,
         **of_scene(scene, written.settled, written.verification),
         "exports": {name: one.as_dict() for name, one in written.exports.items()},
         "passed": not written.failures,

@@ -1,6 +1,6 @@
 """The scene folder: scene.json, the one source of truth, and the meshes it names.
 
-    scene.json                          objects, assets, relations, poses; every float reads back exactly
+    scene.json                          objects, assets, relations, poses, checksums; every float reads back exactly
     assets/<slug>/visual.obj            with visual.mtl and texture.png
     assets/<slug>/parts/part_000.obj    one file for each convex part
 
@@ -25,6 +25,7 @@ from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset, Material, Region, VisualMesh
+from pat3d.scene.checksums import record_checksums
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
@@ -54,6 +55,7 @@ def save_scene(scene: Scene, folder: str | Path) -> Path:
             fresh = Path(temporary) / "new"
             fresh.mkdir()
             _write(scene, fresh)
+            record_checksums(fresh)
             _replace(fresh, folder, Path(temporary) / "old")
     except OSError as error:
         raise ExportError(f"{folder}: cannot be written ({error.strerror or error}).") from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from pat3d.scene.checksums import MAX_FILES
 from pat3d.scene.model import LATERAL_KINDS, MAX_ANCHORS, SUPPORT_KINDS
 from pat3d.scene.naming import SLUG_PATTERN
 
@@ -76,6 +77,13 @@ _ATTACHMENT = _record(
         "anchors": {"type": "array", "items": _vector(2, _vector(3)), "minItems": 1, "maxItems": MAX_ANCHORS},
     }
 )
+_SHA256 = {"type": "string", "pattern": "^[0-9a-f]{64}$"}
+_CHECKSUMS = {
+    "type": "object",
+    "propertyNames": {"maxLength": 1_000},
+    "additionalProperties": _SHA256,
+    "maxProperties": MAX_FILES,
+}
 
 SCENE_SCHEMA: dict[str, Any] = {
     "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -97,6 +105,10 @@ SCENE_SCHEMA: dict[str, Any] = {
             },
             "provenance": {"type": "object"},
         },
-        optional={"attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000}},
+        optional={
+            "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
+            "checksums": _CHECKSUMS,
+            "checksum": _SHA256,
+        },
     ),
 }

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pat3d.check.engines.protocol import Absent, Engine, EngineRun, Failed, Format
-from pat3d.check.settle import ObjectDrift, SettleReport
+from pat3d.check.settle import ObjectDrift, SettleReport, creep
 from pat3d.errors import CheckError, ExportError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.formats import export
@@ -94,7 +94,7 @@ def drifts(scene: Scene, run: EngineRun, seconds: float) -> SettleReport:
         column = next((columns[name] for name in (obj.name, slug, f"_{slug}") if name in columns), None)
         if column is None:
             raise CheckError(f'{run.engine}: "{obj.name}" is not among the moving bodies: {", ".join(run.names)}.')
-        found.append(_drift(obj, run.poses[:, column]))
+        found.append(_drift(obj, run.times, run.poses[:, column]))
     return SettleReport(
         engine=run.engine,
         version=run.version,
@@ -107,15 +107,17 @@ def drifts(scene: Scene, run: EngineRun, seconds: float) -> SettleReport:
     )
 
 
-def _drift(obj: SceneObject, poses: np.ndarray) -> ObjectDrift:
-    """Largest strays over time of one object; without bound where it was not finite.
+def _drift(obj: SceneObject, times: np.ndarray, poses: np.ndarray) -> ObjectDrift:
+    """Largest strays over time of one object, and its creep; without bound where it was not finite.
 
     Args:
         obj: at its pose in the scene.
+        times: of the records [s], shape (records,).
         poses: position [m] and quaternion wxyz, shape (records, 7).
     """
     if not np.isfinite(poses).all() or (np.linalg.norm(poses[:, 3:], axis=1) < 1e-6).any():
-        return ObjectDrift(name=obj.name, centre_mm=np.inf, origin_mm=np.inf, degrees=np.inf)
+        lost = dict.fromkeys(("centre_mm", "origin_mm", "degrees", "creep_mm", "creep_degrees"), np.inf)
+        return ObjectDrift(name=obj.name, **lost)
     from scipy.spatial.transform import Rotation
 
     centre = np.array(obj.asset.mass_properties.centre_of_mass)
@@ -123,8 +125,11 @@ def _drift(obj: SceneObject, poses: np.ndarray) -> ObjectDrift:
     start = Rotation.from_quat(obj.pose.quat_wxyz, scalar_first=True)
     shift = poses[:, :3] - np.array(obj.pose.position)
     centres = shift + turns.apply(centre) - start.apply(centre)
+    late = creep(times, centres[:, None], turns.as_quat(scalar_first=True)[:, None])
     return ObjectDrift(
         name=obj.name,
+        creep_mm=None if late is None else float(late[0][0]),
+        creep_degrees=None if late is None else float(late[1][0]),
         centre_mm=1e3 * float(np.linalg.norm(centres, axis=1).max()),
         origin_mm=1e3 * float(np.linalg.norm(shift, axis=1).max()),
         degrees=float(np.degrees((start.inv() * turns).magnitude().max())),
