@@ -54,6 +54,7 @@ def test_an_example_is_short_says_how_to_run_it_and_is_listed(name):
     assert f"[{name}.py]({name}.py) | {about.splitlines()[0]} |" in (ROOT / "examples" / "README.md").read_text()
 
 
+@pytest.mark.slow
 def test_sentence_to_mujoco(tmp_path):
     output = printed("sentence_to_mujoco", tmp_path)
     assert (tmp_path / "scenes/books/scene.json").is_file()
