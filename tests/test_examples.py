@@ -46,12 +46,15 @@ def test_there_are_ten_examples_and_each_has_a_test():
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_an_example_is_short_and_says_how_to_run_it(name):
+def test_an_example_is_short_says_how_to_run_it_and_is_listed(name):
     text = EXAMPLES[name].read_text()
     assert len(text.splitlines()) < MAX_LINES
-    assert f"python examples/{name}.py" in (ast.get_docstring(ast.parse(text)) or "")
+    about = ast.get_docstring(ast.parse(text)) or ""
+    assert f"python examples/{name}.py" in about
+    assert f"[{name}.py]({name}.py) | {about.splitlines()[0]} |" in (ROOT / "examples" / "README.md").read_text()
 
 
+@pytest.mark.slow
 def test_sentence_to_mujoco(tmp_path):
     output = printed("sentence_to_mujoco", tmp_path)
     assert (tmp_path / "scenes/books/scene.json").is_file()

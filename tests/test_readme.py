@@ -22,7 +22,9 @@ from tests.test_layers import FLOORS
 
 ROOT = Path(__file__).parents[1]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
-MORE = (ROOT / "CHANGELOG.md", ROOT / "benchmarks" / "RESULTS.md", ROOT / "benchmarks" / "NOTES.md")
+MORE = tuple(
+    ROOT / name for name in ("CHANGELOG.md", "examples/README.md", "benchmarks/RESULTS.md", "benchmarks/NOTES.md")
+)
 NOT_RUN = "<!-- not run:"
 """A comment on the line before a block that this machine cannot run; its reason follows."""
 MAX_README_LINES = 150
@@ -99,10 +101,10 @@ def test_python_blocks_run_as_they_stand(tmp_path):
 
 @pytest.mark.slow
 def test_python_blocks_about_suites_run_as_they_stand(tmp_path, monkeypatch):
-    """With the suite that the README's command makes, but of ten scenes: then training has one of stacking."""
+    """With the suite that the README's command makes, but of two scenes for stacking, which are for training."""
     monkeypatch.chdir(tmp_path)
     line = next(line for _, line in COMMANDS if "suite generate" in line)
-    shorter = re.sub(r"--scenes \d+", "--scenes 10 --objects 5-6 --picture 0", line).replace("auto", "1")
+    shorter = re.sub(r"--tasks \S+ --scenes \d+", "--tasks stack --scenes 2 --picture 0", line).replace("auto", "1")
     assert main(shlex.split(shorter)[1:]) == 0
     blocks = [block for block in PYTHON if needs_suite(block)]
     assert blocks
@@ -138,7 +140,7 @@ def test_targets_of_make_exist():
     assert {"demo", "test"} <= named <= targets
 
 
-@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_to_files_and_headings(page):
     for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
         if target.startswith(("http://", "https://")):
@@ -151,7 +153,7 @@ def test_links_lead_to_files_and_headings(page):
             assert heading in {title.lower().replace(" ", "-") for title in titles}, f"{page.name}: {target}"
 
 
-@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: str(page.relative_to(ROOT)))
 def test_files_named_in_the_text_exist(page):
     """Python files in backquotes, and the functions that follow them in brackets."""
     for name, functions in re.findall(r"`([\w/]+/\w+\.py)`(?: \(((?:`[\w.]+`(?:, )?)+)\))?", page.read_text()):
@@ -168,7 +170,7 @@ def test_files_named_in_the_text_exist(page):
             assert set(function.split(".")) <= defined, f"{page.name}: {name} has no {function}"
 
 
-@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", [*PAGES, *MORE], ids=lambda page: str(page.relative_to(ROOT)))
 def test_stillness_is_verified_and_never_said_to_be_proven(page):
     quoted = re.sub(r'"[^"]*"', "", page.read_text())
     assert re.findall(r"\b(?:un)?proven\b", quoted) == []
