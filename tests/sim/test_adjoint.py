@@ -106,10 +106,10 @@ def test_an_anchor_that_stays_behind_carries_its_share_of_the_gradient(scene):
 
     def run(q0: np.ndarray) -> tuple[Recording, np.ndarray]:
         recorded = RecordedRun(model, SettleOptions(), np.array([0.5]), 1, q0)
-        recorded.set_reach(1e-3)
+        recorded.set_d_hat(1e-3)
         recorded.potential.friction.epsilon = 1e-3
         everything = np.ones(1, dtype=bool)
-        recorded.anchor(everything)
+        recorded.anchor_friction(everything)
         for _ in range(4):
             recorded.record_friction()
             recorded.step(
