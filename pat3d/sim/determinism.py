@@ -2,7 +2,8 @@
 
 A GPU adds the contributions of many threads in whatever order they arrive, and fills lists in that order. With
 determinism on, sums are recorded, sorted and added in the order of the threads (Warp's `DeterministicMode.RUN_TO_RUN`,
-whose buffers hold as many records as a thread may add: `KernelModule.most_records`), and candidate pairs are sorted on the host.
+whose buffers hold as many records as a thread may add: `KernelModule.most_records`), and candidate pairs are sorted on
+the host.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@
 """Dense Newton systems, one per world: a Cholesky factorisation each, by LAPACK on a CPU and by torch on a GPU.
 
 Indefinite Hessians are made definite by absolute-eigenvalue filtering (Chen et al. 2024, Stabler Neo-Hookean
-Simulation): negative eigenvalues count as positive ones. Where primitives are aligned (a vertex over a vertex, an edge over an
-edge) exact Hessians have eigenvalues as negative as they are positive: a shift that outweighs them makes every step
-a hundred times too short, absolute eigenvalues keep Newton's pace.
+Simulation): negative eigenvalues count as positive ones. Where primitives are aligned (a vertex over a vertex, an edge
+over an edge) exact Hessians have eigenvalues as negative as they are positive: a shift that outweighs them makes every
+step a hundred times too short, absolute eigenvalues keep Newton's pace.
 """
 
 from __future__ import annotations
