@@ -32,8 +32,9 @@ from numpy.typing import NDArray
 
 from benchmarks.gradient_cases import Case, cases, stack
 from benchmarks.gradient_plot import save_picture
+from pat3d.sim.arrays import Bodies
 from pat3d.sim.compilation import quiet_warp
-from pat3d.sim.contact.distance import contact_at
+from pat3d.sim.contact.pairs import Pairs, contact_at
 from pat3d.sim.model import Model
 from pat3d.sim.recording import Recording
 from pat3d.sim.rollouts import rollout
@@ -55,22 +56,19 @@ TARGETS = {"step": 1e-6, "frames": 1e-4, "rest": 1e-4}
 
 @wp.kernel
 def _features(
-    body_world: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
+    bodies: Bodies,
+    pairs: Pairs,
     d_hat: wp.float64,
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
     position: wp.array(dtype=wp.vec3d),
     rows: wp.array2d(dtype=int),
 ):
     pair = wp.tid()
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
     if contact.distance < d_hat:
-        rows[pair, 0] = body_world[contact.body_a] + 1
+        rows[pair, 0] = bodies.world[contact.body_a] + 1
         for i in range(4):
-            rows[pair, 1 + i] = primitives[pair][i]
-        rows[pair, 5] = kind[pair]
+            rows[pair, 1 + i] = pairs.vertices[pair][i]
+        rows[pair, 5] = pairs.kind[pair]
         rows[pair, 6] = contact.free
         if contact.mollifier < wp.float64(1.0):
             rows[pair, 7] = 1
@@ -88,24 +86,15 @@ def signatures(model: Model, record: Recording, states: NDArray[np.float64]) -> 
     for k, state in enumerate(states):
         step = record.steps[max(k - 1, 0)]
         potential.contact.d_hat = step.d_hat
-        potential.candidates.invalidate()
-        potential.cover(wp.array(np.ascontiguousarray(state), dtype=wp.vec3d, device=model.device))
         found = potential.candidates
+        found.built = False
+        potential.cover(wp.array(np.ascontiguousarray(state), dtype=wp.vec3d, device=model.device))
         rows = wp.zeros((max(found.count, 1), 8), dtype=int, device=model.device)
         wp.launch(
             _features,
             dim=found.count,
             device=model.device,
-            inputs=[
-                model.body_world,
-                model.vertex_rest,
-                model.vertex_body,
-                step.d_hat,
-                found.kind,
-                found.primitives,
-                potential.vertex_positions,
-                rows,
-            ],
+            inputs=[model.body_arrays, found.pairs, step.d_hat, potential.vertex_positions, rows],
         )
         table = rows.numpy()
         table = table[table[:, 0] > 0].astype(np.int64)

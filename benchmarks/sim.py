@@ -83,7 +83,7 @@ def frame_times(scene: Pile, device: str, frames: int = FRAMES) -> tuple[list[fl
 
     run = Run(model_of(scene, device), options, stamp)
     run.refuse_intersections()
-    run.set_reach(options.d_hat)
+    run.set_d_hat(options.d_hat)
     run.drop(WARM_UP)
     before = run.iterations
     run.drop(WARM_UP + frames)

@@ -9,8 +9,8 @@ theorem dq/dq_n = -H^-1 dF/dq_n with the exact Hessian H = dF/dq. Backward, with
 
     H w = l,    l_n = sigma M w - d(w . F_friction)/dq_n,    dL/dtheta -= w . dF/dtheta
 
-(the paper prints the factor of H^-1 inverted; finite differences refute that form). Where friction counts from an
-anchor, its share d(w . F)/dq_ref waits until the pass reaches the step at whose start the anchor was set.
+(the paper prints the factor of H^-1 inverted; finite differences refute that form). Where friction counts from a
+friction anchor, its share d(w . F)/dq_ref waits until the pass reaches the step at whose start the anchor was set.
 """
 
 from __future__ import annotations
@@ -22,15 +22,17 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.scene.physics import GRAVITY
-from pat3d.sim.program import Mirror, Program
+from pat3d.sim.arrays import Bodies
+from pat3d.sim.kernel_modules import declare_kernels
+from pat3d.sim.launch_graph import LaunchGraph, Mirror
 from pat3d.sim.recording import Recording, Replay
-from pat3d.sim.tape import StepRecord
-from pat3d.sim.terms.contact_reach import pull_back_reach
+from pat3d.sim.terms.d_hat_derivative import pull_back_d_hat
 from pat3d.sim.terms.friction_lag import pull_back_lag
-from pat3d.sim.terms.inertia import mass_matrix
+from pat3d.sim.terms.inertia import Step, mass_matrix
 from pat3d.sim.terms.potential import SKIN
+from pat3d.sim.terms.term import Evaluation
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=1, gradients=True)
 
 _G = wp.constant(wp.float64(GRAVITY))
 
@@ -68,7 +70,7 @@ def backward(record: Recording, states: wp.array, losses: wp.array, *, d_hat: bo
         q0=np.where(free[:, None, None], pass_.adjoint.numpy().reshape(-1, 4, 3), 0.0),
         friction=pass_.friction.numpy(),
         mass=np.where(free, pass_.mass.numpy(), 0.0),
-        d_hat=float(pass_.reach.numpy().sum()),
+        d_hat=float(pass_.d_hat.numpy().sum()),
     )
 
 
@@ -86,17 +88,16 @@ class _Backward:
         self.adjoint, self.anchored = state(), state()
         self.friction = wp.zeros(model.worlds, dtype=wp.float64, device=device)
         self.mass = wp.zeros(model.bodies, dtype=wp.float64, device=device)
-        self.reach = wp.zeros(model.worlds, dtype=wp.float64, device=device)
+        self.d_hat = wp.zeros(model.worlds, dtype=wp.float64, device=device)
         self._end, self._w, self._recorded, self._moved, self._force = state(), state(), state(), state(), state()
-        self._lagged, self._energy = wp.zeros_like(self.reach), wp.zeros_like(self.reach)
-        self._one = wp.full(model.worlds, 1.0, dtype=wp.float64, device=device)
-        self._worlds = wp.zeros((2, model.worlds), dtype=int, device=device)
-        """Which worlds were stepped, and which of them anchored friction at the start of the step."""
+        self._lagged, self._energy = wp.zeros_like(self.d_hat), wp.zeros_like(self.d_hat)
+        self._active = wp.zeros((2, model.worlds), dtype=int, device=device)
+        """Active masks: worlds that were stepped, and those of them that anchored friction at the start of the step."""
         self._known = np.zeros((2, model.worlds), dtype=np.int32)
         self._outside = Mirror(wp.zeros(1, dtype=int, device=device))
-        self._by_reach = self._by_lag = False
-        self._assemble = Program(device, self._launch_assemble)
-        self._pull = Program(device, self._launch_pull)
+        self._by_barrier = self._by_lag = False
+        self._assemble = LaunchGraph(device, self._launch_assemble)
+        self._pull = LaunchGraph(device, self._launch_pull)
 
     def add(self, losses: wp.array) -> None:
         """Add derivatives of the loss by a kept state to the adjoint of that state."""
@@ -115,25 +116,21 @@ class _Backward:
         record, potential = self.record.steps[k], self.potential
         self.replay.prepare(k, start, reference)
         wp.copy(self._end, end)
-        worlds = np.stack([record.active, record.active & (record.reference == k)]).astype(np.int32)
-        if not np.array_equal(worlds, self._known):
-            self._known = worlds
-            self._worlds.assign(worlds)
+        active = np.stack([record.active, record.active & (record.reference == k)]).astype(np.int32)
+        if not np.array_equal(active, self._known):
+            self._known = active
+            self._active.assign(active)
         while True:
             self._assemble.run((potential.candidates.capacity, potential.friction.capacity))
             if not self._outside.read()[0]:
                 break
             # Both ends, so that the pairs also cover the state at which friction was recorded.
-            potential.candidates.rebuild(potential._start, potential._end, self._longest_reach(record), SKIN)
+            potential.candidates.rebuild(potential._start, potential._end, max(record.d_hat, record.lag_d_hat), SKIN)
         self.solver.solve_symmetric(potential._hessian, record.active)
         drop = self.record.options.d_hat
-        self._by_reach = self.with_d_hat and record.d_hat == drop
+        self._by_barrier = self.with_d_hat and record.d_hat == drop
         self._by_lag = self.with_d_hat and record.lag_d_hat == drop
-        self._pull.run((potential.candidates.capacity, potential.friction.capacity, self._by_reach, self._by_lag))
-
-    @staticmethod
-    def _longest_reach(record: StepRecord) -> float:
-        return max(record.d_hat, record.lag_d_hat)
+        self._pull.run((potential.candidates.capacity, potential.friction.capacity, self._by_barrier, self._by_lag))
 
     def _launch_assemble(self) -> None:
         """H at the end of the step and the adjoint as the right side."""
@@ -142,7 +139,8 @@ class _Backward:
         potential.positions(self._end, end)
         self._outside.array.zero_()
         potential.candidates.flag_outside(start, end, self._outside.array)
-        potential.assemble(self._end, end, potential.everywhere, self._worlds[0], potential._hessian)
+        at = Evaluation(q=self._end, position=end, active=self._active[0])
+        potential.assemble(at, potential.all_active, potential._hessian)
         wp.launch(_negate, dim=self.model.bodies, device=self.model.device, inputs=[self.adjoint], outputs=[self._w])
         self.solver.set_right_side(potential._hessian, self._w)
         self._outside.fetch()
@@ -157,18 +155,16 @@ class _Backward:
             _select,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, self._worlds[0]],
+            inputs=[model.body_arrays, self._active[0]],
             outputs=[self._w],
         )
-        if self._by_reach:
-            pull_back_reach(model, potential.contact, potential._end, self._w, self.reach)
+        if self._by_barrier:
+            pull_back_d_hat(potential.contact, potential._end, self._w, self.d_hat)
         pull_back_lag(
-            model,
             friction,
             potential.candidates,
             potential._start,
-            self.replay.lag_reach,
-            potential.contact.stiffness,
+            self.replay.lag_barrier,
             self._end,
             self._w,
             self._recorded,
@@ -176,23 +172,19 @@ class _Backward:
             self._lagged,
         )
         if self._by_lag:
-            wp.launch(_subtract, dim=model.worlds, device=model.device, inputs=[self._lagged], outputs=[self.reach])
-        coefficient, friction.coefficient = friction.coefficient, self._one
+            wp.launch(_subtract, dim=model.worlds, device=model.device, inputs=[self._lagged], outputs=[self.d_hat])
         self._force.zero_()
-        friction.add_value(self._end, self._worlds[0], self._energy, self._force)
-        friction.coefficient = coefficient
+        at = Evaluation(q=self._end, position=potential._end, active=self._active[0])
+        for launch in friction.unit_value_launches(at, self._energy, self._force):
+            launch(model.device)
         wp.launch(
             _pull,
             dim=model.bodies,
             device=model.device,
             inputs=[
-                model.body_world,
-                model.body_dof,
-                model.body_mass,
-                model.body_moment,
-                potential.inertia.sigma,
-                self._worlds,
-                self.replay.start,
+                model.body_arrays,
+                potential.inertia.step,
+                self._active,
                 self._end,
                 self._w,
                 self._recorded,
@@ -224,28 +216,22 @@ def _negate(x: wp.array2d(dtype=wp.vec3d), y: wp.array2d(dtype=wp.vec3d)):
 
 @wp.kernel
 def _select(
-    body_world: wp.array(dtype=int),
-    worlds: wp.array(dtype=int),
+    bodies: Bodies,
+    active: wp.array(dtype=int),
     # In and out
     x: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
-    if worlds[body_world[body]] == 0:
+    if active[bodies.world[body]] == 0:
         for i in range(4):
             x[body, i] = wp.vec3d()
 
 
 @wp.kernel
 def _pull(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_mass: wp.array(dtype=wp.float64),
-    body_moment: wp.array(dtype=wp.mat33d),
-    # State in
-    sigma: wp.array(dtype=wp.float64),
-    worlds: wp.array2d(dtype=int),
-    start: wp.array2d(dtype=wp.vec3d),
+    bodies: Bodies,
+    step: Step,
+    active: wp.array2d(dtype=int),
     end: wp.array2d(dtype=wp.vec3d),
     w: wp.array2d(dtype=wp.vec3d),
     recorded: wp.array2d(dtype=wp.vec3d),
@@ -258,15 +244,15 @@ def _pull(
     friction: wp.array(dtype=wp.float64),
 ):
     body = wp.tid()
-    world = body_world[body]
-    stepped = worlds[0, world] != 0 and body_dof[body] >= 0
+    world = bodies.world[body]
+    stepped = active[0, world] != 0 and bodies.dof[body] >= 0
     power = wp.float64(0.0)
     inertia = wp.float64(0.0)
     for i in range(4):
         pull = wp.vec3d()
         for j in range(4):
-            pull += sigma[world] * mass_matrix(i, j, body_mass[body], body_moment[body]) * w[body, j]
-        inertia += wp.dot(pull, end[body, i] - start[body, i])
+            pull += step.sigma[world] * mass_matrix(i, j, step.mass[body], step.moment[body]) * w[body, j]
+        inertia += wp.dot(pull, end[body, i] - step.start[body, i])
         power += wp.dot(w[body, i], force[body, i])
         waiting = anchored[body, i] - moved[body, i]
         value = -recorded[body, i]
@@ -275,10 +261,10 @@ def _pull(
         else:
             value += adjoint[body, i]
         # The share of the anchor set at this start waits no longer.
-        if worlds[1, world] != 0:
+        if active[1, world] != 0:
             value += waiting
             waiting = wp.vec3d()
         adjoint[body, i] = value
         anchored[body, i] = waiting
-    mass[body] = mass[body] - inertia / body_mass[body] - _G * w[body, 0][2]
+    mass[body] = mass[body] - inertia / step.mass[body] - _G * w[body, 0][2]
     wp.atomic_add(friction, world, -power)

@@ -7,29 +7,11 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from pat3d.errors import SpecError
 from pat3d.progress import Event, Progress, silent
-
-MODULES = (
-    "pat3d.sim.terms.inertia",
-    "pat3d.sim.terms.orthogonality",
-    "pat3d.sim.solvers.linear",
-    "pat3d.sim.solvers.line_search",
-    "pat3d.sim.terms.potential",
-    "pat3d.sim.measures",
-    "pat3d.sim.worlds",
-    "pat3d.sim.contact.intersection",
-    "pat3d.sim.contact.boxes",
-    "pat3d.sim.contact.broad_phase",
-    "pat3d.sim.contact.ccd",
-    "pat3d.sim.terms.contact",
-    "pat3d.sim.terms.friction",
-)
-"""Modules with kernels, quick ones first."""
 
 
 def prepare(device: str, progress: Progress = silent, *, deterministic: bool = False) -> str:
@@ -49,12 +31,23 @@ def prepare(device: str, progress: Progress = silent, *, deterministic: bool = F
     """
     wp, name = quiet_warp(), device_name(device)
     if deterministic and wp.get_device(name).is_cuda:
-        import_module("pat3d.sim.determinism").enable()
+        from pat3d.sim import determinism
+
+        determinism.enable()
     detail = "" if is_warm() else "compiling kernels, once, up to a minute"
-    for number, module in enumerate(MODULES):
-        progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(MODULES)))
-        wp.load_module(import_module(module), device=name)
+    names = settling_modules()
+    for number, module in enumerate(names):
+        progress(Event(stage="preparing the simulator", detail=detail, step=number, steps=len(names)))
+        wp.load_module(sys.modules[module], device=name)
     return name
+
+
+def settling_modules() -> tuple[str, ...]:
+    """Names of the modules whose kernels settling launches; they are imported then."""
+    import pat3d.sim.settling  # noqa: F401
+    from pat3d.sim.kernel_modules import declared_modules
+
+    return tuple(module.name for module in declared_modules() if not module.gradients)
 
 
 def device_name(device: str) -> str:
@@ -109,4 +102,4 @@ def is_warm() -> bool:
         compiled = [entry.name for entry in cache_folder().iterdir()]
     except OSError:
         return False
-    return all(any(name.startswith(f"wp_{module}_") for name in compiled) for module in MODULES)
+    return all(any(name.startswith(f"wp_{module}_") for name in compiled) for module in settling_modules())

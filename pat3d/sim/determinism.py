@@ -2,34 +2,19 @@
 
 A GPU adds the contributions of many threads in whatever order they arrive, and fills lists in that order. With
 determinism on, sums are recorded, sorted and added in the order of the threads (Warp's `DeterministicMode.RUN_TO_RUN`,
-which needs room for as many records as a thread may add), and candidate pairs are sorted on the host.
+whose buffers hold as many records as a thread may add: `KernelModule.most_records`), and candidate pairs are sorted on
+the host.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
+from typing import Any
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-RECORDS = {
-    "pat3d.sim.terms.inertia": 1,
-    "pat3d.sim.terms.orthogonality": 1,
-    "pat3d.sim.terms.attachment": 8 * 8 * 3,
-    "pat3d.sim.terms.contact": 8 * 8 * 9,
-    "pat3d.sim.terms.friction": 8 * 8 * 9,
-    "pat3d.sim.terms.contact_reach": 1,
-    "pat3d.sim.terms.friction_lag": 8,
-    "pat3d.sim.solvers.line_search": 2,
-    "pat3d.sim.measures": 1,
-    "pat3d.sim.adjoint": 1,
-}
-"""Modules that sum in threads, and the most that one thread adds to one array.
-
-A Hessian takes eight by eight blocks of nine numbers from a contact. The bounds are never exceeded, which matters
-because a recorded graph would not notice.
-"""
+from pat3d.sim.kernel_modules import KernelModule, add_options
 
 _on = False
 
@@ -37,10 +22,15 @@ _on = False
 def enable() -> None:
     """Make all later runs of this process on a GPU repeatable; to be called before any model is made."""
     global _on
-    for name, records in RECORDS.items():
-        options = {"deterministic": wp.DeterministicMode.RUN_TO_RUN, "deterministic_max_records": records}
-        wp.set_module_options(options, module=import_module(name))
+    if not _on:
+        add_options(_options)
     _on = True
+
+
+def _options(module: KernelModule) -> dict[str, Any]:
+    if not module.most_records:
+        return {}
+    return {"deterministic": wp.DeterministicMode.RUN_TO_RUN, "deterministic_max_records": module.most_records}
 
 
 def enabled() -> bool:

@@ -51,7 +51,7 @@ def diagnose(newton: Newton, active: NDArray[np.bool_], result: NewtonResult) ->
         if not np.all(np.isfinite(direction[members])):
             found[int(world)] = Status.DEGENERATE
             continue
-        wanted = reach_of(direction[members], model.body_radius[members])
+        wanted = motion_bound(direction[members], model.body_radius[members])
         if (
             not drowned[world]
             and step[world] * wanted < NO_MOTION <= wanted
@@ -61,7 +61,7 @@ def diagnose(newton: Newton, active: NDArray[np.bool_], result: NewtonResult) ->
     return found
 
 
-def reach_of(direction: NDArray[np.float64], radius: NDArray[np.float64]) -> float:
+def motion_bound(direction: NDArray[np.float64], radius: NDArray[np.float64]) -> float:
     """Bound on the motion of any vertex along a change of states [m].
 
     Args:
@@ -81,8 +81,8 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
     members = model.world_of == world
     q = newton.q.numpy().reshape(-1, 4, 3)
     direction = np.where(members[:, None, None], newton.direction.numpy().reshape(-1, 4, 3), 0.0)
-    reach = reach_of(direction[members], model.body_radius[members])
-    direction *= min(1.0, float(LONGEST_STEP) / max(reach, 1e-300))
+    bound = motion_bound(direction[members], model.body_radius[members])
+    direction *= min(1.0, float(LONGEST_STEP) / max(bound, 1e-300))
     start = potential.positions(newton.q, potential._start)
     trial = wp.array(q + direction, dtype=wp.vec3d, device=model.device)
     end = potential.positions(trial, potential._end)
@@ -93,7 +93,7 @@ def blocking_pair(newton: Newton, world: int) -> tuple[float, tuple[int, int]]:
     body = np.asarray(model.vertex_body.numpy(), dtype=np.int64)
     pairs = np.asarray(candidates.primitives.numpy()[: candidates.count], dtype=np.int64)
     inside = model.world_of[body[pairs[:, 0]]] == world
-    length = min(reach, float(LONGEST_STEP))
+    length = min(bound, float(LONGEST_STEP))
     if not inside.any():
         return length, (-1, -1)
     at = int(np.argmin(np.where(inside, np.nan_to_num(allowed, nan=0.0), np.inf)))

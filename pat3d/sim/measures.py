@@ -6,14 +6,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from pat3d.sim.program import Mirror, Program
+from pat3d.sim.arrays import Bodies
+from pat3d.sim.kernel_modules import declare_kernels
+from pat3d.sim.launch_graph import LaunchGraph, Mirror
 from pat3d.sim.terms.potential import Potential
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=1)
 
 
 class StepMeasures:
@@ -29,7 +33,8 @@ class StepMeasures:
         self._radius = wp.array(model.body_radius, dtype=wp.float64, device=model.device)
         self._last = wp.zeros_like(q)
         """Change of the state in the step before, shape (bodies, 4), vec3d."""
-        self._motion, self._all = Program(model.device, self._launch_motion), Program(model.device, self._launch_all)
+        self._motion = LaunchGraph(model.device, self._launch_motion)
+        self._all = LaunchGraph(model.device, self._launch_all)
 
     def motion(self) -> NDArray[np.float64]:
         """Largest motion of any vertex in the last step [m], shape (worlds,)."""
@@ -60,14 +65,15 @@ class StepMeasures:
         model, potential, values = self.model, self.potential, self._values.array
         values.zero_()
         # Of the state, as friction was recorded there.
-        potential.evaluate_at_rest(self.q, potential.vertex_positions, self._energy, self._gradient)
+        at = replace(potential.everywhere(self.q, potential.vertex_positions), at_rest=True)
+        potential.evaluate(at, self._energy, self._gradient)
         potential.measure_residual(self._gradient, values[1])
-        potential.friction.largest_slip(self.q, potential.everywhere, values[2])
+        potential.friction.launch_largest_slip(self.q, values[2])
         wp.launch(
             _compare_steps,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, self._radius, potential.inertia.start, self.q, self._last],
+            inputs=[model.body_arrays, self._radius, potential.inertia.start, self.q, self._last],
             outputs=[values[3], values[4]],
         )
         self._launch_motion()
@@ -75,10 +81,8 @@ class StepMeasures:
 
 @wp.kernel
 def _compare_steps(
-    # Model
-    body_world: wp.array(dtype=int),
+    bodies: Bodies,
     body_radius: wp.array(dtype=wp.float64),
-    # State in
     start: wp.array2d(dtype=wp.vec3d),
     q: wp.array2d(dtype=wp.vec3d),
     # In and out
@@ -98,5 +102,5 @@ def _compare_steps(
         along += scale * wp.dot(change, last[body, i])
         square += scale * wp.dot(last[body, i], last[body, i])
         last[body, i] = change
-    wp.atomic_add(both, body_world[body], along)
-    wp.atomic_add(before, body_world[body], square)
+    wp.atomic_add(both, bodies.world[body], along)
+    wp.atomic_add(before, bodies.world[body], square)

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import warp as wp
@@ -24,10 +26,11 @@ from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
 from pat3d.scene.physics import GRAVITY
+from pat3d.sim.arrays import Bodies, Vertices, filled
 from pat3d.sim.clusters import ClusteredPart, cluster
 
 ATTACHMENT_STRETCH = 5.0e-7
-"""How far an anchor gives way under the weight of the lighter of the two bodies that it joins [m]."""
+"""How far an attachment point gives way under the weight of the lighter of the two bodies that it joins [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,12 +70,12 @@ class Model:
     """Vertices of other clusters that a cluster's edges and triangles reach, shape (reached,), int."""
     part_pairs: wp.array
     """Parts that can ever touch: same world, different bodies, not both fixed; shape (pairs,), vec2i."""
-    anchor_bodies: wp.array
-    """The two bodies that share an anchor, shape (anchors,), vec2i."""
-    anchor_rest: wp.array
-    """Where the anchor is on either, about its centre of mass [m], shape (anchors, 2), vec3d."""
-    anchor_stiffness: wp.array
-    """[N/m], shape (anchors,), float64."""
+    attachment_bodies: wp.array
+    """The two bodies that share an attachment point, shape (attachments,), vec2i."""
+    attachment_rest: wp.array
+    """Where the attachment point is on either, about its centre of mass [m], shape (attachments, 2), vec3d."""
+    attachment_stiffness: wp.array
+    """[N/m], shape (attachments,), float64."""
     free_bodies: NDArray[np.int64]
     """Number of free bodies per world, shape (worlds,)."""
     world_of: NDArray[np.int64]
@@ -95,6 +98,16 @@ class Model:
         """Number of bodies in all worlds."""
         return len(self.body_world)
 
+    @cached_property
+    def body_arrays(self) -> Any:
+        """`Bodies`: `body_world` and `body_dof` as kernels take them."""
+        return filled(Bodies, world=self.body_world, dof=self.body_dof)
+
+    @cached_property
+    def vertex_arrays(self) -> Any:
+        """`Vertices`: `vertex_rest` and `vertex_body` as kernels take them."""
+        return filled(Vertices, rest=self.vertex_rest, body=self.vertex_body)
+
     @property
     def unknowns(self) -> int:
         """Unknowns of the largest world."""
@@ -112,7 +125,7 @@ class ModelBuilder:
     """
 
     _bodies: list[dict] = field(default_factory=list)
-    _anchors: list[tuple[int, NDArray[np.float64], int, NDArray[np.float64]]] = field(default_factory=list)
+    _attachments: list[tuple[int, NDArray[np.float64], int, NDArray[np.float64]]] = field(default_factory=list)
     _world: int = 0
 
     @classmethod
@@ -237,7 +250,7 @@ class ModelBuilder:
         points = [np.asarray(point, dtype=np.float64) for point in (point_a, point_b)]
         if not all(point.shape == (3,) and np.all(np.isfinite(point)) for point in points):
             raise SimulationError(f"the attachment of {labels} needs points of 3 finite numbers.")
-        self._anchors.append((body_a, points[0] - first["centre"], body_b, points[1] - second["centre"]))
+        self._attachments.append((body_a, points[0] - first["centre"], body_b, points[1] - second["centre"]))
 
     def finalize(self, device: str = "cpu", worlds: int | None = None) -> Model:
         """The model on `device` ("cpu" or "cuda").
@@ -295,8 +308,8 @@ class ModelBuilder:
                 ranges.append(np.stack([bases, bases + counts], axis=1)[[0, 1, 2, 4]].ravel())
                 cluster_ranges.append(found.ranges + np.repeat(bases[:4], 2))
                 bases += counts
-        anchors = self._anchors
-        bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in anchors]
+        attached = self._attachments
+        bearing = [min(bodies[b]["mass"] for b in (one[0], one[2]) if not bodies[b]["fixed"]) for one in attached]
         owner = np.array(part_body, dtype=np.int32)
         part_pairs = _part_pairs(owner, body_world, dof)
         if copies * max(*bases, len(part_pairs)) > np.iinfo(np.int32).max:
@@ -329,9 +342,9 @@ class ModelBuilder:
             cluster_ranges=array(whole(np.concatenate(cluster_ranges), 8), int, np.repeat(bases[:4], 2)),
             halo=array(np.concatenate(halo), int, bases[0]),
             part_pairs=array(part_pairs, wp.vec2i, len(owner)),
-            anchor_bodies=array(whole([(one[0], one[2]) for one in anchors], 2), wp.vec2i, len(bodies)),
-            anchor_rest=array(np.array([(one[1], one[3]) for one in anchors]).reshape(-1, 2, 3), wp.vec3d),
-            anchor_stiffness=array(np.array(bearing) * (GRAVITY / ATTACHMENT_STRETCH), wp.float64),
+            attachment_bodies=array(whole([(one[0], one[2]) for one in attached], 2), wp.vec2i, len(bodies)),
+            attachment_rest=array(np.array([(one[1], one[3]) for one in attached]).reshape(-1, 2, 3), wp.vec3d),
+            attachment_stiffness=array(np.array(bearing) * (GRAVITY / ATTACHMENT_STRETCH), wp.float64),
             free_bodies=np.tile(free_count, copies),
             world_of=(body_world.astype(np.int64) + np.arange(copies)[:, None]).reshape(-1),
             is_free=np.tile(dof >= 0, copies),

@@ -13,6 +13,8 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.arrays import filled
+from pat3d.sim.contact.barrier import Barrier
 from pat3d.sim.model import Model
 from pat3d.sim.run import Progress, Run, SettleOptions
 from pat3d.sim.solvers.newton import NewtonResult
@@ -113,8 +115,9 @@ class Replay:
         self.run.potential.friction.coefficient.assign(record.friction)
         self.start = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
         """State from which the step prepared last starts."""
-        self.lag_reach = wp.zeros(1, dtype=wp.float64, device=model.device)
-        """Barrier activation distance at which its friction was recorded [m], shape (1,)."""
+        self._lag_d_hat = wp.zeros(1, dtype=wp.float64, device=model.device)
+        self.lag_barrier = filled(Barrier, stiffness=self.run.potential.contact.stiffness, d_hat=self._lag_d_hat)
+        """`Barrier` with which its friction was recorded."""
         self._sigma = np.zeros(0)
         self._reference = wp.zeros_like(self.start)
         self._members = wp.zeros(model.worlds, dtype=int, device=model.device)
@@ -135,10 +138,10 @@ class Replay:
         if not np.array_equal(step.sigma, self._sigma):
             self._sigma = step.sigma
             potential.inertia.sigma.assign(step.sigma)
-        run.set_reach(step.lag_d_hat)
+        run.set_d_hat(step.lag_d_hat)
         potential.record_friction(self.start)
-        wp.copy(self.lag_reach, potential.contact.reach)
-        run.set_reach(step.d_hat)
+        self._lag_d_hat.fill_(step.lag_d_hat)
+        run.set_d_hat(step.d_hat)
 
     def stretch(self, first: int, last: int, states: wp.array) -> list[wp.array]:
         """States `first` to `last`, of which the first and the last are kept.

@@ -95,10 +95,10 @@ def rollout(
         _parameter("mass", own_mass if mass is None else mass, shape[:2]),
         _parameter("d_hat", options.d_hat if d_hat is None else d_hat, ()),
     )
-    reach = float(inputs[3].detach())
-    if inputs[3].requires_grad and reach <= max(options.final_d_hat, options.friction_speed * options.time_step):
+    distance = float(inputs[3].detach())
+    if inputs[3].requires_grad and distance <= max(options.final_d_hat, options.friction_speed * options.time_step):
         raise SimulationError("d_hat has a gradient only above final_d_hat and above friction_speed * time_step.")
-    options = replace(options, d_hat=reach)
+    options = replace(options, d_hat=distance)
     if mass is not None:
         model = _with_mass(model, inputs[2].detach().cpu().numpy().reshape(-1))
     run = RecordedRun(
@@ -110,7 +110,7 @@ def rollout(
         # Factorisations of a few hundred unknowns lose more to the threads of BLAS than they gain.
         with threadpool_limits(limits=1, user_api="blas"):
             run.refuse_intersections()
-            run.set_reach(options.d_hat)
+            run.set_d_hat(options.d_hat)
             run.drop(until if isinstance(until, int) else None)
             if until == "rest":
                 ended["at_rest"], ended["residual"] = run.polish()

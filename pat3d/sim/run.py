@@ -109,7 +109,7 @@ class Run:
         self.potential.contact.stiffness.assign(barrier_stiffness(model))
         self.potential.friction.coefficient.fill_(options.friction)
         self._sigma: NDArray[np.float64] | None = None
-        self._anchored = wp.zeros(model.worlds, dtype=int, device=model.device)
+        self._to_anchor = wp.zeros(model.worlds, dtype=int, device=model.device)
         self._last_anchored: NDArray[np.bool_] | None = None
         self._measures = StepMeasures(self.potential, self.q)
 
@@ -137,7 +137,7 @@ class Run:
         """A copy of the present state, shape (bodies, 4, 3)."""
         return self.q.numpy().reshape(-1, 4, 3).copy()
 
-    def set_reach(self, d_hat: float) -> None:
+    def set_d_hat(self, d_hat: float) -> None:
         """Change the barrier activation distance [m]."""
         self.potential.contact.d_hat = d_hat
         self.potential.candidates.require(d_hat)
@@ -188,13 +188,13 @@ class Run:
         running[list(self.halted)] = False
         return running
 
-    def anchor(self, worlds: NDArray[np.bool_]) -> None:
-        """Let the friction displacements of `worlds` count from the present state."""
+    def anchor_friction(self, worlds: NDArray[np.bool_]) -> None:
+        """Let the friction displacements of `worlds`, shape (worlds,), count from the present state."""
         self.reference[worlds] = self.steps
         if self._last_anchored is None or not np.array_equal(worlds, self._last_anchored):
             self._last_anchored = worlds.copy()
-            self._anchored.assign(worlds.astype(np.int32))
-        copy_worlds(self.model, self._anchored, self.q, self.potential.friction.reference)
+            self._to_anchor.assign(worlds.astype(np.int32))
+        copy_worlds(self.model, self._to_anchor, self.q, self.potential.friction.reference)
 
     def record_friction(self) -> None:
         """Lag friction at the present state."""
@@ -210,7 +210,7 @@ class Run:
             active = (still < STILL_FRAMES) & self.running() if frames is None else self.running()
             if not active.any():
                 return
-            self.anchor(active)
+            self.anchor_friction(active)
             self.record_friction()
             self.step(
                 active,
@@ -236,16 +236,16 @@ class Run:
         fast: float,
         among: NDArray[np.bool_] | None = None,
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-        """Converge to static equilibrium at a barrier of reach d_hat [m]; returns which worlds did, and residuals.
+        """Converge to static equilibrium at a barrier of d_hat [m]; returns which worlds did, and residuals.
 
         Worlds that are not `among` those to relax, shape (worlds,), stay where they are and count as if they did not.
 
         Inertia fades where a step moves less than `slow` [m], and is restored where it moves more than `fast` [m].
         """
         options, potential, worlds = self.options, self.potential, self.model.worlds
-        # The first step closes gaps at the new reach, held by the friction of the old one.
+        # The first step closes gaps at the new d_hat, held by the friction of the old one.
         self.record_friction()
-        self.set_reach(d_hat)
+        self.set_d_hat(d_hat)
         potential.friction.epsilon = epsilon = min(options.friction_speed * options.time_step, d_hat)
         weight = np.ones(worlds)
         moving = self.running() if among is None else self.running() & among
@@ -254,7 +254,7 @@ class Run:
         self._measures.forget_last()
         limit = self.polish_steps + options.max_polish_steps
         while self.polish_steps < limit and active.any():
-            self.anchor(active & ~anchored)
+            self.anchor_friction(active & ~anchored)
             self.step(
                 active,
                 weight,

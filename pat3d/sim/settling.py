@@ -1,4 +1,4 @@
-"""From an intersection-free layout to rest.
+"""Settling: from an intersection-free layout to static equilibrium.
 
 Three phases (DESIGN section 5a): bodies drop through artificial time steps until they stop; the barrier shrinks until
 gaps are a few hundredths of a millimetre; and a polish holds friction's reference state fixed while the inertia term
@@ -32,7 +32,7 @@ class Settled:
     at_rest: NDArray[np.bool_]
     """Whether every world met the tolerances, shape (worlds,)."""
     residual: NDArray[np.float64]
-    """Largest unbalanced force over weight, shape (worlds,)."""
+    """Equilibrium residual: largest unbalanced force over weight, shape (worlds,)."""
     frames: int
     """Steps of the drop."""
     polish_steps: int
@@ -81,7 +81,7 @@ def settle(
         run = Run(model, options, progress)
         run.throw = throw
         run.refuse_intersections()
-        run.set_reach(options.d_hat)
+        run.set_d_hat(options.d_hat)
         run.drop()
         at_rest, residual = straighten(run, *run.polish())
     settled = Settled(

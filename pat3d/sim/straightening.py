@@ -14,8 +14,8 @@ from pat3d.sim.run import Run
 from pat3d.sim.worlds import copy_worlds
 
 BENT = 1.0 / 15.0
-"""Distance between a body's affine and rigid surface, over the barrier's reach, that asks for more stiffness; gaps end
-above a third of that reach."""
+"""Distance between a body's affine and rigid surface, over the final d_hat, that asks for more stiffness; gaps end
+above a third of it."""
 
 STIFFER, TIMES = 16.0, 3
 """Factor on the stiffness of a world whose bodies are bent, and how often it is applied."""

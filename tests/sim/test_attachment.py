@@ -130,7 +130,7 @@ def test_gradients_flow_through_attachments(frames, tolerance):
     rod = add_hull(builder, box_points(0.2, 0.03, 0.03), Pose(position=(0.25, 0, 0.13)))
     builder.add_attachment(rod, np.array([-0.1, 0.0, 0.0]), block, np.array([0.15, 0.0, 0.08]))
     model = builder.finalize("cpu")
-    model.anchor_stiffness.fill_(1e5)
+    model.attachment_stiffness.fill_(1e5)
     options = SettleOptions(friction=0.3, drop_residual=1e-11)
     rng = np.random.default_rng(0)
     start = torch.tensor(model.q0.reshape(1, -1, 12) + 1e-4 * rng.normal(size=(1, 2, 12)), requires_grad=True)

@@ -13,7 +13,7 @@ from tests.sim.test_clusters import pair_of_lumps
 
 def dropped(model: Model, frames: int) -> tuple[bytes, Run]:
     run = Run(model, SettleOptions(), lambda *_: None)
-    run.set_reach(run.options.d_hat)
+    run.set_d_hat(run.options.d_hat)
     run.drop(frames)
     return run.state().tobytes(), run
 

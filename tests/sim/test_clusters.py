@@ -144,7 +144,7 @@ def test_lumps_that_fall_on_each_other_never_intersect():
     model = pair_of_lumps().finalize("cpu")
     run = Run(model, SettleOptions(), lambda *_: None)
     run.refuse_intersections()
-    run.set_reach(1e-3)
+    run.set_d_hat(1e-3)
     run.drop(6)
     run.refuse_intersections()
     x = run.potential.positions(run.q, run.potential._start).numpy()

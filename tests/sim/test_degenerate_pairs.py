@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 import warp as wp
 
+from pat3d.sim.arrays import Bodies, filled
 from pat3d.sim.contact.distance import EDGE_EDGE, PARALLEL, POINT_TRIANGLE
+from pat3d.sim.contact.pairs import Pairs
 from pat3d.sim.terms.contact import BarrierContact
+from pat3d.sim.terms.term import Evaluation
 
 D_HAT = 2e-2
 STIFFNESS = 3.0
@@ -25,31 +28,36 @@ def energies(kind: str, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     def array(values, dtype=int):
         return wp.array(np.ascontiguousarray(values), dtype=dtype, device="cpu")
 
+    position = array(points.reshape(-1, 3), wp.vec3d)
+    vertex_body = array(body.astype(np.int32))
     model = SimpleNamespace(
         device="cpu",
         worlds=n,
-        body_world=array(np.repeat(np.arange(n, dtype=np.int32), 2)),
-        body_dof=array(np.tile(np.array([0, 1], dtype=np.int32), n)),
-        vertex_rest=array(points.reshape(-1, 3), wp.vec3d),
-        vertex_body=array(body.astype(np.int32)),
+        body_arrays=filled(
+            Bodies,
+            world=array(np.repeat(np.arange(n, dtype=np.int32), 2)),
+            dof=array(np.tile(np.array([0, 1], dtype=np.int32), n)),
+        ),
     )
-    candidates = SimpleNamespace(
-        kind=array(np.full(n, int(POINT_TRIANGLE if kind == "pt" else EDGE_EDGE), dtype=np.int32)),
-        primitives=array(np.arange(4 * n, dtype=np.int32).reshape(-1, 4), wp.vec4i),
+    pairs = filled(
+        Pairs,
         size=array([n]),
-        capacity=n,
+        kind=array(np.full(n, int(POINT_TRIANGLE if kind == "pt" else EDGE_EDGE), dtype=np.int32)),
+        vertices=array(np.arange(4 * n, dtype=np.int32).reshape(-1, 4), wp.vec4i),
+        # Every affine map is the identity, so rest positions are positions.
+        rest=position,
+        body=vertex_body,
     )
-    contact = BarrierContact(model, candidates)  # pyright: ignore[reportArgumentType]
+    contact = BarrierContact(model, SimpleNamespace(pairs=pairs, capacity=n))  # pyright: ignore[reportArgumentType]
     contact.d_hat = D_HAT
     contact.stiffness.fill_(STIFFNESS)
-    # Every affine map is the identity, so rest positions are positions.
-    position = model.vertex_rest
     value = wp.zeros(n, dtype=wp.float64, device="cpu")
     gradient = wp.zeros((2 * n, 4), dtype=wp.vec3d, device="cpu")
     hessian = wp.zeros((n, 24, 24), dtype=wp.float64, device="cpu")
     everywhere = wp.full(n, 1, dtype=int, device="cpu")
-    contact.add_value(position, everywhere, value, gradient)
-    contact.add_hessian(position, everywhere, everywhere, hessian)
+    at = Evaluation(q=position, position=position, active=everywhere)
+    for launch in (*contact.value_launches(at, value, gradient), *contact.hessian_launches(at, everywhere, hessian)):
+        launch("cpu")
     return value.numpy(), gradient.numpy().reshape(n, 24), hessian.numpy()
 
 

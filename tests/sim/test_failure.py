@@ -60,7 +60,7 @@ class Sinking(Run):
         super().__init__(model, SettleOptions(), lambda *_: None)
         self.throw = throw
         self.potential.contact.stiffness.zero_()
-        self.set_reach(self.options.d_hat)
+        self.set_d_hat(self.options.d_hat)
 
 
 @pytest.mark.parametrize(("heights", "other"), [((0.06,), "the ground"), ((0.051, 0.16), "the ground")])

@@ -1,15 +1,20 @@
 """A GPU takes the same steps as a CPU, and on request the same bits every time."""
 
+import ast
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 import warp as wp
 
+import pat3d.sim
+import pat3d.sim.adjoint  # so that every module with kernels is declared
 from pat3d.sim import determinism
 from pat3d.sim.contact.broad_phase import Candidates
+from pat3d.sim.kernel_modules import declared_modules
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.settling import settle
@@ -27,7 +32,7 @@ def random_bodies(kind: str, seed: int, device: str) -> Model:
 
 def after(model: Model, frames: int, q0: np.ndarray | None = None, **options) -> np.ndarray:
     run = Run(model, SettleOptions(**options), lambda *_: None, q0)
-    run.set_reach(run.options.d_hat)
+    run.set_d_hat(run.options.d_hat)
     run.drop(frames)
     return run.state()
 
@@ -99,19 +104,41 @@ def test_sorted_candidates_are_the_same_in_whatever_order_they_were_found():
     np.testing.assert_array_equal(rows(), expected)
 
 
+def functions_in(tree: ast.AST) -> list[ast.FunctionDef]:
+    return [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+
+
+def adds(function: ast.FunctionDef, adding: set[str]) -> bool:
+    """Whether a function adds to an array, which is atomic in Warp, or calls one of those that do."""
+    nodes = list(ast.walk(function))
+    return any(isinstance(node, ast.Call) and ast.unparse(node.func) in adding for node in nodes) or any(
+        isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript) for node in nodes
+    )
+
+
 def test_determinism_covers_every_module_that_adds_numbers_in_threads():
-    """Lists of pairs are sorted instead, and what is only read as a maximum or minimum has no order."""
-    from pathlib import Path
+    """Whether its kernels add by themselves or through functions of other modules.
 
-    import pat3d.sim
-
+    Lists of pairs are sorted instead, and what is only read as a maximum or minimum has no order.
+    """
     folder = Path(pat3d.sim.__path__[0])
-    adds = {
-        "pat3d.sim." + ".".join(path.relative_to(folder).with_suffix("").parts)
+    functions = {
+        "pat3d.sim." + ".".join(path.relative_to(folder).with_suffix("").parts): functions_in(
+            ast.parse(path.read_text())
+        )
         for path in folder.rglob("*.py")
-        if "wp.atomic_add(" in path.read_text()
     }
-    assert adds - {"pat3d.sim.contact.boxes", "pat3d.sim.contact.broad_phase"} == set(determinism.RECORDS)
+    of_warp = [f for some in functions.values() for f in some if "wp.func" in map(ast.unparse, f.decorator_list)]
+    adding = {"wp.atomic_add"}
+    for _ in of_warp:
+        adding |= {function.name for function in of_warp if adds(function, adding)}
+    declared = {module.name: module.most_records for module in declared_modules()}
+    for name, some in functions.items():
+        kernels = [function for function in some if "wp.kernel" in map(ast.unparse, function.decorator_list)]
+        assert bool(kernels) == (name in declared), name
+        sums = any(adds(kernel, adding) for kernel in kernels)
+        lists = name in ("pat3d.sim.contact.boxes", "pat3d.sim.contact.broad_phase")
+        assert (declared.get(name, 0) > 0) == (sums and not lists), name
 
 
 def test_a_cpu_needs_no_mode_to_repeat():

@@ -27,7 +27,7 @@ def crowded_potential(seed: int) -> tuple[Potential, np.ndarray]:
     ):
         builder.add_attachment(first, 0.05 * points[0], second, 0.05 * points[1])
     model = builder.finalize("cpu")
-    model.anchor_stiffness.fill_(2e3)
+    model.attachment_stiffness.fill_(2e3)
     potential = Potential(model)
     potential.contact.d_hat = D_HAT
     potential.contact.stiffness.fill_(50.0)

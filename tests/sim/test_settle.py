@@ -86,7 +86,7 @@ def test_worlds_move_as_they_would_alone():
                 add_hull(builder, points, pose)
         options = SettleOptions(drop_residual=1e-10)
         run = Run(builder.finalize("cpu"), options, lambda *_: None)
-        run.set_reach(options.d_hat)
+        run.set_d_hat(options.d_hat)
         run.drop(12)
         assert run.potential.friction.count > 0
         return run.state()

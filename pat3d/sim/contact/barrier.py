@@ -18,7 +18,15 @@ from __future__ import annotations
 
 import warp as wp
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+
+@wp.struct
+class Barrier:
+    """The barrier's constants on the device."""
+
+    stiffness: wp.array(dtype=wp.float64)
+    """kappa [N], shape (worlds,)."""
+    d_hat: wp.array(dtype=wp.float64)
+    """Activation distance [m], shape (1,)."""
 
 
 @wp.func

@@ -13,15 +13,16 @@ from typing import Any
 
 import warp as wp
 
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__)
 
 LANES = 64
 """Threads that share a pair of parts or clusters on a GPU."""
 
 CLUSTER_PAIRS = 1024
-"""Pairs of clusters that there is room for at first."""
+"""Pairs of clusters that the buffer holds at first."""
 
 
 class Boxes:

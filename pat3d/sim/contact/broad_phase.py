@@ -2,9 +2,9 @@
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAssignmentType=false
 
-"""Which primitives may come within the barrier's reach along a motion.
+"""Broad phase: candidate pairs of primitives that may come closer than d_hat along a motion.
 
-Boxes enclose the motion of every vertex from its current to its trial position, inflated by half the reach plus a
+Boxes enclose the motion of every vertex from its current to its trial position, inflated by half of d_hat plus a
 skin; the candidates stay valid while every vertex remains within the skin of its box, so nearly converged iterations
 reuse them.
 """
@@ -12,18 +12,22 @@ reuse them.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import warp as wp
 
+from pat3d.sim.arrays import Bodies, Vertices, filled
 from pat3d.sim.contact.boxes import Boxes, boxes_overlap
 from pat3d.sim.contact.distance import EDGE_EDGE, POINT_GROUND, POINT_TRIANGLE
+from pat3d.sim.contact.pairs import Pairs
 from pat3d.sim.determinism import canonical, enabled
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__)
 
 CAPACITY = 256
-"""Pairs of primitives that there is room for at first."""
+"""Pairs of primitives that the buffers hold at first."""
 
 
 @dataclass
@@ -31,55 +35,68 @@ class Candidates:
     """Pairs of primitives that may touch; grown as needed, never truncated."""
 
     model: Model
-    kind: wp.array = field(init=False)
-    """POINT_TRIANGLE, EDGE_EDGE or POINT_GROUND, shape (capacity,), int."""
-    primitives: wp.array = field(init=False)
-    """Vertex indices, shape (capacity,), vec4i."""
-    size: wp.array = field(init=False)
-    """Number of pairs, shape (1,), int; kernels over `capacity` threads end at it."""
+    pairs: Any = field(init=False)
+    """`Pairs`, for kernels."""
     count: int = field(init=False, default=0)
     """`size` on the host."""
 
     def __post_init__(self) -> None:
         model, device = self.model, self.model.device
         self._boxes = Boxes(model)
-        self.size = wp.zeros(1, dtype=int, device=device)
+        self._size = wp.zeros(1, dtype=int, device=device)
         self._outside = wp.zeros(1, dtype=int, device=device)
         self._margin = wp.zeros(1, dtype=wp.float64, device=device)
         self.built = False
-        """Whether the boxes hold for the present reach."""
-        self._reach = 0.0
+        """Whether the boxes hold for the present d_hat."""
+        self._d_hat = 0.0
         self._reserve(CAPACITY)
 
     @property
     def capacity(self) -> int:
-        """Number of pairs there is room for; programs that launch on them must be recorded anew when it changes."""
+        """Number of pairs that the buffers hold; launch graphs over them must be recorded anew when it changes."""
         return len(self.kind)
 
+    @property
+    def kind(self) -> wp.array:
+        """POINT_TRIANGLE, EDGE_EDGE or POINT_GROUND, shape (capacity,), int."""
+        return self.pairs.kind
+
+    @property
+    def primitives(self) -> wp.array:
+        """Vertex indices, shape (capacity,), vec4i."""
+        return self.pairs.vertices
+
     def _reserve(self, capacity: int) -> None:
-        self.kind = wp.zeros(capacity, dtype=int, device=self.model.device)
-        self.primitives = wp.zeros(capacity, dtype=wp.vec4i, device=self.model.device)
+        model = self.model
+        self.pairs = filled(
+            Pairs,
+            size=self._size,
+            kind=wp.zeros(capacity, dtype=int, device=model.device),
+            vertices=wp.zeros(capacity, dtype=wp.vec4i, device=model.device),
+            rest=model.vertex_rest,
+            body=model.vertex_body,
+        )
 
-    def require(self, reach: float) -> None:
-        """Forget the boxes where they were made for a shorter reach of the barrier [m]."""
-        self.built &= reach <= self._reach
+    def require(self, d_hat: float) -> None:
+        """Forget the boxes where they were made for a smaller barrier activation distance [m]."""
+        self.built &= d_hat <= self._d_hat
 
-    def cover(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
-        """Hold every pair that comes within `reach` while vertices move straight from `start` to `end`.
+    def cover(self, start: wp.array, end: wp.array, d_hat: float, skin: float) -> None:
+        """Hold every pair that comes within `d_hat` while vertices move straight from `start` to `end`.
 
         Args:
             start: vertex positions [m], shape (vertices,), vec3d.
             end: vertex positions [m], shape (vertices,), vec3d.
-            reach: barrier activation distance d_hat [m].
-            skin: motion beyond the boxes that a rebuild leaves room for [m].
+            d_hat: barrier activation distance [m].
+            skin: motion beyond this one that the pairs of a rebuild stay valid for [m].
         """
-        self.require(reach)
+        self.require(d_hat)
         if self.built:
             self._outside.zero_()
             self.flag_outside(start, end, self._outside)
             if not self._outside.numpy()[0]:
                 return
-        self.rebuild(start, end, reach, skin)
+        self.rebuild(start, end, d_hat, skin)
 
     def flag_outside(self, start: wp.array, end: wp.array, flag: wp.array) -> None:
         """Set flag[0] where a vertex moves out of its box between two positions [m]."""
@@ -91,22 +108,22 @@ class Candidates:
             outputs=[flag],
         )
 
-    def rebuild(self, start: wp.array, end: wp.array, reach: float, skin: float) -> None:
+    def rebuild(self, start: wp.array, end: wp.array, d_hat: float, skin: float) -> None:
         """Collect the pairs anew; arguments as of `cover`."""
         model = self.model
-        self._reach = reach
+        self._d_hat = d_hat
         boxes = self._boxes
-        boxes.enclose(start, end, 0.5 * reach + skin)
+        boxes.enclose(start, end, 0.5 * d_hat + skin)
         _, close = boxes.close_pairs()
-        self._margin.fill_(0.5 * reach)
+        self._margin.fill_(0.5 * d_hat)
         while True:
-            self.size.zero_()
+            self._size.zero_()
             wp.launch(
                 _ground_candidates,
                 dim=len(model.vertex_rest),
                 device=model.device,
-                inputs=[model.vertex_body, model.body_dof, boxes.low, self._margin],
-                outputs=[self.size, self.kind, self.primitives],
+                inputs=[model.vertex_arrays, model.body_arrays, boxes.low, self._margin],
+                outputs=[self._size, self.kind, self.primitives],
             )
             wp.launch(
                 _pair_candidates,
@@ -123,9 +140,9 @@ class Candidates:
                     boxes.low,
                     boxes.high,
                 ],
-                outputs=[self.size, self.kind, self.primitives],
+                outputs=[self._size, self.kind, self.primitives],
             )
-            self.count = int(self.size.numpy()[0])
+            self.count = int(self._size.numpy()[0])
             if self.count <= self.capacity:
                 break
             self._reserve(2 * self.count)
@@ -176,20 +193,18 @@ def _append(
 
 @wp.kernel
 def _ground_candidates(
-    # Model
-    vertex_body: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    # State in
+    vertices: Vertices,
+    bodies: Bodies,
     low: wp.array(dtype=wp.vec3d),
-    half_reach: wp.array(dtype=wp.float64),
+    half_d_hat: wp.array(dtype=wp.float64),
     # Out
     counter: wp.array(dtype=int),
     kinds: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
 ):
     v = wp.tid()
-    # One half of the reach is in the vertex's box; the ground has no box to hold the other.
-    if body_dof[vertex_body[v]] >= 0 and low[v][2] <= half_reach[0]:
+    # One half of d_hat is in the vertex's box; the ground has no box to hold the other.
+    if bodies.dof[vertices.body[v]] >= 0 and low[v][2] <= half_d_hat[0]:
         _append(counter, kinds, primitives, POINT_GROUND, wp.vec4i(v, -1, -1, -1))
 
 

@@ -15,11 +15,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.arrays import Bodies
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.distance import POINT_GROUND, POINT_TRIANGLE, closest_on_edges, closest_on_triangle
+from pat3d.sim.contact.pairs import Pairs
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__)
 
 REMAINING = wp.constant(wp.float64(0.1))
 """Fraction of the present distance that a full safe step may leave."""
@@ -42,15 +45,7 @@ def safe_step(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
         _advance,
         dim=candidates.capacity,
         device=model.device,
-        inputs=[
-            candidates.size,
-            candidates.kind,
-            candidates.primitives,
-            model.vertex_body,
-            model.body_world,
-            start,
-            end,
-        ],
+        inputs=[model.body_arrays, candidates.pairs, start, end],
         outputs=[step],
     )
 
@@ -69,7 +64,7 @@ def fractions(model: Model, candidates: Candidates, start: wp.array, end: wp.arr
         _fractions,
         dim=candidates.count,
         device=model.device,
-        inputs=[candidates.kind, candidates.primitives, start, end],
+        inputs=[candidates.pairs, start, end],
         outputs=[found],
     )
     return found.numpy()
@@ -139,41 +134,32 @@ def _allowed(
 
 @wp.kernel
 def _advance(
-    # Pairs
-    size: wp.array(dtype=int),
-    kinds: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
-    # Model
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
+    pairs: Pairs,
     start: wp.array(dtype=wp.vec3d),
     end: wp.array(dtype=wp.vec3d),
     # Out
     step: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    world = body_world[vertex_body[primitives[pair][0]]]
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
     limit = step[world]
     if limit == wp.float64(0.0):
         return
-    allowed = _allowed(kinds[pair], primitives[pair], start, end, limit)
+    allowed = _allowed(pairs.kind[pair], pairs.vertices[pair], start, end, limit)
     if allowed != limit:
         wp.atomic_min(step, world, allowed)
 
 
 @wp.kernel
 def _fractions(
-    # Pairs
-    kinds: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
-    # State in
+    pairs: Pairs,
     start: wp.array(dtype=wp.vec3d),
     end: wp.array(dtype=wp.vec3d),
     # Out
     fraction: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
-    fraction[pair] = _allowed(kinds[pair], primitives[pair], start, end, wp.float64(1.0))
+    fraction[pair] = _allowed(pairs.kind[pair], pairs.vertices[pair], start, end, wp.float64(1.0))

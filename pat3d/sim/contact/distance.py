@@ -19,8 +19,6 @@ from __future__ import annotations
 
 import warp as wp
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
-
 vec8d = wp.types.vector(length=8, dtype=wp.float64)
 
 POINT_TRIANGLE = wp.constant(0)
@@ -252,39 +250,4 @@ def _finish(contact: Contact, r: wp.vec3d, on_a: wp.vec3d, on_b: wp.vec3d) -> Co
     contact.coefficients = vec8d(one, on_a[0], on_a[1], on_a[2], -one, -on_b[0], -on_b[1], -on_b[2])
     contact.distance = wp.length(r)
     contact.normal = r / wp.max(contact.distance, wp.float64(1.0e-300))
-    return contact
-
-
-@wp.func
-def contact_at(
-    kind: int,
-    primitives: wp.vec4i,
-    position: wp.array(dtype=wp.vec3d),
-    rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-) -> Contact:
-    """Contact of a candidate pair at the given vertex positions.
-
-    Args:
-        kind: POINT_TRIANGLE, EDGE_EDGE or POINT_GROUND.
-        primitives: vertex indices: (point, three corners), (two, two ends), or (point, -1, -1, -1).
-        position: world positions of all vertices [m].
-        rest: rest positions of all vertices about their centre of mass [m].
-        vertex_body: body of every vertex.
-    """
-    i = primitives[0]
-    j = primitives[1]
-    k = primitives[2]
-    m = primitives[3]
-    contact = Contact()
-    if kind == POINT_GROUND:
-        contact = point_ground(position[i], rest[i])
-        contact.body_b = -1
-    elif kind == POINT_TRIANGLE:
-        contact = point_triangle(position[i], position[j], position[k], position[m], rest[i], rest[j], rest[k], rest[m])
-        contact.body_b = vertex_body[j]
-    else:
-        contact = edge_edge(position[i], position[j], position[k], position[m], rest[i], rest[j], rest[k], rest[m])
-        contact.body_b = vertex_body[k]
-    contact.body_a = vertex_body[i]
     return contact

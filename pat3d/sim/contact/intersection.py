@@ -16,9 +16,10 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.sim.contact.boxes import Boxes
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__)
 
 GROUND_BODY = -1
 

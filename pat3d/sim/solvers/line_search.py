@@ -14,7 +14,10 @@ from __future__ import annotations
 
 import warp as wp
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+from pat3d.sim.arrays import Bodies, Vertices
+from pat3d.sim.kernel_modules import declare_kernels
+
+declare_kernels(__name__, most_records=2)
 
 SUFFICIENT_DECREASE = wp.constant(wp.float64(1.0e-4))
 """Armijo constant."""
@@ -69,9 +72,7 @@ def start_search(
 
 @wp.kernel
 def slope(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
     gradient: wp.array2d(dtype=wp.vec3d),
     direction: wp.array2d(dtype=wp.vec3d),
     # Out
@@ -82,27 +83,24 @@ def slope(
     total = wp.float64(0.0)
     for i in range(4):
         total += wp.dot(gradient[body, i], direction[body, i])
-    wp.atomic_add(slope, body_world[body], total)
+    wp.atomic_add(slope, bodies.world[body], total)
 
 
 @wp.kernel
 def linear_motion(
-    # Model
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
+    vertices: Vertices,
+    bodies: Bodies,
     direction: wp.array2d(dtype=wp.vec3d),
     # Out
     motion: wp.array(dtype=wp.float64),
 ):
     """Largest motion of a vertex along the whole direction, to first order [m]."""
     v = wp.tid()
-    body = vertex_body[v]
+    body = vertices.body[v]
     move = direction[body, 0]
     for k in range(3):
-        move += vertex_rest[v][k] * direction[body, 1 + k]
-    wp.atomic_max(motion, body_world[body], wp.length(move))
+        move += vertices.rest[v][k] * direction[body, 1 + k]
+    wp.atomic_max(motion, bodies.world[body], wp.length(move))
 
 
 @wp.kernel
@@ -144,63 +142,83 @@ def select_safe(
     safe[world] = int(status[OUTSIDE] + status[UNSOLVED] == 0 and fraction[world] >= wp.float64(1.0))
 
 
+@wp.struct
+class Search:
+    """What a trial is judged by, and what becomes of the search; shape (worlds,) each but for the tolerances."""
+
+    tolerances: wp.array(dtype=wp.float64)
+    """Motion of a full step [m], residual, and residual under which progress is judged by it, shape (3,)."""
+    unresolved: wp.array(dtype=wp.float64)
+    """Decrease of the energy that drowns in its rounding [J]."""
+    slope: wp.array(dtype=wp.float64)
+    """Derivative of the energy along the direction [J]."""
+    motion: wp.array(dtype=wp.float64)
+    """Of the trial [m]."""
+    fraction: wp.array(dtype=wp.float64)
+    """Of the trial that is safe."""
+    trial_energy: wp.array(dtype=wp.float64)
+    trial_residual: wp.array(dtype=wp.float64)
+    first: wp.array(dtype=int)
+    """Whether the trial is the first along its direction."""
+    step: wp.array(dtype=wp.float64)
+    """Multiple of the direction."""
+    energy: wp.array(dtype=wp.float64)
+    residual: wp.array(dtype=wp.float64)
+    iterations: wp.array(dtype=int)
+    pending: wp.array(dtype=int)
+    """Whether the world still searches."""
+    accepted: wp.array(dtype=int)
+    """Whether the trial becomes the state."""
+    running: wp.array(dtype=int)
+    """Whether the world goes on to another iteration."""
+
+
 @wp.kernel
 def decide(
-    tolerances: wp.array(dtype=wp.float64),
-    unresolved: wp.array(dtype=wp.float64),
-    # Trial
-    slope: wp.array(dtype=wp.float64),
-    motion: wp.array(dtype=wp.float64),
-    fraction: wp.array(dtype=wp.float64),
-    trial_energy: wp.array(dtype=wp.float64),
-    trial_residual: wp.array(dtype=wp.float64),
+    search: Search,
     # In and out
-    first: wp.array(dtype=int),
-    step: wp.array(dtype=wp.float64),
-    energy: wp.array(dtype=wp.float64),
-    residual: wp.array(dtype=wp.float64),
-    iterations: wp.array(dtype=int),
-    pending: wp.array(dtype=int),
-    accepted: wp.array(dtype=int),
-    running: wp.array(dtype=int),
     status: wp.array(dtype=int),
 ):
     """Converged, too long, accepted, or halved: what becomes of the trial of every pending world."""
     world = wp.tid()
-    accepted[world] = 0
-    if pending[world] != 0 and status[OUTSIDE] + status[UNSOLVED] == 0:
-        if first[world] != 0 and motion[world] < tolerances[0] and residual[world] < tolerances[1]:
-            running[world] = 0
-            pending[world] = 0
+    search.accepted[world] = 0
+    if search.pending[world] != 0 and status[OUTSIDE] + status[UNSOLVED] == 0:
+        if (
+            search.first[world] != 0
+            and search.motion[world] < search.tolerances[0]
+            and search.residual[world] < search.tolerances[1]
+        ):
+            search.running[world] = 0
+            search.pending[world] = 0
         else:
-            if first[world] != 0:
-                iterations[world] = iterations[world] + 1
-                first[world] = 0
-            if fraction[world] < wp.float64(1.0):
-                step[world] = wp.float64(0.95) * fraction[world] * step[world]
+            if search.first[world] != 0:
+                search.iterations[world] = search.iterations[world] + 1
+                search.first[world] = 0
+            if search.fraction[world] < wp.float64(1.0):
+                search.step[world] = wp.float64(0.95) * search.fraction[world] * search.step[world]
             else:
-                limit = energy[world] + SUFFICIENT_DECREASE * step[world] * slope[world]
-                downhill = trial_energy[world] <= limit
-                if not downhill and (residual[world] < tolerances[2] or -slope[world] < unresolved[world]):
-                    downhill = trial_residual[world] < residual[world]
+                limit = search.energy[world] + SUFFICIENT_DECREASE * search.step[world] * search.slope[world]
+                downhill = search.trial_energy[world] <= limit
+                if not downhill and (
+                    search.residual[world] < search.tolerances[2] or -search.slope[world] < search.unresolved[world]
+                ):
+                    downhill = search.trial_residual[world] < search.residual[world]
                 if downhill:
-                    accepted[world] = 1
-                    pending[world] = 0
-                    energy[world] = trial_energy[world]
-                    residual[world] = trial_residual[world]
+                    search.accepted[world] = 1
+                    search.pending[world] = 0
+                    search.energy[world] = search.trial_energy[world]
+                    search.residual[world] = search.trial_residual[world]
                 else:
-                    step[world] = wp.float64(0.5) * step[world]
-    if pending[world] != 0:
+                    search.step[world] = wp.float64(0.5) * search.step[world]
+    if search.pending[world] != 0:
         wp.atomic_add(status, PENDING, 1)
-    if running[world] != 0:
+    if search.running[world] != 0:
         wp.atomic_add(status, RUNNING, 1)
 
 
 @wp.kernel
 def accept_bodies(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
     accepted: wp.array(dtype=int),
     trial: wp.array2d(dtype=wp.vec3d),
     trial_gradient: wp.array2d(dtype=wp.vec3d),
@@ -210,7 +228,7 @@ def accept_bodies(
 ):
     """Take over the accepted states and their gradients."""
     body = wp.tid()
-    if accepted[body_world[body]] != 0:
+    if accepted[bodies.world[body]] != 0:
         for i in range(4):
             q[body, i] = trial[body, i]
             gradient[body, i] = trial_gradient[body, i]
@@ -218,10 +236,8 @@ def accept_bodies(
 
 @wp.kernel
 def accept_vertices(
-    # Model
-    vertex_body: wp.array(dtype=int),
-    body_world: wp.array(dtype=int),
-    # State in
+    vertices: Vertices,
+    bodies: Bodies,
     accepted: wp.array(dtype=int),
     end: wp.array(dtype=wp.vec3d),
     # Out
@@ -229,7 +245,7 @@ def accept_vertices(
 ):
     """Take over the positions of accepted states."""
     v = wp.tid()
-    if accepted[body_world[vertex_body[v]]] != 0:
+    if accepted[bodies.world[vertices.body[v]]] != 0:
         start[v] = end[v]
 
 
@@ -249,9 +265,7 @@ def stall(
 
 @wp.kernel
 def along_curve(
-    # Model
-    body_world: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
     pending: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     direction: wp.array2d(dtype=wp.vec3d),
@@ -261,11 +275,11 @@ def along_curve(
 ):
     """The state at the present step along the search curve; that of worlds that do not search stays."""
     body = wp.tid()
-    if pending[body_world[body]] == 0:
+    if pending[bodies.world[body]] == 0:
         for k in range(4):
             trial[body, k] = q[body, k]
         return
-    t = step[body_world[body]]
+    t = step[bodies.world[body]]
     half = wp.float64(0.5)
     trial[body, 0] = q[body, 0] + t * direction[body, 0]
     a = wp.matrix_from_cols(q[body, 1], q[body, 2], q[body, 3])

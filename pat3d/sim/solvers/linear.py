@@ -4,9 +4,10 @@
 
 """Dense Newton systems, one per world: a Cholesky factorisation each, by LAPACK on a CPU and by torch on a GPU.
 
-Negative eigenvalues count as positive ones. Where primitives are aligned (a vertex over a vertex, an edge over an
-edge) exact Hessians have eigenvalues as negative as they are positive: a shift that outweighs them makes every step
-a hundred times too short, turned eigenvalues keep Newton's pace.
+Indefinite Hessians are made definite by absolute-eigenvalue filtering (Chen et al. 2024, Stabler Neo-Hookean
+Simulation): negative eigenvalues count as positive ones. Where primitives are aligned (a vertex over a vertex, an edge
+over an edge) exact Hessians have eigenvalues as negative as they are positive: a shift that outweighs them makes every
+step a hundred times too short, absolute eigenvalues keep Newton's pace.
 """
 
 from __future__ import annotations
@@ -21,9 +22,11 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh, solve
 
 from pat3d.errors import SimulationError
+from pat3d.sim.arrays import Bodies
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__)
 
 SMALLEST = 1.0e-12
 """Least eigenvalue of a system scaled to a unit diagonal."""
@@ -52,7 +55,7 @@ class DenseSolver:
             _gather,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, model.body_dof, gradient],
+            inputs=[model.body_arrays, gradient],
             outputs=[self._right],
         )
         if self._uneven:
@@ -67,12 +70,12 @@ class DenseSolver:
             _scatter,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, model.body_dof, self._solution],
+            inputs=[model.body_arrays, self._solution],
             outputs=[x],
         )
 
     def factorise_and_solve(self, hessian: wp.array, active: NDArray[np.bool_]) -> None:
-        """Solve the systems of the active worlds, their negative eigenvalues made positive.
+        """Solve the systems of the active worlds by their absolute eigenvalues.
 
         Args:
             hessian: shape (worlds, unknowns, unknowns), float64.
@@ -102,17 +105,17 @@ class DenseSolver:
                 solution[w, :size] = solve(matrices[w, :size, :size], right[w, :size], assume_a="sym")
 
     def launch_solve(self, hessian: wp.array) -> None:
-        """Solve the systems of all worlds on the GPU, or mark them as unsolved; part of a program."""
+        """Solve the systems of all worlds on the GPU, or mark them as unsolved; part of a launch graph."""
         with self._on_stream() as torch:
             matrix, right, solution = (wp.to_torch(x) for x in (hessian, self._right, self._solution))
             factor, info = torch.linalg.cholesky_ex(matrix)
             solution.copy_(torch.cholesky_solve(right[..., None], factor)[..., 0])
             wp.to_torch(self.unsolved).copy_(info)
 
-    def turn_eigenvalues(self, hessian: wp.array) -> None:
-        """Solve the unsolved worlds with their negative eigenvalues made positive."""
+    def solve_unsolved(self, hessian: wp.array) -> None:
+        """Solve the systems that are not positive definite by their absolute eigenvalues."""
         worlds = np.flatnonzero(self.unsolved.numpy())
-        self._solve_some(self.torch, hessian, worlds, _turn_eigenvalues)
+        self._solve_some(self.torch, hessian, worlds, _solve_absolute_batch)
         self.unsolved.zero_()
 
     def _solve_some(self, torch: Any, hessian: wp.array, worlds: NDArray[np.int64], solve_batch: Any) -> None:
@@ -140,12 +143,12 @@ def _import_torch() -> Any:
 
 
 def _solve_convex_batch(torch: Any, matrix: Any, right: Any) -> Any:
-    """Batched solution, negative eigenvalues made positive, shape (worlds, unknowns)."""
+    """Batched solution by absolute eigenvalues, shape (worlds, unknowns)."""
     factor, info = torch.linalg.cholesky_ex(matrix)
     x = torch.cholesky_solve(right[..., None], factor)[..., 0]
     if bool(info.any()):
         bad = info.nonzero()[:, 0]
-        x[bad] = _turn_eigenvalues(torch, matrix[bad], right[bad])
+        x[bad] = _solve_absolute_batch(torch, matrix[bad], right[bad])
     return x
 
 
@@ -159,8 +162,8 @@ def _solve_symmetric_batch(torch: Any, matrix: Any, right: Any) -> Any:
     return x
 
 
-def _turn_eigenvalues(torch: Any, matrix: Any, right: Any) -> Any:
-    """Batched solution with the eigenvalues of the scaled matrices made positive, shape (worlds, unknowns)."""
+def _solve_absolute_batch(torch: Any, matrix: Any, right: Any) -> Any:
+    """As `_solve_convex_batch` of matrices that are not positive definite, scaled to a unit diagonal."""
     if not bool(torch.isfinite(matrix).all()):
         raise SimulationError("the simulation produced values that are not finite.")
     scale = torch.diagonal(matrix, dim1=-2, dim2=-1).abs().clamp_min(1e-300).rsqrt()
@@ -170,7 +173,7 @@ def _turn_eigenvalues(torch: Any, matrix: Any, right: Any) -> Any:
 
 
 def _solve_convex(matrix: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Solution with the eigenvalues of the matrix, scaled to a unit diagonal, made positive."""
+    """Solution with the absolute eigenvalues of the matrix scaled to a unit diagonal."""
     try:
         return cho_solve(cho_factor(matrix, lower=True, check_finite=False), right, check_finite=False)
     except LinAlgError:
@@ -184,19 +187,16 @@ def _solve_convex(matrix: NDArray[np.float64], right: NDArray[np.float64]) -> ND
 
 @wp.kernel
 def _gather(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
     gradient: wp.array2d(dtype=wp.vec3d),
     # Out
     right: wp.array2d(dtype=wp.float64),
 ):
     body = wp.tid()
-    if body_dof[body] >= 0:
+    if bodies.dof[body] >= 0:
         for i in range(4):
             for k in range(3):
-                right[body_world[body], 12 * body_dof[body] + 3 * i + k] = -gradient[body, i][k]
+                right[bodies.world[body], 12 * bodies.dof[body] + 3 * i + k] = -gradient[body, i][k]
 
 
 @wp.kernel
@@ -212,10 +212,7 @@ def _pad(
 
 @wp.kernel
 def _scatter(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    # State in
+    bodies: Bodies,
     solution: wp.array2d(dtype=wp.float64),
     # Out
     x: wp.array2d(dtype=wp.vec3d),
@@ -223,7 +220,7 @@ def _scatter(
     body = wp.tid()
     for i in range(4):
         value = wp.vec3d()
-        if body_dof[body] >= 0:
+        if bodies.dof[body] >= 0:
             for k in range(3):
-                value[k] = solution[body_world[body], 12 * body_dof[body] + 3 * i + k]
+                value[k] = solution[bodies.world[body], 12 * bodies.dof[body] + 3 * i + k]
         x[body, i] = value

@@ -13,13 +13,15 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from pat3d.sim.arrays import filled
 from pat3d.sim.contact.ccd import safe_step
+from pat3d.sim.launch_graph import LaunchGraph, Mirror
 from pat3d.sim.model import Model
-from pat3d.sim.program import Mirror, Program
 from pat3d.sim.solvers import line_search
 from pat3d.sim.solvers.line_search import COUNTS, OUTSIDE, PENDING, UNSOLVED
 from pat3d.sim.solvers.linear import DenseSolver
 from pat3d.sim.terms.potential import SKIN, Potential
+from pat3d.sim.terms.term import Evaluation
 
 BACKTRACKS = 60
 UNRESOLVED = 1.0e-14
@@ -78,8 +80,26 @@ class Newton:
         self._tolerances = wp.zeros(3, dtype=wp.float64, device=device)
         self._unresolved = wp.array(UNRESOLVED * model.weight, dtype=wp.float64, device=device)
         self._settings: tuple | None = None
-        self._programs = {
-            launches: Program(device, launches, torch=self.solver.torch if launches == self._iterate else None)
+        self._search_arrays = filled(
+            line_search.Search,
+            tolerances=self._tolerances,
+            unresolved=self._unresolved,
+            slope=self._slope,
+            motion=self._motion,
+            fraction=self._fraction,
+            trial_energy=self._trial_energy,
+            trial_residual=self._trial_residual,
+            first=self._first,
+            step=self._step,
+            energy=self._energy,
+            residual=self._residual,
+            iterations=self._iterations,
+            pending=self._pending,
+            accepted=self._accepted,
+            running=self._running,
+        )
+        self._graphs = {
+            launches: LaunchGraph(device, launches, torch=self.solver.torch if launches == self._iterate else None)
             for launches in (self._begin, self._assemble, self._first_try, self._iterate, self._try, self._give_up)
         }
 
@@ -157,14 +177,14 @@ class Newton:
         return status[first : first + self.model.worlds]
 
     def _run(self, launches: Callable[[], None]) -> None:
-        self._programs[launches].run((self.potential.candidates.capacity, self.potential.friction.capacity))
+        self._graphs[launches].run((self.potential.candidates.capacity, self.potential.friction.capacity))
 
     def _search(self) -> NDArray[np.int32]:
         """Backtrack until every running world decreases; returns the status."""
         for _ in range(BACKTRACKS):
             status = self._mirror.read()
             if status[int(UNSOLVED)]:
-                self.solver.turn_eigenvalues(self._hessian)
+                self.solver.solve_unsolved(self._hessian)
                 self._run(self._first_try)
                 continue
             if status[int(OUTSIDE)]:
@@ -175,6 +195,10 @@ class Newton:
         self._run(self._give_up)
         return self._mirror.read()
 
+    def _present(self) -> Evaluation:
+        """The present state in the worlds that run."""
+        return Evaluation(q=self.q, position=self._start, active=self._running)
+
     def _begin(self) -> None:
         """Energy, gradient and residual at the first state."""
         potential = self.potential
@@ -182,7 +206,7 @@ class Newton:
         wp.copy(self._running, self._active)
         self._direction.zero_()
         potential.positions(self.q, self._start)
-        potential.evaluate(self.q, self._start, self._running, self._energy, self._gradient)
+        potential.evaluate(self._present(), self._energy, self._gradient)
         potential.measure_residual(self._gradient, self._residual)
         self._mirror.fetch()
 
@@ -195,7 +219,7 @@ class Newton:
             inputs=[self._tolerances, self._residual],
             outputs=[self._exact],
         )
-        self.potential.assemble(self.q, self._start, self._exact, self._running, self._hessian)
+        self.potential.assemble(self._present(), self._exact, self._hessian)
         self.solver.set_right_side(self._hessian, self._gradient)
 
     def _iterate(self) -> None:
@@ -219,14 +243,14 @@ class Newton:
             line_search.slope,
             dim=self.model.bodies,
             device=self.model.device,
-            inputs=[self.model.body_world, self._gradient, self._direction],
+            inputs=[self.model.body_arrays, self._gradient, self._direction],
             outputs=[self._slope],
         )
         wp.launch(
             line_search.linear_motion,
             dim=len(self.model.vertex_rest),
             device=self.model.device,
-            inputs=[self.model.vertex_rest, self.model.vertex_body, self.model.body_world, self._direction],
+            inputs=[self.model.vertex_arrays, self.model.body_arrays, self._direction],
             outputs=[self._motion],
         )
         wp.launch(
@@ -245,7 +269,7 @@ class Newton:
             line_search.along_curve,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, self._pending, self.q, self._direction, self._step],
+            inputs=[model.body_arrays, self._pending, self.q, self._direction, self._step],
             outputs=[self._trial],
         )
         potential.positions(self._trial, self._end)
@@ -266,28 +290,28 @@ class Newton:
             inputs=[self._fraction, self._status],
             outputs=[self._safe],
         )
-        potential.evaluate(self._trial, self._end, self._safe, self._trial_energy, self._trial_gradient)
+        trial = Evaluation(q=self._trial, position=self._end, active=self._safe)
+        potential.evaluate(trial, self._trial_energy, self._trial_gradient)
         potential.measure_residual(self._trial_gradient, self._trial_residual)
         wp.launch(
-            line_search.decide, dim=model.worlds, device=model.device,
-            inputs=[
-                self._tolerances, self._unresolved, self._slope, self._motion, self._fraction, self._trial_energy,
-                self._trial_residual, self._first, self._step, self._energy, self._residual, self._iterations,
-                self._pending, self._accepted, self._running, self._status,
-            ],
-        )  # fmt: skip
+            line_search.decide,
+            dim=model.worlds,
+            device=model.device,
+            inputs=[self._search_arrays],
+            outputs=[self._status],
+        )
         wp.launch(
             line_search.accept_bodies,
             dim=model.bodies,
             device=model.device,
-            inputs=[model.body_world, self._accepted, self._trial, self._trial_gradient],
+            inputs=[model.body_arrays, self._accepted, self._trial, self._trial_gradient],
             outputs=[self.q, self._gradient],
         )
         wp.launch(
             line_search.accept_vertices,
             dim=len(model.vertex_rest),
             device=model.device,
-            inputs=[model.vertex_body, model.body_world, self._accepted, self._end],
+            inputs=[model.vertex_arrays, model.body_arrays, self._accepted, self._end],
             outputs=[self._start],
         )
         self._mirror.fetch()

@@ -12,50 +12,42 @@ eight coefficients (1, xbar_a, -1, -xbar_b).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import warp as wp
 
+from pat3d.sim.arrays import AttachmentPoints, Bodies, filled
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
-from pat3d.sim.terms.contact import first_unknown, pair_index
+from pat3d.sim.terms.term import Evaluation, Launch
+from pat3d.sim.terms.unknowns import first_unknown, pair_index
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=8 * 8 * 3)
 
 
 class PointAttachment:
-    """Stiff springs of no length between the anchors of attached bodies."""
+    """Stiff springs of no length between the attachment points of attached bodies."""
 
     def __init__(self, model: Model):
         self.model = model
-
-    def _inputs(self, worlds: wp.array) -> list:
-        model = self.model
-        return [
-            model.body_world,
-            model.body_dof,
-            worlds,
-            model.anchor_bodies,
-            model.anchor_rest,
-            model.anchor_stiffness,
-        ]
-
-    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
-        """Add P [J] to `energy`, shape (worlds,), and dP/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _value,
-            dim=len(self.model.anchor_bodies),
-            device=self.model.device,
-            inputs=[*self._inputs(worlds), q],
-            outputs=[energy, gradient],
+        self._points = filled(
+            AttachmentPoints,
+            bodies=model.attachment_bodies,
+            rest=model.attachment_rest,
+            stiffness=model.attachment_stiffness,
         )
 
-    def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
-        """Add d2P/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(
-            _hessian,
-            dim=len(self.model.anchor_bodies),
-            device=self.model.device,
-            inputs=self._inputs(worlds),
-            outputs=[hessian],
-        )
+    def value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """Those of P; none where nothing is attached."""
+        count = len(self.model.attachment_bodies)
+        inputs = (self.model.body_arrays, self._points, at.active, at.q)
+        return [Launch(kernel=_value, dim=count, inputs=inputs, outputs=(energy, gradient))] if count else []
+
+    def hessian_launches(self, at: Evaluation, exact: wp.array, hessian: wp.array) -> Sequence[Launch]:
+        """Those of d2P/dq2, which is constant and positive semidefinite."""
+        count = len(self.model.attachment_bodies)
+        inputs = (self.model.body_arrays, self._points, at.active)
+        return [Launch(kernel=_hessian, dim=count, inputs=inputs, outputs=(hessian,))] if count else []
 
 
 @wp.func
@@ -71,70 +63,61 @@ def _coefficient(k: int, rest_a: wp.vec3d, rest_b: wp.vec3d) -> wp.float64:
 
 
 @wp.func
-def _offset(bodies: wp.vec2i, rest_a: wp.vec3d, rest_b: wp.vec3d, q: wp.array2d(dtype=wp.vec3d)) -> wp.vec3d:
+def _offset(pair: wp.vec2i, rest_a: wp.vec3d, rest_b: wp.vec3d, q: wp.array2d(dtype=wp.vec3d)) -> wp.vec3d:
     """x_a - x_b [m]."""
-    offset = q[bodies[0], 0] - q[bodies[1], 0]
+    offset = q[pair[0], 0] - q[pair[1], 0]
     for j in range(3):
-        offset += rest_a[j] * q[bodies[0], 1 + j] - rest_b[j] * q[bodies[1], 1 + j]
+        offset += rest_a[j] * q[pair[0], 1 + j] - rest_b[j] * q[pair[1], 1 + j]
     return offset
 
 
 @wp.kernel
 def _value(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    worlds: wp.array(dtype=int),
-    anchor_bodies: wp.array(dtype=wp.vec2i),
-    anchor_rest: wp.array2d(dtype=wp.vec3d),
-    stiffness: wp.array(dtype=wp.float64),
-    # State in
+    bodies: Bodies,
+    points: AttachmentPoints,
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     i = wp.tid()
-    bodies = anchor_bodies[i]
-    world = body_world[bodies[0]]
-    if worlds[world] == 0:
+    pair = points.bodies[i]
+    world = bodies.world[pair[0]]
+    if active[world] == 0:
         return
-    rest_a = anchor_rest[i, 0]
-    rest_b = anchor_rest[i, 1]
-    offset = _offset(bodies, rest_a, rest_b, q)
-    wp.atomic_add(energy, world, wp.float64(0.5) * stiffness[i] * wp.dot(offset, offset))
+    rest_a = points.rest[i, 0]
+    rest_b = points.rest[i, 1]
+    offset = _offset(pair, rest_a, rest_b, q)
+    wp.atomic_add(energy, world, wp.float64(0.5) * points.stiffness[i] * wp.dot(offset, offset))
     for k in range(4):
-        wp.atomic_add(gradient, bodies[0], k, _coefficient(k, rest_a, rest_b) * stiffness[i] * offset)
-        wp.atomic_add(gradient, bodies[1], k, _coefficient(4 + k, rest_a, rest_b) * stiffness[i] * offset)
+        wp.atomic_add(gradient, pair[0], k, _coefficient(k, rest_a, rest_b) * points.stiffness[i] * offset)
+        wp.atomic_add(gradient, pair[1], k, _coefficient(4 + k, rest_a, rest_b) * points.stiffness[i] * offset)
 
 
 @wp.kernel
 def _hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    worlds: wp.array(dtype=int),
-    anchor_bodies: wp.array(dtype=wp.vec2i),
-    anchor_rest: wp.array2d(dtype=wp.vec3d),
-    stiffness: wp.array(dtype=wp.float64),
+    bodies: Bodies,
+    points: AttachmentPoints,
+    active: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     a = wp.tid()
-    bodies = anchor_bodies[a]
-    world = body_world[bodies[0]]
-    if worlds[world] == 0:
+    pair = points.bodies[a]
+    world = bodies.world[pair[0]]
+    if active[world] == 0:
         return
-    base_a = first_unknown(bodies[0], body_dof)
-    base_b = first_unknown(bodies[1], body_dof)
-    rest_a = anchor_rest[a, 0]
-    rest_b = anchor_rest[a, 1]
+    base_a = first_unknown(pair[0], bodies.dof)
+    base_b = first_unknown(pair[1], bodies.dof)
+    rest_a = points.rest[a, 0]
+    rest_b = points.rest[a, 1]
     for i in range(8):
         row = pair_index(i, base_a, base_b)
         if row >= 0:
             for j in range(8):
                 column = pair_index(j, base_a, base_b)
                 if column >= 0:
-                    weight = stiffness[a] * _coefficient(i, rest_a, rest_b) * _coefficient(j, rest_a, rest_b)
+                    weight = points.stiffness[a] * _coefficient(i, rest_a, rest_b) * _coefficient(j, rest_a, rest_b)
                     for r in range(3):
                         wp.atomic_add(hessian, world, row + r, column + r, weight)

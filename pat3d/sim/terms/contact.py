@@ -11,14 +11,22 @@ positive semidefinite and of rank one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import warp as wp
 
-from pat3d.sim.contact.barrier import barrier_curvature, barrier_slope, barrier_value
+from pat3d.sim.arrays import Bodies, filled
+from pat3d.sim.contact.barrier import Barrier, barrier_curvature, barrier_slope, barrier_value
 from pat3d.sim.contact.broad_phase import Candidates
-from pat3d.sim.contact.distance import Contact, contact_at
+from pat3d.sim.contact.distance import Contact
+from pat3d.sim.contact.pairs import Pairs, contact_at
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
+from pat3d.sim.terms.term import Evaluation, Launch
+from pat3d.sim.terms.unknowns import add_block, first_unknown, pair_index
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=8 * 8 * 9)
 
 
 class BarrierContact:
@@ -29,8 +37,9 @@ class BarrierContact:
         self.candidates = candidates
         self.stiffness = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
         """kappa [N], shape (worlds,)."""
-        self.reach = wp.zeros(1, dtype=wp.float64, device=model.device)
-        """d_hat on the device [m], shape (1,)."""
+        self._d_hat_array = wp.zeros(1, dtype=wp.float64, device=model.device)
+        self.barrier = filled(Barrier, stiffness=self.stiffness, d_hat=self._d_hat_array)
+        """Both constants, for kernels."""
         self._d_hat = 0.0
         self.d_hat = 1.0e-3
 
@@ -44,66 +53,19 @@ class BarrierContact:
         if value == self._d_hat:
             return
         self._d_hat = value
-        self.reach.fill_(value)
+        self._d_hat_array.fill_(value)
 
-    def _inputs(self, position: wp.array, worlds: wp.array) -> list:
-        model, candidates = self.model, self.candidates
-        return [
-            model.body_world,
-            model.body_dof,
-            model.vertex_rest,
-            model.vertex_body,
-            self.stiffness,
-            self.reach,
-            worlds,
-            candidates.size,
-            candidates.kind,
-            candidates.primitives,
-            position,
-        ]
+    def value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """Those of B; the candidates must cover the state."""
+        return [self._launch(_value, at, (), (energy, gradient))]
 
-    def add_value(self, position: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
-        """Add B [J] to `energy`, shape (worlds,), and dB/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _value,
-            dim=self.candidates.capacity,
-            device=self.model.device,
-            inputs=self._inputs(position, worlds),
-            outputs=[energy, gradient],
-        )
+    def hessian_launches(self, at: Evaluation, exact: wp.array, hessian: wp.array) -> Sequence[Launch]:
+        """Those of d2B/dq2 or its Gauss-Newton part."""
+        return [self._launch(kernel, at, (exact,), (hessian,)) for kernel in (_gauss_newton_hessian, _exact_hessian)]
 
-    def add_hessian(self, position: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
-        """Add d2B/dq2, or its Gauss-Newton part, to `hessian`, shape (worlds, unknowns, unknowns)."""
-        for kernel in (_hessian, _exact_hessian):
-            wp.launch(
-                kernel,
-                dim=self.candidates.capacity,
-                device=self.model.device,
-                inputs=[*self._inputs(position, worlds), exact],
-                outputs=[hessian],
-            )
-
-
-@wp.func
-def pair_index(k: int, base_a: int, base_b: int) -> int:
-    """First unknown of the k-th of a pair's eight vectors; negative where its body is fixed."""
-    if k < 4:
-        if base_a < 0:
-            return -1
-        return base_a + 3 * k
-    if base_b < 0:
-        return -1
-    return base_b + 3 * (k - 4)
-
-
-@wp.func
-def first_unknown(body: int, body_dof: wp.array(dtype=int)) -> int:
-    """First unknown of a body in its world; -1 where it is fixed or the ground."""
-    if body < 0:
-        return -1
-    if body_dof[body] < 0:
-        return -1
-    return 12 * body_dof[body]
+    def _launch(self, kernel: Any, at: Evaluation, more: tuple, outputs: tuple) -> Launch:
+        inputs = (self.model.body_arrays, self.candidates.pairs, self.barrier, at.active, at.position, *more)
+        return Launch(kernel=kernel, dim=self.candidates.capacity, inputs=inputs, outputs=outputs)
 
 
 @wp.func
@@ -138,36 +100,28 @@ def _rest_edge(k: int, contact: Contact) -> wp.float64:
 
 @wp.kernel
 def _value(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    reach: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
+    bodies: Bodies,
+    pairs: Pairs,
+    barrier: Barrier,
+    active: wp.array(dtype=int),
     position: wp.array(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    world = body_world[vertex_body[primitives[pair][0]]]
-    if worlds[world] == 0:
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
+    if active[world] == 0:
         return
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
-    d_hat = reach[0]
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
+    d_hat = barrier.d_hat[0]
     if contact.distance >= d_hat:
         return
-    value = barrier_value(contact.distance, d_hat, stiffness[world])
+    value = barrier_value(contact.distance, d_hat, barrier.stiffness[world])
     wp.atomic_add(energy, world, contact.mollifier * value)
-    force = contact.mollifier * barrier_slope(contact.distance, d_hat, stiffness[world]) * contact.normal
+    force = contact.mollifier * barrier_slope(contact.distance, d_hat, barrier.stiffness[world]) * contact.normal
     for k in range(4):
         wp.atomic_add(gradient, contact.body_a, k, contact.coefficients[k] * force)
         if contact.body_b >= 0:
@@ -182,37 +136,29 @@ def _value(
 
 
 @wp.kernel
-def _hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    reach: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
+def _gauss_newton_hessian(
+    bodies: Bodies,
+    pairs: Pairs,
+    barrier: Barrier,
+    active: wp.array(dtype=int),
     position: wp.array(dtype=wp.vec3d),
     exact: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    world = body_world[vertex_body[primitives[pair][0]]]
-    if worlds[world] == 0 or exact[world] != 0:
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
+    if active[world] == 0 or exact[world] != 0:
         return
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
-    d_hat = reach[0]
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
+    d_hat = barrier.d_hat[0]
     if contact.distance >= d_hat:
         return
-    curvature = contact.mollifier * barrier_curvature(contact.distance, d_hat, stiffness[world])
-    base_a = first_unknown(contact.body_a, body_dof)
-    base_b = first_unknown(contact.body_b, body_dof)
+    curvature = contact.mollifier * barrier_curvature(contact.distance, d_hat, barrier.stiffness[world])
+    base_a = first_unknown(contact.body_a, bodies.dof)
+    base_b = first_unknown(contact.body_b, bodies.dof)
     n = contact.normal
     for i in range(8):
         row = pair_index(i, base_a, base_b)
@@ -221,6 +167,7 @@ def _hessian(
                 column = pair_index(j, base_a, base_b)
                 if column >= 0:
                     weight = curvature * contact.coefficients[i] * contact.coefficients[j]
+                    # A block of its own costs a fifth of the kernel's time.
                     for r in range(3):
                         for s in range(3):
                             wp.atomic_add(hessian, world, row + r, column + s, weight * n[r] * n[s])
@@ -228,31 +175,23 @@ def _hessian(
 
 @wp.kernel
 def _exact_hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    reach: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
+    bodies: Bodies,
+    pairs: Pairs,
+    barrier: Barrier,
+    active: wp.array(dtype=int),
     position: wp.array(dtype=wp.vec3d),
     exact: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    world = body_world[vertex_body[primitives[pair][0]]]
-    if worlds[world] == 0 or exact[world] == 0:
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
+    if active[world] == 0 or exact[world] == 0:
         return
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
-    d_hat = reach[0]
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
+    d_hat = barrier.d_hat[0]
     if contact.distance >= d_hat:
         return
     zero = wp.float64(0.0)
@@ -260,9 +199,9 @@ def _exact_hessian(
     two = wp.float64(2.0)
     d = contact.distance
     n = contact.normal
-    value = barrier_value(d, d_hat, stiffness[world])
-    slope = barrier_slope(d, d_hat, stiffness[world])
-    curvature = barrier_curvature(d, d_hat, stiffness[world])
+    value = barrier_value(d, d_hat, barrier.stiffness[world])
+    slope = barrier_slope(d, d_hat, barrier.stiffness[world])
+    curvature = barrier_curvature(d, d_hat, barrier.stiffness[world])
 
     # Inverse of G / 2 over the free closest-point parameters.
     g11 = zero
@@ -294,8 +233,8 @@ def _exact_hessian(
     identity = wp.identity(n=3, dtype=wp.float64)
     along = contact.mollifier * curvature
     across = contact.mollifier * slope / d
-    base_a = first_unknown(contact.body_a, body_dof)
-    base_b = first_unknown(contact.body_b, body_dof)
+    base_a = first_unknown(contact.body_a, bodies.dof)
+    base_b = first_unknown(contact.body_b, bodies.dof)
     for i in range(8):
         row = pair_index(i, base_a, base_b)
         if row < 0:
@@ -341,6 +280,4 @@ def _exact_hessian(
                     * slope
                     * (ri * contact.coefficients[j] * wp.outer(gi, n) + rj * contact.coefficients[i] * wp.outer(n, gj))
                 )
-            for r in range(3):
-                for s in range(3):
-                    wp.atomic_add(hessian, world, row + r, column + s, block[r, s])
+            add_block(hessian, world, row, column, block)

@@ -7,7 +7,7 @@
 D(q) = sum mu lambda f0(|u|),   u = (I - n n^T) sum_i c_i (q_i - q_ref_i)
 
 The normal force lambda = -m b'(d), the normal n and the closest points c are those of the state at
-which the contacts were last recorded; displacements count from a reference state, the start of the step or an
+which the contacts were last recorded; displacements count from a reference state, the start of the step or a friction
 anchor. f0 is |u| beyond epsilon and a cubic below it, so that f0' = 1 means sliding:
 
     f0(y)  = y^2 / epsilon - y^3 / (3 epsilon^2) + epsilon / 3,   f0'(y) = 2 y / epsilon - y^2 / epsilon^2
@@ -15,19 +15,53 @@ anchor. f0 is |u| beyond epsilon and a cubic below it, so that f0' = 1 means sli
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import warp as wp
 
-from pat3d.sim.contact.barrier import barrier_slope
+from pat3d.sim.arrays import Bodies, filled
+from pat3d.sim.contact.barrier import Barrier, barrier_slope
 from pat3d.sim.contact.broad_phase import Candidates
-from pat3d.sim.contact.distance import contact_at, vec8d
+from pat3d.sim.contact.distance import vec8d
+from pat3d.sim.contact.pairs import Pairs, contact_at
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
-from pat3d.sim.terms.contact import first_unknown, pair_index
+from pat3d.sim.terms.term import Evaluation, Launch
+from pat3d.sim.terms.unknowns import add_block, first_unknown, pair_index
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
-
+declare_kernels(__name__, most_records=8 * 8 * 9)
 
 CAPACITY = 64
-"""Contacts that there is room for at first."""
+"""Contacts that the buffers hold at first."""
+
+
+@wp.struct
+class FrictionRecord:
+    """Contacts as they were recorded last."""
+
+    size: wp.array(dtype=int)
+    """Number of contacts, shape (1,); kernels over the capacity of the buffers end at it."""
+    bodies: wp.array(dtype=wp.vec2i)
+    """The second is -1 for the ground, shape (capacity,)."""
+    coefficients: wp.array(dtype=vec8d)
+    """c, shape (capacity,)."""
+    normal: wp.array(dtype=wp.vec3d)
+    """n, shape (capacity,)."""
+    force: wp.array(dtype=wp.float64)
+    """lambda [N], shape (capacity,)."""
+
+
+@wp.struct
+class FrictionLaw:
+    """How contacts resist, and from where displacements count."""
+
+    coefficient: wp.array(dtype=wp.float64)
+    """mu [-], shape (worlds,)."""
+    epsilon: wp.array(dtype=wp.float64)
+    """Displacement at which friction is fully mobilised [m], shape (1,)."""
+    reference: wp.array2d(dtype=wp.vec3d)
+    """q_ref, shape (bodies, 4)."""
 
 
 class Friction:
@@ -35,16 +69,18 @@ class Friction:
 
     def __init__(self, model: Model):
         self.model = model
-        self.scale = wp.zeros(1, dtype=wp.float64, device=model.device)
-        """epsilon on the device [m], shape (1,)."""
+        self._epsilon_array = wp.zeros(1, dtype=wp.float64, device=model.device)
         self._epsilon = 0.0
         self.epsilon = 1.0e-5
         self.reference = wp.zeros((model.bodies, 4), dtype=wp.vec3d, device=model.device)
         """State from which displacements count, shape (bodies, 4), vec3d."""
         self.coefficient = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
         """mu [-], shape (worlds,)."""
+        self.law = self._law(self.coefficient)
+        """Constants and reference state, for kernels."""
+        self._unit_law = self._law(wp.full(model.worlds, 1.0, dtype=wp.float64, device=model.device))
         self.size = wp.zeros(1, dtype=int, device=model.device)
-        """Number of contacts, shape (1,), int; kernels over `capacity` threads end at it."""
+        """Number of contacts, shape (1,), int."""
         self.count = 0
         """`size` on the host."""
         self._reserve(CAPACITY)
@@ -59,124 +95,98 @@ class Friction:
         if value == self._epsilon:
             return
         self._epsilon = value
-        self.scale.fill_(value)
+        self._epsilon_array.fill_(value)
 
     @property
     def capacity(self) -> int:
-        """Number of contacts there is room for; programs that launch on them must be recorded anew when it changes."""
-        return len(self._bodies)
+        """Number of contacts that the buffers hold; launch graphs over them must be recorded anew when it changes."""
+        return len(self.record.bodies)
+
+    def _law(self, coefficient: wp.array) -> Any:
+        return filled(FrictionLaw, coefficient=coefficient, epsilon=self._epsilon_array, reference=self.reference)
 
     def _reserve(self, capacity: int) -> None:
         device = self.model.device
-        self._bodies = wp.zeros(capacity, dtype=wp.vec2i, device=device)
-        self._coefficients = wp.zeros(capacity, dtype=vec8d, device=device)
-        self._normal = wp.zeros(capacity, dtype=wp.vec3d, device=device)
-        self._force = wp.zeros(capacity, dtype=wp.float64, device=device)
+        self.record = filled(
+            FrictionRecord,
+            size=self.size,
+            bodies=wp.zeros(capacity, dtype=wp.vec2i, device=device),
+            coefficients=wp.zeros(capacity, dtype=vec8d, device=device),
+            normal=wp.zeros(capacity, dtype=wp.vec3d, device=device),
+            force=wp.zeros(capacity, dtype=wp.float64, device=device),
+        )
 
-    def launch_record(self, candidates: Candidates, position: wp.array, reach: wp.array, stiffness: wp.array) -> None:
-        """Record normals, closest points and normal forces of the contacts at vertex positions [m]; part of a program.
+    def launch_record(self, candidates: Candidates, position: wp.array, barrier: Any) -> None:
+        """Record normals, closest points and normal forces of the contacts at vertex positions [m].
 
-        Where `size` exceeds `capacity` afterwards, not all of them were.
+        Part of a launch graph. Where `size` exceeds `capacity` afterwards, not all contacts were recorded.
         """
-        model = self.model
+        record = self.record
         self.size.zero_()
         wp.launch(
             _record,
             dim=candidates.capacity,
-            device=model.device,
-            inputs=[
-                model.body_world,
-                model.vertex_rest,
-                model.vertex_body,
-                stiffness,
-                reach,
-                candidates.size,
-                candidates.kind,
-                candidates.primitives,
-                position,
-            ],
-            outputs=[self.size, self._bodies, self._coefficients, self._normal, self._force],
+            device=self.model.device,
+            inputs=[self.model.body_arrays, candidates.pairs, barrier, position],
+            outputs=[self.size, record.bodies, record.coefficients, record.normal, record.force],
         )
 
     def fits(self, size: int) -> bool:
-        """Take note that `size` contacts were found; without room for them, make it and return False."""
+        """Take note that `size` contacts were found; where the buffers are too small, grow them and return False."""
         self.count = size
         if size <= self.capacity:
             return True
         self._reserve(2 * size)
         return False
 
-    def _inputs(self, q: wp.array, worlds: wp.array) -> list:
-        model = self.model
-        return [
-            model.body_world,
-            model.body_dof,
-            self.coefficient,
-            self.scale,
-            worlds,
-            self.size,
-            self._bodies,
-            self._coefficients,
-            self._normal,
-            self._force,
-            self.reference,
-            q,
-        ]
+    def value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """Those of D."""
+        return [self._launch(_value, self.law, (at.active, at.q), (energy, gradient))]
 
-    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
-        """Add D [J] to `energy`, shape (worlds,), and dD/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _value,
-            dim=self.capacity,
-            device=self.model.device,
-            inputs=self._inputs(q, worlds),
-            outputs=[energy, gradient],
-        )
+    def unit_value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """As `value_launches` at a coefficient of one, which is the derivative by the coefficient."""
+        return [self._launch(_value, self._unit_law, (at.active, at.q), (energy, gradient))]
 
-    def add_hessian(self, q: wp.array, worlds: wp.array, hessian: wp.array) -> None:
-        """Add d2D/dq2, which is positive semidefinite, to `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(
-            _hessian, dim=self.capacity, device=self.model.device, inputs=self._inputs(q, worlds), outputs=[hessian]
-        )
+    def hessian_launches(self, at: Evaluation, exact: wp.array, hessian: wp.array) -> Sequence[Launch]:
+        """Those of d2D/dq2, which is positive semidefinite."""
+        return [self._launch(_hessian, self.law, (at.active, at.q), (hessian,))]
 
-    def largest_slip(self, q: wp.array, worlds: wp.array, slip: wp.array) -> None:
-        """Raise `slip` [m], shape (worlds,), to the largest |u| of the contacts that carry force."""
-        wp.launch(_slip, dim=self.capacity, device=self.model.device, inputs=self._inputs(q, worlds), outputs=[slip])
+    def launch_largest_slip(self, q: wp.array, slip: wp.array) -> None:
+        """Raise `slip` [m], shape (worlds,), to the largest |u| of the contacts; part of a launch graph."""
+        self._launch(_slip, self.law, (q,), (slip,))(self.model.device)
+
+    def _launch(self, kernel: Any, law: Any, more: tuple, outputs: tuple) -> Launch:
+        inputs = (self.model.body_arrays, self.record, law, *more)
+        return Launch(kernel=kernel, dim=self.capacity, inputs=inputs, outputs=outputs)
 
 
 @wp.kernel
 def _record(
-    # Model
-    body_world: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    reach: wp.array(dtype=wp.float64),
-    # State in
-    size: wp.array(dtype=int),
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
+    bodies: Bodies,
+    pairs: Pairs,
+    barrier: Barrier,
     position: wp.array(dtype=wp.vec3d),
     # Out
     recorded: wp.array(dtype=int),
-    bodies: wp.array(dtype=wp.vec2i),
+    pair_bodies: wp.array(dtype=wp.vec2i),
     coefficients: wp.array(dtype=vec8d),
     normal: wp.array(dtype=wp.vec3d),
     force: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
-    d_hat = reach[0]
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
+    d_hat = barrier.d_hat[0]
     if contact.distance >= d_hat:
         return
     slot = wp.atomic_add(recorded, 0, 1)
-    if slot < bodies.shape[0]:
-        bodies[slot] = wp.vec2i(contact.body_a, contact.body_b)
+    if slot < pair_bodies.shape[0]:
+        pair_bodies[slot] = wp.vec2i(contact.body_a, contact.body_b)
         coefficients[slot] = contact.coefficients
         normal[slot] = contact.normal
-        force[slot] = -contact.mollifier * barrier_slope(contact.distance, d_hat, stiffness[body_world[contact.body_a]])
+        force[slot] = -contact.mollifier * barrier_slope(contact.distance, d_hat, barrier.stiffness[world])
 
 
 @wp.func
@@ -187,6 +197,7 @@ def _displacement(
     reference: wp.array2d(dtype=wp.vec3d),
     q: wp.array2d(dtype=wp.vec3d),
 ) -> wp.vec3d:
+    """Displacement u of a contact [m]."""
     u = wp.vec3d()
     for k in range(4):
         u += c[k] * (q[pair[0], k] - reference[pair[0], k])
@@ -197,35 +208,26 @@ def _displacement(
 
 @wp.kernel
 def _value(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    coefficient: wp.array(dtype=wp.float64),
-    scale: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    bodies: wp.array(dtype=wp.vec2i),
-    coefficients: wp.array(dtype=vec8d),
-    normal: wp.array(dtype=wp.vec3d),
-    force: wp.array(dtype=wp.float64),
-    reference: wp.array2d(dtype=wp.vec3d),
+    bodies: Bodies,
+    record: FrictionRecord,
+    law: FrictionLaw,
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     i = wp.tid()
-    if i >= size[0]:
+    if i >= record.size[0]:
         return
-    pair = bodies[i]
-    world = body_world[pair[0]]
-    if worlds[world] == 0:
+    pair = record.bodies[i]
+    world = bodies.world[pair[0]]
+    if active[world] == 0:
         return
-    epsilon = scale[0]
-    u = _displacement(pair, coefficients[i], normal[i], reference, q)
+    epsilon = law.epsilon[0]
+    u = _displacement(pair, record.coefficients[i], record.normal[i], law.reference, q)
     y = wp.length(u)
-    strength = coefficient[world] * force[i]
+    strength = law.coefficient[world] * record.force[i]
     value = y
     # f0'(y) / y
     ratio = wp.float64(1.0) / wp.max(y, epsilon)
@@ -235,43 +237,34 @@ def _value(
     wp.atomic_add(energy, world, strength * value)
     drag = strength * ratio * u
     for k in range(4):
-        wp.atomic_add(gradient, pair[0], k, coefficients[i][k] * drag)
+        wp.atomic_add(gradient, pair[0], k, record.coefficients[i][k] * drag)
         if pair[1] >= 0:
-            wp.atomic_add(gradient, pair[1], k, coefficients[i][4 + k] * drag)
+            wp.atomic_add(gradient, pair[1], k, record.coefficients[i][4 + k] * drag)
 
 
 @wp.kernel
 def _hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    coefficient: wp.array(dtype=wp.float64),
-    scale: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    bodies: wp.array(dtype=wp.vec2i),
-    coefficients: wp.array(dtype=vec8d),
-    normal: wp.array(dtype=wp.vec3d),
-    force: wp.array(dtype=wp.float64),
-    reference: wp.array2d(dtype=wp.vec3d),
+    bodies: Bodies,
+    record: FrictionRecord,
+    law: FrictionLaw,
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     k = wp.tid()
-    if k >= size[0]:
+    if k >= record.size[0]:
         return
-    pair = bodies[k]
-    world = body_world[pair[0]]
-    if worlds[world] == 0:
+    pair = record.bodies[k]
+    world = bodies.world[pair[0]]
+    if active[world] == 0:
         return
-    epsilon = scale[0]
-    n = normal[k]
-    c = coefficients[k]
-    u = _displacement(pair, c, n, reference, q)
+    epsilon = law.epsilon[0]
+    n = record.normal[k]
+    c = record.coefficients[k]
+    u = _displacement(pair, c, n, law.reference, q)
     y = wp.length(u)
-    strength = coefficient[world] * force[k]
+    strength = law.coefficient[world] * record.force[k]
     # P = f0'/y (I - n n^T) + (f0'' - f0'/y) u u^T / y^2
     ratio = wp.float64(1.0) / wp.max(y, epsilon)
     radial = -ratio
@@ -281,40 +274,29 @@ def _hessian(
     direction = u / wp.max(y, wp.float64(1.0e-300))
     identity = wp.identity(n=3, dtype=wp.float64)
     block = strength * (ratio * (identity - wp.outer(n, n)) + radial * wp.outer(direction, direction))
-    base_a = first_unknown(pair[0], body_dof)
-    base_b = first_unknown(pair[1], body_dof)
+    base_a = first_unknown(pair[0], bodies.dof)
+    base_b = first_unknown(pair[1], bodies.dof)
     for i in range(8):
         row = pair_index(i, base_a, base_b)
         if row >= 0:
             for j in range(8):
                 column = pair_index(j, base_a, base_b)
                 if column >= 0:
-                    for r in range(3):
-                        for s in range(3):
-                            wp.atomic_add(hessian, world, row + r, column + s, c[i] * c[j] * block[r, s])
+                    add_block(hessian, world, row, column, c[i] * c[j] * block)
 
 
 @wp.kernel
 def _slip(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    coefficient: wp.array(dtype=wp.float64),
-    scale: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
-    size: wp.array(dtype=int),
-    bodies: wp.array(dtype=wp.vec2i),
-    coefficients: wp.array(dtype=vec8d),
-    normal: wp.array(dtype=wp.vec3d),
-    force: wp.array(dtype=wp.float64),
-    reference: wp.array2d(dtype=wp.vec3d),
+    bodies: Bodies,
+    record: FrictionRecord,
+    law: FrictionLaw,
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     slip: wp.array(dtype=wp.float64),
 ):
     i = wp.tid()
-    if i >= size[0]:
+    if i >= record.size[0]:
         return
-    y = wp.length(_displacement(bodies[i], coefficients[i], normal[i], reference, q))
-    wp.atomic_max(slip, body_world[bodies[i][0]], y)
+    pair = record.bodies[i]
+    u = _displacement(pair, record.coefficients[i], record.normal[i], law.reference, q)
+    wp.atomic_max(slip, bodies.world[pair[0]], wp.length(u))

@@ -2,7 +2,7 @@
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false
 
-"""How friction depends on the state at which its contacts were recorded.
+"""Lagged friction's derivative with respect to the state at which its contacts were recorded.
 
 The friction force on the body vectors is F = sum mu lambda k(|u|) c (x) u with k = f0'/|u|. Its normal force
 lambda, normal n and closest points c come from the recorded state q_n, and where displacements count from q_n, so
@@ -17,67 +17,52 @@ where dx = sum_i c_i dq_i. Without the normal and the closest points, curved bod
 
 from __future__ import annotations
 
+from typing import Any
+
 import warp as wp
 
-from pat3d.sim.contact.barrier import barrier_curvature, barrier_slope
+from pat3d.sim.arrays import Bodies
+from pat3d.sim.contact.barrier import Barrier, barrier_curvature, barrier_slope
 from pat3d.sim.contact.broad_phase import Candidates
-from pat3d.sim.contact.distance import contact_at
-from pat3d.sim.model import Model
+from pat3d.sim.contact.pairs import Pairs, contact_at
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.terms.contact import cross_gradient_u, cross_gradient_v, mollifier_slope
-from pat3d.sim.terms.friction import Friction
+from pat3d.sim.terms.friction import Friction, FrictionLaw
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=8, gradients=True)
 
 
 def pull_back_lag(
-    model: Model,
     friction: Friction,
     candidates: Candidates,
     position: wp.array,
-    record_reach: wp.array,
-    stiffness: wp.array,
+    barrier: Any,
     q: wp.array,
     adjoint: wp.array,
     recorded: wp.array,
     reference: wp.array,
-    reach: wp.array,
+    d_hat: wp.array,
 ) -> None:
     """Pull an adjoint of the friction force at state q back to the state it was recorded at.
 
     Args:
-        model: the worlds.
         friction: coefficient, epsilon and reference state of the step.
         candidates: pairs that cover the recorded state.
         position: vertex positions of the recorded state [m], shape (vertices,), vec3d.
-        record_reach: barrier activation distance at the record [m], shape (1,).
-        stiffness: barrier stiffness [N], shape (worlds,).
+        barrier: `Barrier`, of the record.
         q: state at the end of the step, shape (bodies, 4), vec3d.
         adjoint: w, shape (bodies, 4), vec3d.
         recorded: increased by d(w . F)/dq_n through lambda, n and c, shape (bodies, 4), vec3d.
         reference: increased by d(w . F)/dq_ref, shape (bodies, 4), vec3d.
-        reach: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
+        d_hat: increased by d(w . F)/dd_hat through lambda [N], shape (worlds,).
     """
+    model = friction.model
     wp.launch(
         _pull_back,
         dim=candidates.capacity,
         device=model.device,
-        inputs=[
-            model.body_world,
-            model.vertex_rest,
-            model.vertex_body,
-            stiffness,
-            record_reach,
-            friction.coefficient,
-            friction.scale,
-            candidates.size,
-            candidates.kind,
-            candidates.primitives,
-            position,
-            friction.reference,
-            q,
-            adjoint,
-        ],
-        outputs=[recorded, reference, reach],
+        inputs=[model.body_arrays, candidates.pairs, barrier, friction.law, position, q, adjoint],
+        outputs=[recorded, reference, d_hat],
     )
 
 
@@ -100,33 +85,25 @@ def _add(x: wp.array2d(dtype=wp.vec3d), i: int, body_a: int, body_b: int, value:
 
 @wp.kernel
 def _pull_back(
-    # Model
-    body_world: wp.array(dtype=int),
-    vertex_rest: wp.array(dtype=wp.vec3d),
-    vertex_body: wp.array(dtype=int),
-    stiffness: wp.array(dtype=wp.float64),
-    activation: wp.array(dtype=wp.float64),
-    coefficient: wp.array(dtype=wp.float64),
-    scale: wp.array(dtype=wp.float64),
-    # State in
-    size: wp.array(dtype=int),
-    kind: wp.array(dtype=int),
-    primitives: wp.array(dtype=wp.vec4i),
+    bodies: Bodies,
+    pairs: Pairs,
+    barrier: Barrier,
+    law: FrictionLaw,
     position: wp.array(dtype=wp.vec3d),
-    reference_state: wp.array2d(dtype=wp.vec3d),
     q: wp.array2d(dtype=wp.vec3d),
     adjoint: wp.array2d(dtype=wp.vec3d),
     # Out
     recorded: wp.array2d(dtype=wp.vec3d),
     reference: wp.array2d(dtype=wp.vec3d),
-    reach: wp.array(dtype=wp.float64),
+    by_d_hat: wp.array(dtype=wp.float64),
 ):
     pair = wp.tid()
-    if pair >= size[0]:
+    if pair >= pairs.size[0]:
         return
-    d_hat = activation[0]
-    epsilon = scale[0]
-    contact = contact_at(kind[pair], primitives[pair], position, vertex_rest, vertex_body)
+    world = bodies.world[pairs.body[pairs.vertices[pair][0]]]
+    contact = contact_at(pairs.kind[pair], pairs.vertices[pair], position, pairs.rest, pairs.body)
+    d_hat = barrier.d_hat[0]
+    epsilon = law.epsilon[0]
     d = contact.distance
     if d >= d_hat:
         return
@@ -134,18 +111,17 @@ def _pull_back(
     one = wp.float64(1.0)
     a = contact.body_a
     b = contact.body_b
-    world = body_world[a]
     n = contact.normal
     c = contact.coefficients
-    slope = barrier_slope(d, d_hat, stiffness[world])
-    mu = coefficient[world]
+    slope = barrier_slope(d, d_hat, barrier.stiffness[world])
+    mu = law.coefficient[world]
     normal_force = -contact.mollifier * slope
 
     s = wp.vec3d()
     full = wp.vec3d()
     for i in range(8):
         s += c[i] * _body_vector(adjoint, i, a, b)
-        full += c[i] * (_body_vector(q, i, a, b) - _body_vector(reference_state, i, a, b))
+        full += c[i] * (_body_vector(q, i, a, b) - _body_vector(law.reference, i, a, b))
     u = full - wp.dot(n, full) * n
     y = wp.length(u)
     direction = u / wp.max(y, wp.float64(1.0e-300))
@@ -169,7 +145,7 @@ def _pull_back(
     beta2 = wp.dot(bar_r, contact.e2)
     for i in range(8):
         bar_c = wp.dot(bar_s, _body_vector(adjoint, i, a, b)) + wp.dot(
-            bar_full, _body_vector(q, i, a, b) - _body_vector(reference_state, i, a, b)
+            bar_full, _body_vector(q, i, a, b) - _body_vector(law.reference, i, a, b)
         )
         beta1 += contact.h1[i] * bar_c
         beta2 += contact.h2[i] * bar_c
@@ -188,9 +164,9 @@ def _pull_back(
         else:
             solved1 = beta1 / e11
 
-    bar_distance = -bar_force * contact.mollifier * barrier_curvature(d, d_hat, stiffness[world])
+    bar_distance = -bar_force * contact.mollifier * barrier_curvature(d, d_hat, barrier.stiffness[world])
     # The slope depends on d / d_hat alone.
-    wp.atomic_add(reach, world, -bar_distance * d / d_hat)
+    wp.atomic_add(by_d_hat, world, -bar_distance * d / d_hat)
     bar_cross = -bar_force * slope * mollifier_slope(contact)
     gu = wp.vec3d()
     gv = wp.vec3d()

@@ -12,14 +12,33 @@ Gradients are in newtons (translation) and newton metres (affine part).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import warp as wp
 
 from pat3d.scene.physics import GRAVITY
+from pat3d.sim.arrays import Bodies, filled
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
+from pat3d.sim.terms.term import Evaluation, Launch
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=1)
 
 _G = wp.constant(wp.float64(GRAVITY))
+
+
+@wp.struct
+class Step:
+    """What a time step pulls with, and where to."""
+
+    mass: wp.array(dtype=wp.float64)
+    """[kg], shape (bodies,)."""
+    moment: wp.array(dtype=wp.mat33d)
+    """Second moment of mass [kg m^2], shape (bodies,)."""
+    sigma: wp.array(dtype=wp.float64)
+    """w / dt^2 [1/s^2], shape (worlds,)."""
+    start: wp.array2d(dtype=wp.vec3d)
+    """q_n, shape (bodies, 4)."""
 
 
 class Inertia:
@@ -31,37 +50,21 @@ class Inertia:
         """q_n, shape (bodies, 4), vec3d."""
         self.sigma = wp.zeros(model.worlds, dtype=wp.float64, device=model.device)
         """w / dt^2 [1/s^2], shape (worlds,)."""
-
-    def _inputs(self) -> list:
-        model = self.model
-        return [
-            model.body_world,
-            model.body_dof,
-            model.body_mass,
-            model.body_moment,
-            self.sigma,
-            self.start,
-        ]
-
-    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
-        """Add E [J] to `energy`, shape (worlds,), and dE/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _value,
-            dim=self.model.bodies,
-            device=self.model.device,
-            inputs=[*self._inputs(), worlds, q],
-            outputs=[energy, gradient],
+        self.step, self._rest = (
+            filled(Step, mass=model.body_mass, moment=model.body_moment, sigma=sigma, start=self.start)
+            for sigma in (self.sigma, wp.zeros_like(self.sigma))
         )
+        """`Step`s, for kernels."""
 
-    def add_hessian(self, worlds: wp.array, hessian: wp.array) -> None:
-        """Add d2E/dq2 to the dense `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(
-            _hessian,
-            dim=self.model.bodies,
-            device=self.model.device,
-            inputs=[*self._inputs(), worlds],
-            outputs=[hessian],
-        )
+    def value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """Those of E, or of gravity alone at rest."""
+        inputs = (self.model.body_arrays, self._rest if at.at_rest else self.step, at.active, at.q)
+        return [Launch(kernel=_value, dim=self.model.bodies, inputs=inputs, outputs=(energy, gradient))]
+
+    def hessian_launches(self, at: Evaluation, exact: wp.array, hessian: wp.array) -> Sequence[Launch]:
+        """Those of d2E/dq2, which is constant and positive definite."""
+        inputs = (self.model.body_arrays, self.step, at.active)
+        return [Launch(kernel=_hessian, dim=self.model.bodies, inputs=inputs, outputs=(hessian,))]
 
 
 @wp.func
@@ -76,32 +79,26 @@ def mass_matrix(i: int, j: int, mass: wp.float64, moment: wp.mat33d) -> wp.float
 
 @wp.kernel
 def _value(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_mass: wp.array(dtype=wp.float64),
-    body_moment: wp.array(dtype=wp.mat33d),
-    # State in
-    sigma: wp.array(dtype=wp.float64),
-    start: wp.array2d(dtype=wp.vec3d),
-    worlds: wp.array(dtype=int),
+    bodies: Bodies,
+    step: Step,
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
-    world = body_world[body]
-    if body_dof[body] < 0 or worlds[world] == 0:
+    world = bodies.world[body]
+    if bodies.dof[body] < 0 or active[world] == 0:
         return
-    s = sigma[world]
-    mass = body_mass[body]
-    total = mass * _G * (q[body, 0][2] - start[body, 0][2])
+    s = step.sigma[world]
+    mass = step.mass[body]
+    total = mass * _G * (q[body, 0][2] - step.start[body, 0][2])
     for i in range(4):
         pull = wp.vec3d()
         for j in range(4):
-            pull += s * mass_matrix(i, j, mass, body_moment[body]) * (q[body, j] - start[body, j])
-        total += wp.float64(0.5) * wp.dot(q[body, i] - start[body, i], pull)
+            pull += s * mass_matrix(i, j, mass, step.moment[body]) * (q[body, j] - step.start[body, j])
+        total += wp.float64(0.5) * wp.dot(q[body, i] - step.start[body, i], pull)
         if i == 0:
             pull += wp.vec3d(wp.float64(0.0), wp.float64(0.0), mass * _G)
         gradient[body, i] = gradient[body, i] + pull
@@ -110,25 +107,19 @@ def _value(
 
 @wp.kernel
 def _hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_mass: wp.array(dtype=wp.float64),
-    body_moment: wp.array(dtype=wp.mat33d),
-    # State in
-    sigma: wp.array(dtype=wp.float64),
-    start: wp.array2d(dtype=wp.vec3d),
-    worlds: wp.array(dtype=int),
+    bodies: Bodies,
+    step: Step,
+    active: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     body = wp.tid()
-    world = body_world[body]
-    if body_dof[body] < 0 or worlds[world] == 0:
+    world = bodies.world[body]
+    if bodies.dof[body] < 0 or active[world] == 0:
         return
-    base = 12 * body_dof[body]
+    base = 12 * bodies.dof[body]
     for i in range(4):
         for j in range(4):
-            weight = sigma[world] * mass_matrix(i, j, body_mass[body], body_moment[body])
+            weight = step.sigma[world] * mass_matrix(i, j, step.mass[body], step.moment[body])
             for k in range(3):
                 hessian[world, base + 3 * i + k, base + 3 * j + k] += weight

@@ -13,11 +13,16 @@ Without the first term the Hessian is positive semidefinite; E is of the order o
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import warp as wp
 
+from pat3d.sim.arrays import Bodies
+from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.model import Model
+from pat3d.sim.terms.term import Evaluation, Launch
 
-wp.set_module_options({"enable_backward": False, "max_unroll": 0})
+declare_kernels(__name__, most_records=1)
 
 
 class Orthogonality:
@@ -28,29 +33,15 @@ class Orthogonality:
         self.stiffness = wp.full(model.worlds, stiffness, dtype=wp.float64, device=model.device)
         """kappa [Pa], shape (worlds,); 100 MPa keeps strains under 1e-5 for household loads."""
 
-    def _inputs(self) -> list:
-        model = self.model
-        return [model.body_world, model.body_dof, model.body_volume, self.stiffness]
+    def value_launches(self, at: Evaluation, energy: wp.array, gradient: wp.array) -> Sequence[Launch]:
+        """Those of Psi."""
+        inputs = (self.model.body_arrays, self.model.body_volume, self.stiffness, at.active, at.q)
+        return [Launch(kernel=_value, dim=self.model.bodies, inputs=inputs, outputs=(energy, gradient))]
 
-    def add_value(self, q: wp.array, worlds: wp.array, energy: wp.array, gradient: wp.array) -> None:
-        """Add Psi [J] to `energy`, shape (worlds,), and dPsi/dq to `gradient`, shape (bodies, 4), vec3d."""
-        wp.launch(
-            _value,
-            dim=self.model.bodies,
-            device=self.model.device,
-            inputs=[*self._inputs(), worlds, q],
-            outputs=[energy, gradient],
-        )
-
-    def add_hessian(self, q: wp.array, exact: wp.array, worlds: wp.array, hessian: wp.array) -> None:
-        """Add d2Psi/dq2, or its positive semidefinite part, to `hessian`, shape (worlds, unknowns, unknowns)."""
-        wp.launch(
-            _hessian,
-            dim=self.model.bodies,
-            device=self.model.device,
-            inputs=[*self._inputs(), worlds, exact, q],
-            outputs=[hessian],
-        )
+    def hessian_launches(self, at: Evaluation, exact: wp.array, hessian: wp.array) -> Sequence[Launch]:
+        """Those of d2Psi/dq2 or its positive semidefinite part."""
+        inputs = (self.model.body_arrays, self.model.body_volume, self.stiffness, at.active, at.q, exact)
+        return [Launch(kernel=_hessian, dim=self.model.bodies, inputs=inputs, outputs=(hessian,))]
 
 
 @wp.func
@@ -63,23 +54,20 @@ def _strain(q: wp.array2d(dtype=wp.vec3d), body: int, i: int, j: int) -> wp.floa
 
 @wp.kernel
 def _value(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_volume: wp.array(dtype=wp.float64),
+    bodies: Bodies,
+    volume: wp.array(dtype=wp.float64),
     stiffness: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    # State in
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
     # Out
     energy: wp.array(dtype=wp.float64),
     gradient: wp.array2d(dtype=wp.vec3d),
 ):
     body = wp.tid()
-    world = body_world[body]
-    if body_dof[body] < 0 or worlds[world] == 0:
+    world = bodies.world[body]
+    if bodies.dof[body] < 0 or active[world] == 0:
         return
-    factor = stiffness[world] * body_volume[body]
+    factor = stiffness[world] * volume[body]
     total = wp.float64(0.0)
     for j in range(3):
         force = wp.vec3d()
@@ -93,24 +81,21 @@ def _value(
 
 @wp.kernel
 def _hessian(
-    # Model
-    body_world: wp.array(dtype=int),
-    body_dof: wp.array(dtype=int),
-    body_volume: wp.array(dtype=wp.float64),
+    bodies: Bodies,
+    volume: wp.array(dtype=wp.float64),
     stiffness: wp.array(dtype=wp.float64),
-    worlds: wp.array(dtype=int),
-    exact: wp.array(dtype=int),
-    # State in
+    active: wp.array(dtype=int),
     q: wp.array2d(dtype=wp.vec3d),
+    exact: wp.array(dtype=int),
     # Out
     hessian: wp.array3d(dtype=wp.float64),
 ):
     body = wp.tid()
-    world = body_world[body]
-    if body_dof[body] < 0 or worlds[world] == 0:
+    world = bodies.world[body]
+    if bodies.dof[body] < 0 or active[world] == 0:
         return
-    base = 12 * body_dof[body] + 3
-    factor = wp.float64(4.0) * stiffness[world] * body_volume[body]
+    base = 12 * bodies.dof[body] + 3
+    factor = wp.float64(4.0) * stiffness[world] * volume[body]
     spread = wp.mat33d()
     for i in range(3):
         spread += wp.outer(q[body, 1 + i], q[body, 1 + i])

@@ -1,4 +1,4 @@
-"""Fixed sequences of kernel launches, replayed without Python between them, and what the host reads of them."""
+"""Launch graphs: fixed sequences of kernel launches, recorded once and replayed without Python between them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pat3d.sim import determinism
 
 
-class Program:
+class LaunchGraph:
     """Launches that are the same every time: recorded once as a graph, then replayed.
 
     A launch from Python costs 20 us, a replayed one 0.3 us on a CPU and 2 us on a GPU.
@@ -72,7 +72,7 @@ class Program:
 
 
 class Mirror:
-    """A copy on the host of a device array, made by a program."""
+    """A copy on the host of a device array, made by a launch graph."""
 
     def __init__(self, array: wp.array):
         self.array = array
@@ -81,7 +81,7 @@ class Mirror:
         self._view = self._pinned.numpy()
 
     def fetch(self) -> None:
-        """Copy the array; part of a program."""
+        """Copy the array; part of a launch graph."""
         if self._device.is_cuda:
             wp.copy(self._pinned, self.array)
 
