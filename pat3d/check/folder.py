@@ -73,7 +73,7 @@ def check_folder(
     for name in FORMATS:
         if (folder / name).is_dir():
             progress(Event(stage="verifying", detail=f"what {name} says"))
-            wrong, unknown = _export(scene, folder / name)
+            wrong, unknown = check_export(scene, folder / name)
             failures += wrong
             notes += unknown
             if not wrong and not unknown:
@@ -99,14 +99,14 @@ def creep_notes(verification: Verification) -> list[str]:
     ]
 
 
-def _export(scene: Scene, folder: Path) -> tuple[list[str], list[str]]:
-    """What is wrong with an export, and what could not be said of it."""
+def check_export(scene: Scene, folder: Path) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What is wrong with the export in `folder`, and what could not be said of it."""
     try:
         report = contents(scene, folder)
     except ExportError as error:
         # The one thing that is no fault of the files: a format whose packages are not installed.
         absent = "not installed" in str(error)
-        return ([], [str(error)]) if absent else ([str(error)], [])
+        return ((), (str(error),)) if absent else ((str(error),), ())
     # Other packages are not let loose on what we do not know.
     readers = () if report.foreign else differences(scene, folder)
-    return [*readers, *report.failures], []
+    return (*readers, *report.failures), ()
