@@ -2,11 +2,11 @@
 
     python benchmarks/attack.py --scenes scenes/desk --honest scenes/* --work work/attack
 
-Every attack (benchmarks/attacks.py) is made on a copy of every scene. "checksums" have to convict it, and for exports
-"contents" as well: what the export says, whatever the checksums, for an attacker may write those anew. Who makes another scene of it, consistent in
-every file, has a scene, and it is the laws of physics that have to convict it ("whole"). Honest scenes are read and
-written anew with the code at hand, then checked: one that is refused is a failure of the check. Exit code 1 where an
-attack passes or an honest scene is refused.
+Every attack (benchmarks/attacks) is made on a copy of every scene. "checksums" have to convict it, and for exports
+"contents" as well: what the export says, whatever the checksums, for an attacker may write those anew. Who makes
+another scene of it, consistent in every file, has a scene, and it is the laws of physics that have to convict it
+("whole"). Honest scenes are read and written anew with the code at hand, then checked: one that is refused is a failure
+of the check. Exit code 1 where an attack passes or an honest scene is refused.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def strike(attack: Attack, source: Path, scene: Scene, work: Path) -> bool | Non
     if attack.kind != "whole":
         found["checksums"] = compare_checksums(folder).failures
     if attack.forged:
-        found["contents"] = check_export(scene, folder / attack.kind)[0]
+        found["contents"] = check_export(scene, folder / attack.kind, anew=source / attack.kind)[0]
     if not found:
         found["check"] = verdict(folder)
     done = all(found.values())

@@ -44,9 +44,7 @@ class FolderReport:
         return not self.failures
 
 
-def check_folder(
-    folder: str | Path, *, seconds: float = STILL_SECONDS, progress: Progress = silent
-) -> FolderReport:
+def check_folder(folder: str | Path, *, seconds: float = STILL_SECONDS, progress: Progress = silent) -> FolderReport:
     """Check everything in `folder`.
 
     Args:
@@ -91,7 +89,9 @@ def check_folder(
 
 
 def creep_notes(verification: Verification) -> list[str]:
-    """A line for every object that stands but never quite stops."""
+    """A line for every object that stands but never quite stops; a shorter run than usual cannot tell."""
+    if verification.mujoco.seconds < STILL_SECONDS:
+        return []
     return [
         f'"{obj.name}" still moves after {verification.mujoco.seconds:g} s of MuJoCo: {obj.creep_mm or 0.0:.2g} mm and '
         f"{obj.creep_degrees or 0.0:.2g} degrees a minute (still is under {CREEP_MM:g} and {CREEP_DEGREES:g})."
@@ -99,10 +99,10 @@ def creep_notes(verification: Verification) -> list[str]:
     ]
 
 
-def check_export(scene: Scene, folder: Path) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """What is wrong with the export in `folder`, and what could not be said of it."""
+def check_export(scene: Scene, folder: Path, anew: Path | None = None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What is wrong with the export in `folder`, and what could not be said of it; `anew` is that of `contents`."""
     try:
-        report = contents(scene, folder)
+        report = contents(scene, folder, anew=anew)
     except ExportError as error:
         # The one thing that is no fault of the files: a format whose packages are not installed.
         absent = "not installed" in str(error)
