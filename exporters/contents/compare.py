@@ -58,23 +58,27 @@ class ContentsReport:
         return any(FOREIGN in line for line in self.failures)
 
 
-def contents(scene: Scene, path: str | Path) -> ContentsReport:
+def contents(scene: Scene, path: str | Path, *, anew: Path | None = None) -> ContentsReport:
     """Compare everything in the folder of the export at `path` with what would be written of `scene`.
 
     Args:
         scene: what the export is of.
         path: a written file, or its folder.
+        anew: the folder of what is written of `scene` in this format; a temporary one where not given.
 
     Raises:
         ExportError: there is no export at `path`, or its format cannot be written here.
     """
     kind, main = locate(Path(path))
     folder = main.parent
-    usd = {"text": main.suffix == ".usda", "package": (folder / "scene.usdz").is_file()} if kind == "usd" else {}
     with tempfile.TemporaryDirectory(prefix="pat3d-contents-") as scratch:
-        fresh = export(scene, (kind,), scratch, **usd)[kind].parent
-        lines = tuple(f"{folder / name}: {line}." for name, line in _folders(folder, fresh))
-        identical = not lines and all(filecmp.cmp(folder / name, fresh / name, shallow=False) for name in _names(fresh))
+        if anew is None:
+            package = (folder / "scene.usdz").is_file()
+            usd = {"text": main.suffix == ".usda", "package": package} if kind == "usd" else {}
+            anew = export(scene, (kind,), scratch, **usd)[kind].parent
+        lines = tuple(f"{folder / name}: {line}." for name, line in _folders(folder, anew))
+        same = (filecmp.cmp(folder / name, anew / name, shallow=False) for name in _names(anew))
+        identical = not lines and all(same)
     return ContentsReport(format=kind, path=str(main), failures=lines, identical=identical)
 
 

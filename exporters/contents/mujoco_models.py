@@ -15,8 +15,8 @@ from pat3d.exporters.contents.values import same_numbers, shown
 _PHYSICS = ("opt", "body", "geom", "jnt", "dof", "eq", "key", "pair", "exclude", "actuator", "sensor", "tendon", "site")
 """Beginnings of the arrays of MjModel that decide how a scene moves."""
 
-_DERIVED = ("body_iquat", "body_inertia", "body_bvhadr", "geom_aabb", "geom_rbound")
-"""Axes of inertia, which may differ where moments are equal, and what follows from the rest."""
+_DERIVED = ("body_iquat", "body_inertia", "body_sameframe", "geom_sameframe", "body_simple", "geom_aabb", "geom_rbound")
+"""Axes of inertia, of which there may be several, and what follows from them or from the rest."""
 
 
 def model_differences(found: Path, expected: Path) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
@@ -27,7 +28,11 @@ def text_differences(found: Path, expected: Path) -> Iterator[str]:
     """
     here, there = _lines(found), _lines(expected)
     pairs = enumerate(zip_longest(here, there, fillvalue=""), start=1)
-    wrong = [number for number, (one, other) in pairs if _indent(one) != _indent(other) or not same_words(one, other)]
+    wrong = [
+        number
+        for number, (one, other) in pairs
+        if _indent(one) != _indent(other) or not same_words(_spaced(one), _spaced(other))
+    ]
     if wrong:
         first = wrong[0] - 1
         mine, theirs = (shown(lines[first]) if first < len(lines) else "" for lines in (here, there))
@@ -115,6 +120,11 @@ def _lines(path: Path) -> list[str]:
         raise ExportError(f"{path.name}: cannot be read ({error.strerror or error}).") from error
     except UnicodeDecodeError as error:
         raise ExportError(f"{path.name}: not text ({error.reason}).") from error
+
+
+def _spaced(line: str) -> str:
+    """Numbers apart from the brackets and commas around them."""
+    return re.sub(r"([\[\](){},])", r" \1 ", line)
 
 
 def _indent(line: str) -> str:

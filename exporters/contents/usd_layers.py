@@ -86,14 +86,28 @@ def _spec(found: Any, expected: Any, path: str) -> Iterator[str]:
         return
     mine, theirs = set(found.ListInfoKeys()), set(expected.ListInfoKeys())
     for key in sorted(mine - theirs):
-        yield f"{path} has {key} = {shown(found.GetInfo(key))}, which {FOREIGN}"
+        yield f"{path} has {key} = {shown(_info(found, key))}, which {FOREIGN}"
     for key in sorted(theirs - mine):
-        yield f"{path} lacks {key} = {shown(expected.GetInfo(key))}"
-    relative = RELATIVE if "typeName" in theirs and _is_double(expected.GetInfo("typeName")) else _SINGLE
+        yield f"{path} lacks {key} = {shown(_info(expected, key))}"
+    relative = RELATIVE if "typeName" in theirs and _is_double(_info(expected, "typeName")) else _SINGLE
     for key in sorted(mine & theirs):
-        one, other = found.GetInfo(key), expected.GetInfo(key)
+        one, other = _info(found, key), _info(expected, key)
         if not _same(one, other, relative):
             yield f"{path} has {key} = {shown(one)} instead of {shown(other)}"
+
+
+class _Opaque:
+    """A value that OpenUSD does not hand to Python; equal to no other."""
+
+    def __str__(self) -> str:
+        return "something"
+
+
+def _info(spec: Any, key: str) -> Any:
+    try:
+        return spec.GetInfo(key)
+    except TypeError:
+        return _Opaque()
 
 
 def _is_double(kind: Any) -> bool:

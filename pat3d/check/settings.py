@@ -50,6 +50,10 @@ def _option(name: str, enum: str, member: str) -> Change:
     return change
 
 
+def _integrator(member: str) -> Change:
+    return _option("integrator", "mjtIntegrator", member)
+
+
 def _timestep(seconds: float) -> Change:
     def change(model: Any) -> None:
         model.opt.timestep = seconds
@@ -89,8 +93,8 @@ _ALL = (
         for name, it in _INTEGRATORS.items()
     ),
     *(
-        Setting(name=f"solver-{name}", title=f"solver {name}", change=_option("solver", "mjtSolver", it))
-        for name, it in _SOLVERS.items()
+        Setting(name=f"solver-{name}", title=f"solver {name}", change=_option("solver", "mjtSolver", member))
+        for name, member in _SOLVERS.items()
     ),
     Setting(name="cone-pyramidal", title="pyramidal cone", change=_option("cone", "mjtCone", "mjCONE_PYRAMIDAL")),
     *(

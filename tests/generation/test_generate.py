@@ -127,8 +127,9 @@ def test_check_convicts_an_export_that_differs_from_the_scene(folder, tmp_path, 
     tree.write(path)
     assert main(["check", str(tmp_path / "bad")]) == 1
     errors = capfd.readouterr().err
-    assert '"red mug" drifts' in errors
+    assert "mjcf/scene.xml is not the file that was verified" in errors
     assert '"red mug" stands elsewhere' in errors
+    assert '<body "red_mug"> has pos=' in errors
 
 
 def test_an_export_that_is_still_but_elsewhere_or_heavier_is_told_apart(folder, tmp_path):
