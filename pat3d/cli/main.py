@@ -10,6 +10,7 @@ from typing import Any
 
 import pat3d
 from pat3d.errors import Pat3dError
+from pat3d.scene.physics import SETTLING_FRICTION, STILL_SECONDS
 
 EXAMPLES = {
     "generate": """
@@ -94,7 +95,7 @@ def parser() -> argparse.ArgumentParser:
     making = command("generate", "make a verified scene from a sentence")
     making.add_argument("prompt", metavar="PROMPT", help="what the scene shows, in English")
     making.add_argument("--allow-proxies", action="store_true", help="a plain box for what the catalogue lacks")
-    _add_making(making, seed=0, friction=0.2)
+    _add_making(making, seed=0, friction=SETTLING_FRICTION)
 
     building = command("build", "make a verified scene from a specification with your meshes, sizes and relations")
     building.add_argument("spec", metavar="SCENE.YAML", nargs="?", help="the specification")
@@ -122,7 +123,9 @@ def parser() -> argparse.ArgumentParser:
         help="measure the drift in these engines instead: mujoco, mujoco-oldest, mujoco-newest, "
         "newton-mujoco, newton-xpbd, newton (both), pybullet, drake, physx, or all",
     )
-    checking.add_argument("--seconds", type=float, default=5.0, help="simulated time with --engines (5)")
+    checking.add_argument(
+        "--seconds", type=float, default=STILL_SECONDS, help=f"simulated time with --engines ({STILL_SECONDS:g})"
+    )
 
     exporting = command(
         "export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"
@@ -166,7 +169,11 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_making(to: argparse.ArgumentParser, *, seed: int | None, friction: float | None) -> None:
-    shown = {"seed": "0", "friction": "0.2"} if seed is not None else dict.fromkeys(("seed", "friction"), "the file's")
+    shown = (
+        {"seed": "0", "friction": f"{SETTLING_FRICTION}"}
+        if seed is not None
+        else dict.fromkeys(("seed", "friction"), "the file's")
+    )
     to.add_argument("--out", metavar="FOLDER", help="scene folder to write; an earlier one is replaced at the end")
     to.add_argument("--seed", type=int, default=seed, help=f"the same seed gives the same scene ({shown['seed']})")
     to.add_argument(
