@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
+from pat3d.scene.replacement import replaced_file
 
 GAP = 6
 """Around every picture [pixel]."""
@@ -63,11 +64,6 @@ def write_strip(
         top += height + GAP
     if colours:
         sheet = sheet.quantize(colours, dither=image_module.Dither.FLOYDSTEINBERG)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}.png")
-    try:
-        sheet.save(temporary, optimize=True)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replaced_file(path) as temporary:
+        sheet.save(temporary, format="PNG", optimize=True)
     return path

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
+from pat3d.scene.replacement import replaced_file
 
 INSTALL_HINT = "MP4 needs imageio-ffmpeg: pip install 'pat3d[eval]'; name a .gif or a folder for PNG files instead."
 
@@ -46,15 +47,9 @@ def write_video(frames: Frames, file: str | os.PathLike[str], fps: float) -> Pat
         return path
     if kind not in (".mp4", ".gif"):
         raise EvaluationError(f'a film is FILE.mp4, FILE.gif or a folder for PNG files, not "{path.name}".')
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{kind}")
-    try:
-        if kind == ".gif":
-            _write_gif(frames, temporary, fps)
-        else:
-            _write_mp4(frames, temporary, fps)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    write = _write_gif if kind == ".gif" else _write_mp4
+    with replaced_file(path) as temporary:
+        write(frames, temporary, fps)
     return path
 
 

@@ -10,6 +10,7 @@ import hashlib
 import json
 import os
 import tempfile
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
@@ -20,6 +21,7 @@ from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
 from pat3d.scene.cache import cache_root
 from pat3d.scene.model import Scene
 from pat3d.scene.physics import STILL_SECONDS
+from pat3d.scene.replacement import write_text
 from pat3d.scene.versions import version_of
 
 DEFAULT_TASK = "pick:red mug"
@@ -169,13 +171,5 @@ def _stored(path: Path) -> dict[str, Any] | None:
 
 def store_record(path: Path, record: dict[str, Any]) -> None:
     """Write atomically; a folder that cannot be written is left alone."""
-    temporary = None
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            json.dump(record, file)
-        os.replace(temporary, path)
-    except OSError:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
+    with suppress(OSError):
+        write_text(path, json.dumps(record))

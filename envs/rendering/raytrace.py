@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.rendering.picture import Picture
+from pat3d.view.rays import RayScene, pinhole_rays, unit
+from pat3d.view.textures import nearest_texels
 
 Array = NDArray[np.float32]
 
@@ -33,9 +35,7 @@ class _Body:
     """The drawn surfaces of one body in its own frame."""
 
     number: int
-    scene: Any
-    mesh: Any
-    """Keeps the triangles alive, to which the scene has no reference of its own."""
+    scene: RayScene
     centre: Array
     radius: float
     normals: Array
@@ -69,12 +69,11 @@ class RayTracer:
         """What `camera` sees: with depth and geoms where they are asked for."""
         eye = data.cam_xpos[camera].astype(np.float32)
         axes = data.cam_xmat[camera].reshape(3, 3).astype(np.float32)
-        half = np.tan(np.radians(self._model.cam_fovy[camera]) / 2.0)
-        x = (np.arange(width) + 0.5 - width / 2.0) * (2.0 * half / height)
-        y = (height / 2.0 - np.arange(height) - 0.5) * (2.0 * half / height)
-        flat = np.stack(np.broadcast_arrays(x[None, :], y[:, None], np.array([[-1.0]])), axis=-1).reshape(-1, 3)
-        lengths = np.linalg.norm(flat, axis=1).astype(np.float32)
-        rays = (flat.astype(np.float32) / lengths[:, None]) @ axes.T
+        row, column = np.divmod(np.arange(width * height), width)
+        looking = np.stack([axes[:, 0], axes[:, 1], -axes[:, 2]])
+        rays, lengths = pinhole_rays(
+            looking, column + 0.5, row + 0.5, width, height, float(self._model.cam_fovy[camera])
+        )
         colours = np.tile(SKY, (len(rays), 1))
         reach = np.full(len(rays), np.inf, dtype=np.float32)
         geoms = np.full(len(rays), -1, dtype=np.int32)
@@ -105,25 +104,21 @@ class RayTracer:
         if not len(near):
             return
         local = np.ascontiguousarray(rays[near] @ rotation)
-        start = np.tile((eye - position) @ rotation, (len(near), 1)).astype(np.float32)
-        found = body.scene.run(start, local, output=1)
-        hit = np.flatnonzero((found["primID"] >= 0) & (found["tfar"] < reach[near]))
-        if not len(hit):
+        hits = body.scene.hits((eye - position) @ rotation, local, nearer=reach[near])
+        if not len(hits.which):
             return
-        face, which = found["primID"][hit], near[hit]
-        weights = np.stack([1.0 - found["u"][hit] - found["v"][hit], found["u"][hit], found["v"][hit]], axis=1)
-        normal = np.einsum("ij,ijk->ik", weights, body.normals[face]) @ rotation.T
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-12)[:, None]
+        face, which = hits.face, near[hits.which]
+        normal = unit(hits.at(body.normals) @ rotation.T)
         facing = -np.einsum("ij,ij->i", normal, rays[which])
         normal *= np.where(facing < 0, -1.0, 1.0)[:, None].astype(np.float32)
         colour = body.colour[face].copy()
+        uv = hits.at(body.uv)
         for number in np.unique(body.texture[face]).tolist():
             if number >= 0:
                 members = np.flatnonzero(body.texture[face] == number)
-                uv = np.einsum("ij,ijk->ik", weights[members], body.uv[face[members]])
-                colour[members] *= self._texel(number, uv)
+                colour[members] *= nearest_texels(self._textures[number], uv[members])
         colours[which] = colour * _light(normal, np.abs(facing))[:, None]
-        reach[which], geoms[which] = found["tfar"][hit], body.geom[face]
+        reach[which], geoms[which] = hits.distance, body.geom[face]
 
     def _see_plane(
         self, data: Any, geom: int, eye: Array, rays: Array, reach: Array, colours: Array, geoms: NDArray[np.int32]
@@ -165,17 +160,12 @@ class RayTracer:
             geoms.append(np.full(count, geom, dtype=np.int32))
         if not corners:
             return None
-        from embreex.mesh_construction import TriangleMesh
-        from embreex.rtcore_scene import EmbreeScene
-
         points = np.ascontiguousarray(np.concatenate(corners), dtype=np.float32)
         flat = points.reshape(-1, 3)
         centre = (flat.min(axis=0) + flat.max(axis=0)) / 2.0
-        scene = EmbreeScene()
         return _Body(
             number=number,
-            scene=scene,
-            mesh=TriangleMesh(scene, points),
+            scene=RayScene(points),
             centre=centre,
             radius=float(np.linalg.norm(flat - centre, axis=1).max()),
             normals=np.concatenate(normals).astype(np.float32),
@@ -233,13 +223,6 @@ class RayTracer:
         # A geom's own colour counts only where it was changed from the default grey.
         own = model.geom_rgba[geom]
         return (model.mat_rgba[material] if np.allclose(own, (0.5, 0.5, 0.5, 1.0)) else own), texture
-
-    def _texel(self, texture: int, uv: Array) -> Array:
-        """Nearest texels, shape (n, 3); v is as MuJoCo stores it, from the top of the image."""
-        image = self._textures[texture]
-        row = np.clip((uv[:, 1] % 1.0) * image.shape[0], 0, image.shape[0] - 1).astype(np.int64)
-        column = np.clip((uv[:, 0] % 1.0) * image.shape[1], 0, image.shape[1] - 1).astype(np.int64)
-        return image[row, column]
 
 
 def _light(normal: Array, facing: Array) -> Array:

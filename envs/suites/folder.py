@@ -26,6 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.errors import ExportError, SuiteError
+from pat3d.scene import replacement
 from pat3d.scene.folder import finite
 
 MANIFEST, SCENES, REJECTED, WORK, LOCK, LOG, PAGE, HUB = (
@@ -148,13 +149,9 @@ def write_text(path: Path, text: str) -> None:
     Raises:
         ExportError: it cannot be written.
     """
-    temporary = path.with_name(f".{path.name}.part")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
+        replacement.write_text(path, text)
     except OSError as error:
-        temporary.unlink(missing_ok=True)
         raise ExportError(f"{path}: cannot be written ({error.strerror or error}).") from error
 
 

@@ -8,13 +8,11 @@ precision is rounded once.
 
 from __future__ import annotations
 
-import shutil
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from pat3d.errors import ExportError
+from pat3d.exporters.common.folder import export_folder
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
 from pat3d.scene.naming import slug
@@ -39,7 +37,7 @@ def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: 
     """
     from pat3d.exporters.usd.scene_layer import write_scene
 
-    with _replacing(Path(folder), "scene") as fresh:
+    with _replaced(Path(folder), "scene") as fresh:
         path = write_scene(scene, fresh, suffix="usda" if text else "usdc")
         if package:
             _package(path)
@@ -66,7 +64,7 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
 
     stem = prim_name(slug(name or asset.noun))
     file = f"{stem}.{'usda' if text else 'usdc'}"
-    with _replacing(Path(folder), stem) as fresh:
+    with _replaced(Path(folder), stem) as fresh:
         write_asset(asset, stem, fresh / file)
     return Path(folder) / file
 
@@ -79,22 +77,7 @@ def _package(path: Path) -> None:
         raise ExportError(f"{path.with_suffix('.usdz').name}: usd-core could not package {path.name}.")
 
 
-@contextmanager
-def _replacing(folder: Path, stem: str) -> Iterator[Path]:
+def _replaced(folder: Path, stem: str) -> AbstractContextManager[Path]:
     """A new folder that takes the place of `folder` when the block ends without an error."""
-    if folder.exists() and not folder.is_dir():
-        raise ExportError(f"{folder} is a file; give a folder to write the USD into.")
-    if folder.exists() and any(folder.iterdir()) and not any((folder / f"{stem}{end}").is_file() for end in SUFFIXES):
-        raise ExportError(f"{folder} is not empty and holds no {stem}.usdc; give a new folder or an earlier export.")
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".usd-") as temporary:
-        fresh = Path(temporary) / "new"
-        fresh.mkdir()
-        yield fresh
-        if folder.exists():
-            folder.rename(Path(temporary) / "old")
-        try:
-            fresh.rename(folder)
-        except OSError:
-            shutil.move(Path(temporary) / "old", folder)
-            raise
+    first, *others = (f"{stem}{suffix}" for suffix in SUFFIXES)
+    return export_folder(folder, marker=first, what="USD", or_markers=tuple(others))

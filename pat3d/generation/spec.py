@@ -20,6 +20,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
+from pat3d.scene.physics import SETTLING_FRICTION
 
 MESH_KEYS = ("units", "up", "parts", "thickness")
 NOUN_KEYS = ("colour", "colours")
@@ -46,7 +47,7 @@ class Spec:
     @property
     def friction(self) -> float:
         """Coulomb coefficient [-] while settling."""
-        return float(self.source.document.get("friction", 0.2))
+        return float(self.source.document.get("friction", SETTLING_FRICTION))
 
     def request(self) -> SceneRequest:
         """What to make."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene.physics import SETTLING_FRICTION
 
 KINDS = sorted(SUPPORT_KINDS | LATERAL_KINDS)
 
@@ -83,7 +84,7 @@ BUILD_SCHEMA: dict[str, Any] = {
             "type": "number",
             "exclusiveMinimum": 0,
             "maximum": 2,
-            "default": 0.2,
+            "default": SETTLING_FRICTION,
             "description": "Coulomb coefficient of every contact while settling.",
         },
         "objects": {"type": "array", "items": _OBJECT, "minItems": 1, "maxItems": 500},

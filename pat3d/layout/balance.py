@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.layout.bodies import Array, Placed
+from pat3d.geometry.polygons import polygon_margin
+from pat3d.layout.bodies import Placed
 from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map, top_map
 
@@ -32,17 +32,3 @@ def support_margin(group: Group, supports: Sequence[Placed], *, gap: float) -> f
     touching = between < max(gap, float(between.min())) + 1e-3
     points = low[:2] + cell * np.argwhere(touching & np.isfinite(between))
     return polygon_margin(points, group.centre_of_mass[:2], tolerance=cell)
-
-
-def polygon_margin(points: Array, centre: Array, *, tolerance: float) -> float:
-    """Distance [m] from `centre`, shape (2,), to the border of the hull of `points`, shape (n, 2); negative outside.
-
-    Points on a line or a single point give minus the distance to the nearest, plus `tolerance` [m].
-    """
-    if len(points) == 0:
-        return -np.inf
-    try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):
-        return tolerance - float(np.linalg.norm(points - centre, axis=1).min())
-    return -float(np.max(hull.equations[:, :2] @ centre + hull.equations[:, 2]))

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.geometry.rotations import yaw_of
 from pat3d.layout.bodies import Array, Placed
@@ -77,11 +76,3 @@ def _flat(region: Region, body: Placed) -> FlatRegion:
         height=region.height,
         enclosed=region.enclosed,
     )
-
-
-def outline(points: Array) -> Array:
-    """Corners of the convex hull of horizontal points [m], shape (n, 2)."""
-    try:
-        return points[ConvexHull(points).vertices]
-    except QhullError:
-        return np.stack([points.min(axis=0), points.max(axis=0)])

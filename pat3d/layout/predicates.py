@@ -32,9 +32,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import SpecError
+from pat3d.geometry.polygons import contains, outline, polygon_gap
 from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Array, Placed, distance, place_all
 from pat3d.layout.frames import column_of
@@ -274,47 +274,9 @@ class _View:
 
     def _over(self, name: str, parent: str) -> bool:
         """Whether the centre of mass is over the parent's footprint."""
-        return _contains(self._footprint(parent), self.bodies[name].centre_of_mass[:2])
+        return contains(self._footprint(parent), self.bodies[name].centre_of_mass[:2])
 
     def _footprint(self, name: str) -> Array:
         if name not in self._footprints:
-            points = self.bodies[name].vertices[:, :2]
-            try:
-                self._footprints[name] = points[ConvexHull(points).vertices]
-            except QhullError as error:  # pragma: no cover  (parts have volume)
-                raise SpecError(f'"{name}" has no footprint.') from error
+            self._footprints[name] = outline(self.bodies[name].vertices[:, :2])
         return self._footprints[name]
-
-
-def polygon_gap(first: Array, second: Array) -> float:
-    """Distance [m] between two convex polygons, counter-clockwise corners of shape (n, 2); 0 where they overlap."""
-    best = math.inf
-    for polygon, points in ((first, second), (second, first)):
-        edges = np.roll(polygon, -1, axis=0) - polygon
-        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
-        relative = points[None] - polygon[:, None]
-        # A point inside, or an edge that separates.
-        if np.any(np.all(np.einsum("epi,ei->ep", relative, normals) <= 0.0, axis=0)):
-            return 0.0
-        share = np.clip(
-            np.einsum("epi,ei->ep", relative, edges) / np.maximum(np.sum(edges**2, axis=1), 1e-300)[:, None], 0.0, 1.0
-        )
-        best = min(best, float(np.min(np.linalg.norm(relative - share[..., None] * edges[:, None], axis=-1))))
-    return 0.0 if _cross(first, second) else best
-
-
-def _cross(first: Array, second: Array) -> bool:
-    """Whether no edge of either convex polygon separates the two."""
-    for polygon, points in ((first, second), (second, first)):
-        edges = np.roll(polygon, -1, axis=0) - polygon
-        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1)
-        sides = np.einsum("epi,ei->ep", points[None] - polygon[:, None], normals)
-        if np.any(np.all(sides >= 0.0, axis=1)):
-            return False
-    return True
-
-
-def _contains(polygon: Array, point: Array) -> bool:
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    relative = point - polygon
-    return bool(np.all(edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0] >= -1e-12))

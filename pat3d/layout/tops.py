@@ -10,12 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from pat3d.errors import LayoutError
+from pat3d.geometry.polygons import outline
 from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, listed, lower, pack
 from pat3d.layout.flat import Item, Lateral
-from pat3d.layout.frames import FlatRegion, outline
+from pat3d.layout.frames import FlatRegion
 from pat3d.layout.group import Group
 from pat3d.layout.surfaces import arrange_flat
 

@@ -10,7 +10,7 @@ import math
 
 import torch
 
-from pat3d.layout.predicates import polygon_gap as overlap_aware_gap
+from pat3d.geometry.polygons import polygon_gap as overlap_aware_gap
 from pat3d.optimize.outline import Box, outside, polygon_gap
 
 SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}

@@ -5,13 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tempfile
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from pat3d.scene.replacement import replaced_file
 
 
 def cache_root(cache_dir: str | os.PathLike[str] | None = None) -> Path:
@@ -61,14 +63,6 @@ def load_record(path: Path) -> dict[str, Any]:
 
 def store_points(path: Path, parts: list[NDArray[np.float64]], record: Mapping[str, Any] | None = None) -> None:
     """Write point sets, and a JSON-serialisable `record`, to `path` atomically; an unwritable folder is left alone."""
-    temporary = None
     counts = np.array([len(points) for points in parts])
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, points=np.concatenate(parts), counts=counts, record=np.array(json.dumps(record or {})))
-        os.replace(temporary, path)
-    except OSError:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
+    with suppress(OSError), replaced_file(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, points=np.concatenate(parts), counts=counts, record=np.array(json.dumps(record or {})))

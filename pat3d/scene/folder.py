@@ -5,11 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import shutil
-import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
+from pat3d.scene.replacement import replaced_folder, write_bytes, write_text
 
 OWN = (
     "scene.json",
@@ -61,49 +60,13 @@ def check_target(out: str | os.PathLike[str]) -> Path:
     return folder
 
 
-@contextmanager
-def replacing(folder: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `folder` when the block ends, and vanishes if it fails.
+def replacing(folder: Path) -> AbstractContextManager[Path]:
+    """A new scene folder that takes the place of `folder` when the block ends; the user's own files move into it.
 
     Raises:
         ExportError: nothing can be written there.
     """
-    made = [parent for parent in folder.parents if not parent.exists()]
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        scratch = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f".{folder.name[:40]}-"))
-    except OSError as error:
-        raise ExportError(f"{folder}: cannot be written ({error.strerror or error}).") from error
-    done = False
-    try:
-        fresh = scratch / "new"
-        fresh.mkdir()
-        yield fresh
-        _swap(fresh, folder, scratch / "old")
-        done = True
-    except OSError as error:
-        raise ExportError(f"{folder}: cannot be written ({error.strerror or error}).") from error
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
-        if not done:
-            for parent in made:
-                if parent.is_dir() and not any(parent.iterdir()):
-                    parent.rmdir()
-
-
-def _swap(fresh: Path, folder: Path, old: Path) -> None:
-    if not folder.exists():
-        fresh.rename(folder)
-        return
-    folder.rename(old)
-    try:
-        fresh.rename(folder)
-    except OSError:
-        old.rename(folder)
-        raise
-    for entry in list(old.iterdir()):
-        if entry.name not in OWN and not (folder / entry.name).exists():
-            entry.rename(folder / entry.name)
+    return replaced_folder(folder, keep=lambda name: name not in OWN)
 
 
 def key_of(*inputs: Any) -> str:
@@ -112,11 +75,9 @@ def key_of(*inputs: Any) -> str:
 
 
 def write_json(path: Path, document: Mapping[str, Any]) -> None:
-    """Write `document`, numbers that are not finite as null, under a temporary name first."""
+    """Write `document`, numbers that are not finite as null."""
     text = json.dumps(finite(document), indent=1, allow_nan=False, ensure_ascii=False)
-    temporary = path.with_name(f".{path.name}.part")
-    temporary.write_text(text + "\n", encoding="utf-8")
-    os.replace(temporary, path)
+    write_text(path, text + "\n")
 
 
 def read_json(path: Path) -> dict[str, Any]:
@@ -148,9 +109,7 @@ def finite(value: Any) -> Any:
 def write_pictures(pictures: Mapping[str, bytes], folder: Path) -> None:
     """Write picture files by name."""
     for name, data in pictures.items():
-        temporary = folder / f".{name}.part"
-        temporary.write_bytes(data)
-        os.replace(temporary, folder / name)
+        write_bytes(folder / name, data)
 
 
 def read_pictures(names: Sequence[str], folder: Path) -> dict[str, bytes]:

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
@@ -29,6 +28,7 @@ from pat3d.scene.checksums import record_checksums
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
+from pat3d.scene.replacement import replace_entries
 from pat3d.scene.schema import SCENE_SCHEMA
 
 FORMAT = "pat3d-scene"
@@ -56,7 +56,8 @@ def save_scene(scene: Scene, folder: str | Path) -> Path:
             fresh.mkdir()
             _write(scene, fresh)
             record_checksums(fresh)
-            _replace(fresh, folder, Path(temporary) / "old")
+            # scene.json last: until it is there the folder still describes the old scene or none.
+            replace_entries(fresh, folder, ("assets", "scene.json"), Path(temporary) / "old")
     except OSError as error:
         raise ExportError(f"{folder}: cannot be written ({error.strerror or error}).") from error
     return folder / "scene.json"
@@ -159,30 +160,6 @@ def _write_meshes(asset: Asset, folder: Path) -> None:
     parts.mkdir()
     for number, part in enumerate(asset.parts):
         (parts / f"part_{number:03d}.obj").write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
-
-
-def _replace(fresh: Path, folder: Path, old: Path) -> None:
-    """Move what is in `fresh` into `folder`; whatever it displaces comes back if a move fails."""
-    if not folder.exists():
-        fresh.rename(folder)
-        return
-    old.mkdir()
-    moved: list[str] = []
-    try:
-        # scene.json last: until it is there the folder still describes the old scene or none.
-        for name in ("assets", "scene.json"):
-            if (folder / name).exists():
-                (folder / name).rename(old / name)
-            moved.append(name)
-            (fresh / name).rename(folder / name)
-    except OSError:
-        for name in reversed(moved):
-            if (folder / name).exists():
-                (folder / name).rename(fresh / f"undone-{name}")
-            if (old / name).exists():
-                (old / name).rename(folder / name)
-        raise
-    shutil.rmtree(old, ignore_errors=True)
 
 
 def _read_json(path: Path) -> Any:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pat3d.errors import SpecError
+from pat3d.view.rays import pinhole_rays
 
 AZIMUTH = 20.0
 """Default direction of the camera [deg], from -y (straight in front) towards +x (the right)."""
@@ -61,13 +62,7 @@ class Camera:
         Returns:
             World directions, shape (n, 3).
         """
-        scale = 2.0 * math.tan(math.radians(self.field_of_view) / 2.0) / height
-        right, up, forward = self.axes.astype(np.float32)
-        along_x = (np.asarray(x, dtype=np.float32) - np.float32(width / 2.0)) * np.float32(scale)
-        along_y = (np.float32(height / 2.0) - np.asarray(y, dtype=np.float32)) * np.float32(scale)
-        rays = forward + along_x[:, None] * right + along_y[:, None] * up
-        rays /= np.sqrt(1.0 + along_x**2 + along_y**2)[:, None]
-        return rays
+        return pinhole_rays(self.axes, x, y, width, height, self.field_of_view)[0]
 
     def project(self, points: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
         """Picture positions [pixel] of world points [m] in front of the camera, shape (n, 3) -> (n, 2)."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from pat3d.geometry.normals import area_vectors, crease_normals, triangle_areas
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
+from pat3d.view.rays import RayScene, unit
 from pat3d.view.textures import TextureAtlas
 
 
@@ -68,9 +68,6 @@ class Geometry:
     """Placed meshes ready for rays, in a float32 frame whose origin is the middle of the picture's contents."""
 
     def __init__(self, items: Sequence[tuple[VisualMesh, Pose]]) -> None:
-        from embreex.mesh_construction import TriangleMesh
-        from embreex.rtcore_scene import EmbreeScene
-
         placed = [pose.apply(mesh.vertices) for mesh, pose in items]
         self.low = np.min([points.min(axis=0) for points in placed], axis=0)
         self.high = np.max([points.max(axis=0) for points in placed], axis=0)
@@ -92,25 +89,13 @@ class Geometry:
         centre = self._uv.mean(axis=1)
         edge = np.sqrt(length) * self._density
         self.face_colours: NDArray[np.float32] = self._atlas.colour(self._item, centre, edge)
-        # The scene keeps no reference to what it was built from; the mesh object must live as long.
-        self._scene: Any = EmbreeScene()
-        self._mesh = TriangleMesh(self._scene, self.corners)
+        self._scene = RayScene(self.corners)
+        self.occluded, self.first_faces = self._scene.occluded, self._scene.first_faces
 
     @property
     def radius(self) -> float:
         """Half the diagonal of the bounding box [m]."""
         return float(np.linalg.norm(self.high - self.low) / 2.0)
-
-    def occluded(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.bool_]:
-        """Whether each ray, shape (n, 3), meets any triangle."""
-        return self._scene.run(origins, directions, query="OCCLUDED") >= 0
-
-    def first_faces(
-        self, origins: NDArray[np.float32], directions: NDArray[np.float32]
-    ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-        """Face index (-1 for none) and distance [m] of each ray's first hit, shapes (n,)."""
-        found = self._scene.run(origins, directions, output=1)
-        return found["primID"], found["tfar"]
 
     def first_items(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int32]:
         """Index of the item that each ray, shape (n, 3), hits first, -1 for none; shape (n,)."""
@@ -125,16 +110,12 @@ class Geometry:
             directions: unit vectors, shape (n, 3).
             pixel: angle between neighbouring rays [rad], which chooses the texture's resolution.
         """
-        found = self._scene.run(np.tile(origin, (len(directions), 1)), directions, output=1)
-        which = np.flatnonzero(found["primID"] >= 0)
-        face, distance = found["primID"][which], found["tfar"][which]
-        u, v = found["u"][which], found["v"][which]
-        ray = directions[which]
-        point = origin + distance[:, None] * ray
-        weights = np.stack([1.0 - u - v, u, v], axis=1)
-        corner_normals, corners, uv = self._normals[face], self.corners[face], self._uv[face]
-        normal = np.einsum("ij,ijk->ik", weights, corner_normals)
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-20)[:, None]
+        hits = self._scene.hits(origin, directions)
+        face, distance, weights = hits.face, hits.distance, hits.weights
+        ray = directions[hits.which]
+        point: NDArray[np.float32] = origin + distance[:, None] * ray
+        corner_normals, corners = self._normals[face], self.corners[face]
+        normal = unit(hits.at(self._normals))
         flat = self.face_normals[face]
         inside = np.einsum("ij,ij->i", flat, ray) > 0.0
         side = np.where(inside, -1.0, 1.0).astype(np.float32)[:, None]
@@ -144,16 +125,15 @@ class Geometry:
         for k in range(3):
             depth = np.einsum("ij,ij->i", point - corners[:, k], corner_normals[:, k])[:, None]
             lift -= weights[:, k, None] * np.minimum(depth * side, 0.0) * side * corner_normals[:, k]
-        coordinates = np.einsum("ij,ijk->ik", weights, uv)
         slope = np.maximum(np.abs(np.einsum("ij,ij->i", flat, ray)), 0.1)
         footprint = self._density[face] * distance * np.float32(pixel) / np.sqrt(slope)
         return Hits(
-            which=which,
+            which=hits.which,
             item=self._item[face],
             distance=distance,
             point=point,
             outside=point + lift,
             normal=normal * side,
             flat=flat * side,
-            colour=self._atlas.colour(self._item[face], coordinates, footprint),
+            colour=self._atlas.colour(self._item[face], hits.at(self._uv), footprint),
         )

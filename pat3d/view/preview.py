@@ -1,6 +1,6 @@
 """Picture files of scenes and assets: previews, contact sheets, turntables.
 
-Files are PNG, written under a temporary name and then renamed, so that a reader never sees half of one.
+Files are PNG and appear complete or not at all.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from pat3d.errors import SpecError
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
 from pat3d.scene.model import Scene
+from pat3d.scene.replacement import replaced_file
 from pat3d.view.camera import ELEVATION, frame
 from pat3d.view.render import Item, render
 from pat3d.view.viewpoint import overlooking
@@ -174,14 +175,8 @@ def save_png(picture: NDArray[np.uint8] | Image.Image, path: str | os.PathLike[s
     from PIL import Image
 
     image = Image.fromarray(picture) if isinstance(picture, np.ndarray) else picture
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
+    with replaced_file(Path(path)) as temporary:
         image.save(temporary, format="PNG", optimize=False)
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 class _Sheet:

@@ -78,6 +78,13 @@ class TextureAtlas:
         return (top * (1 - fy) + bottom * fy).astype(np.float32, copy=False)
 
 
+def nearest_texels(image: NDArray[np.float32], uv: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Texels of `image`, shape (height, width, k), nearest to coordinates that repeat, v down, shape (n, 2)."""
+    row = np.clip((uv[:, 1] % 1.0) * image.shape[0], 0, image.shape[0] - 1).astype(np.int64)
+    column = np.clip((uv[:, 0] % 1.0) * image.shape[1], 0, image.shape[1] - 1).astype(np.int64)
+    return image[row, column]
+
+
 def _chain(texture: NDArray[np.uint8]) -> list[NDArray[np.uint8]]:
     """The texture and its halvings, averaged in linear light."""
     step = -(-max(texture.shape[:2]) // _LARGEST)

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 from collections.abc import Iterable, Mapping
 from importlib import import_module
 from pathlib import Path
@@ -27,6 +26,7 @@ from pat3d.policies_eval.policies.lerobot import IMAGES, STATE
 from pat3d.policies_eval.run.records import arrow
 from pat3d.policies_eval.run.settings import RolloutSettings
 from pat3d.policies_eval.video import FilmWriter
+from pat3d.scene.replacement import replaced_folder
 
 VERSION = "v3.0"
 
@@ -79,20 +79,11 @@ def write_lerobot(
         raise EvaluationError(f"{path} is there already; a dataset is written into a new folder.")
     if settings.control_freq != round(settings.control_freq):
         raise EvaluationError(f"datasets have whole frames a second, not {settings.control_freq:g}.")
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    temporary.mkdir(parents=True)
-    try:
-        writer = _Writer(temporary, settings)
+    with replaced_folder(path) as fresh:
+        writer = _Writer(fresh, settings)
         for one in demonstrations:
             writer.add(one)
         writer.close()
-        if replaced:
-            shutil.rmtree(path)
-        elif path.is_dir():
-            path.rmdir()
-        os.replace(temporary, path)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
 
 
 class _Writer:

@@ -14,6 +14,7 @@ import numpy as np
 from pat3d.envs.registration import ENV_ID
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets.demonstrations import Demonstration
+from pat3d.scene.replacement import replaced_file
 
 HELD_OUT = 10
 """One demonstration of this many is for validation."""
@@ -34,23 +35,17 @@ def write_robomimic(demonstrations: Sequence[Demonstration], file: str | os.Path
     path = Path(file)
     if path.suffix not in (".hdf5", ".h5"):
         raise EvaluationError(f'demonstrations are FILE.hdf5, not "{path.name}".')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(f".{os.getpid()}.part")
     names = [f"demo_{number}" for number in range(len(demonstrations))]
-    try:
-        with h5py.File(temporary, "w") as out:
-            data = out.create_group("data")
-            data.attrs["total"] = sum(len(one.actions) for one in demonstrations)
-            # Type 2 is what robomimic calls Gymnasium's environments.
-            data.attrs["env_args"] = json.dumps({"env_name": ENV_ID, "type": 2, "env_kwargs": {}})
-            for name, one in zip(names, demonstrations, strict=True):
-                _write(data.create_group(name), one)
-            held_out = names[HELD_OUT - 1 :: HELD_OUT]
-            for split, chosen in (("train", [name for name in names if name not in held_out]), ("valid", held_out)):
-                out.create_dataset(f"mask/{split}", data=np.array(chosen, dtype="S"))
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replaced_file(path) as temporary, h5py.File(temporary, "w") as out:
+        data = out.create_group("data")
+        data.attrs["total"] = sum(len(one.actions) for one in demonstrations)
+        # Type 2 is what robomimic calls Gymnasium's environments.
+        data.attrs["env_args"] = json.dumps({"env_name": ENV_ID, "type": 2, "env_kwargs": {}})
+        for name, one in zip(names, demonstrations, strict=True):
+            _write(data.create_group(name), one)
+        held_out = names[HELD_OUT - 1 :: HELD_OUT]
+        for split, chosen in (("train", [name for name in names if name not in held_out]), ("valid", held_out)):
+            out.create_dataset(f"mask/{split}", data=np.array(chosen, dtype="S"))
 
 
 def _write(group: Any, one: Demonstration) -> None:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pat3d.errors import EvaluationError
 from pat3d.geometry.rotations import matrix_of
 from pat3d.policies_eval.policies.policy import EpisodeStart
+from pat3d.scene.replacement import replaced_file
 
 FORMAT = 1
 KIND = "pat3d cloned policy"
@@ -113,12 +114,8 @@ def make_network(action_size: int = 7, width: int = 256, layers: int = 3) -> Any
 
 def save(network: Any, file: str | Path, notes: Mapping[str, Any]) -> None:
     """Write a checkpoint atomically."""
-    import os
-
     torch: Any = _torch()
     path = Path(file)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(f".{os.getpid()}.part")
     content = {
         "kind": KIND,
         "format": FORMAT,
@@ -126,12 +123,8 @@ def save(network: Any, file: str | Path, notes: Mapping[str, Any]) -> None:
         "weights": network.state_dict(),
         "notes": dict(notes),
     }
-    try:
+    with replaced_file(path) as temporary:
         torch.save(content, temporary)
-        os.replace(temporary, path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
 
 
 def load(file: str | Path) -> Any:

@@ -21,6 +21,7 @@ from pat3d.errors import EvaluationError
 from pat3d.policies_eval.run.episodes import Episode
 from pat3d.policies_eval.run.failures import OUTCOMES, Events
 from pat3d.policies_eval.run.rollout import Result
+from pat3d.scene import replacement
 
 FORMAT = 1
 MAX_FILE = 4 * 2**30
@@ -240,26 +241,15 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 def write_text(file: Path, text: str) -> None:
     """Write atomically."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    temporary = file.with_name(f".{file.name}.{os.getpid()}.part")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, file)
-    finally:
-        temporary.unlink(missing_ok=True)
+    replacement.write_text(file, text)
 
 
 def _write_rows(file: Path, rows: Sequence[dict[str, Any]], compression: str = "zstd") -> None:
     pa, parquet = arrow(), import_module("pyarrow.parquet")
     table = pa.Table.from_pylist(list(rows), schema=schema())
-    temporary = file.with_suffix(f".{os.getpid()}.part")
-    try:
+    with replacement.replaced_file(file) as temporary:
         # A single row gains nothing from a dictionary.
         parquet.write_table(table, temporary, compression=compression, use_dictionary=len(rows) > 1)
-        os.replace(temporary, file)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
 
 
 def _read_rows(file: Path) -> list[dict[str, Any]]:

@@ -5,7 +5,7 @@ import pytest
 
 from pat3d.errors import SpecError
 from pat3d.geometry.pose import Pose
-from pat3d.layout.predicates import check_relations, polygon_gap, relation_holds
+from pat3d.layout.predicates import check_relations, relation_holds
 from pat3d.scene.model import GROUND, Attachment, Relation
 from tests.layout.things import ball, block, table, tree_with_branch, vessel
 
@@ -192,19 +192,3 @@ def test_details_say_what_was_measured():
 def test_a_relation_without_pose_is_refused():
     with pytest.raises(SpecError, match="has no pose"):
         relation_holds(Relation(child="a", kind="on", parent="b"), ASSETS, {"a": Pose()})
-
-
-def test_polygon_gap_matches_shapely():
-    import shapely
-
-    rng = np.random.default_rng(0)
-    for _ in range(200):
-        pair = []
-        for _ in range(2):
-            points = rng.normal(size=(8, 2)) * rng.uniform(0.1, 1) + rng.uniform(-2, 2, 2)
-            hull = shapely.MultiPoint(points).convex_hull
-            pair.append((hull, np.array(hull.exterior.coords)[:-1]))
-        (hull_a, a), (hull_b, b) = pair
-        a = a if shapely.LinearRing(a).is_ccw else a[::-1]
-        b = b if shapely.LinearRing(b).is_ccw else b[::-1]
-        assert polygon_gap(a, b) == pytest.approx(hull_a.distance(hull_b), abs=1e-12)
