@@ -184,9 +184,8 @@ def _matrix(quat_wxyz: Any) -> NDArray[np.float64]:
 
 
 def _torch() -> Any:
-    from importlib import import_module
-
     try:
-        return import_module("torch")
+        import torch
     except ImportError as error:
         raise EvaluationError(INSTALL_HINT) from error
+    return torch
