@@ -93,7 +93,7 @@ class FilmWriter:
         self._writer: Any = imageio_ffmpeg.write_frames(
             str(path),
             (self._width, self._height),
-            fps=fps,
+            fps=fps,  # type: ignore[arg-type] FFmpeg takes any number
             codec="libx264",
             pix_fmt_out="yuv420p",
             macro_block_size=2,
