@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +23,9 @@ def read_with_yourdfpy(folder: str | Path) -> tuple[BodyReadback, ...]:
     Raises:
         CheckError: yourdfpy finds errors in the file.
     """
+    import yourdfpy  # type: ignore[import-not-found]
+
     folder = Path(folder)
-    yourdfpy: Any = import_module("yourdfpy")
     robot = yourdfpy.URDF.load(
         str(folder / "scene.urdf"), load_meshes=False, load_collision_meshes=False, build_scene_graph=True
     )
@@ -63,8 +63,9 @@ def read_with_pybullet(folder: str | Path) -> tuple[BodyReadback, ...]:
     Raises:
         CheckError: PyBullet refuses a file.
     """
+    import pybullet  # type: ignore[import-not-found]
+
     folder = Path(folder)
-    pybullet: Any = import_module("pybullet")
     manifest = read_manifest(folder)
     client = pybullet.connect(pybullet.DIRECT)
     try:
@@ -101,9 +102,11 @@ def read_with_drake(path: str | Path) -> tuple[BodyReadback, ...]:
     Raises:
         CheckError: Drake refuses a file.
     """
-    parsing: Any = import_module("pydrake.multibody.parsing")
-    plants: Any = import_module("pydrake.multibody.plant")
-    builder = import_module("pydrake.systems.framework").DiagramBuilder()
+    from pydrake.multibody import parsing  # type: ignore[import-not-found]
+    from pydrake.multibody import plant as plants  # type: ignore[import-not-found]
+    from pydrake.systems.framework import DiagramBuilder  # type: ignore[import-not-found]
+
+    builder = DiagramBuilder()
     path = Path(path)
     plant, graph = plants.AddMultibodyPlant(plant_config(), builder)
     try:

@@ -64,3 +64,9 @@ class SuiteError(Pat3dError):
 
 class EvaluationError(Pat3dError):
     """An evaluation, a policy or a record of one that cannot be used."""
+
+
+class InfrastructureError(EvaluationError):
+    """What evaluates failed, not the policy: a broken installation, an environment that raises, a process that died."""
+
+    exit_code = 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -38,32 +37,31 @@ def write_strip(
     Raises:
         EvaluationError: no pictures, or another kind of file is named.
     """
+    from PIL import Image, ImageDraw, ImageFont
+
     path = Path(file)
     if path.suffix.lower() != ".png":
         raise EvaluationError(f'a picture is FILE.png, not "{path.name}".')
     if not rows or not all(len(frames) for _, frames in rows):
         raise EvaluationError("a picture needs a moment to show.")
-    image_module, draw_module, font_module = (
-        import_module(f"PIL.{name}") for name in ("Image", "ImageDraw", "ImageFont")
-    )
     height, width = rows[0][1][0].shape[:2]
-    font: Any = font_module.load_default(size=max(12, height // 14))
+    font: Any = ImageFont.load_default(size=max(12, height // 14))
     line = max((font.getbbox(text)[3] + GAP for text, _ in rows if text), default=0)
     size = (
         GAP + max(len(frames) for _, frames in rows) * (width + GAP),
         GAP + sum(height + GAP + (line if text else 0) for text, frames in rows),
     )
-    sheet: Any = image_module.new("RGB", size, PAPER)
-    pen, top = draw_module.Draw(sheet), GAP
+    sheet: Any = Image.new("RGB", size, PAPER)
+    pen, top = ImageDraw.Draw(sheet), GAP
     for text, frames in rows:
         if text:
             pen.text((GAP, top), text, fill=INK, font=font)
             top += line
         for number, frame in enumerate(frames):
-            sheet.paste(image_module.fromarray(frame), (GAP + number * (width + GAP), top))
+            sheet.paste(Image.fromarray(frame), (GAP + number * (width + GAP), top))
         top += height + GAP
     if colours:
-        sheet = sheet.quantize(colours, dither=image_module.Dither.FLOYDSTEINBERG)
+        sheet = sheet.quantize(colours, dither=Image.Dither.FLOYDSTEINBERG)
     with replaced_file(path) as temporary:
         sheet.save(temporary, format="PNG", optimize=True)
     return path

@@ -23,11 +23,10 @@ def fit(
     demonstrations: Sequence[Demonstration], *, epochs: int, seed: int = 0, target: Any = None
 ) -> tuple[Any, float]:
     """A network that imitates, and its mean squared error at the end."""
-    from importlib import import_module
+    import torch
 
     if not 1 <= epochs <= 100_000:
         raise EvaluationError(f"1 to 100000 epochs, not {epochs}.")
-    torch: Any = import_module("torch")
     torch.manual_seed(seed)
     # The network is small: threads would only wait for one another.
     torch.set_num_threads(1)

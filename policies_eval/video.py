@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ Frames = Sequence[NDArray[np.uint8]]
 def can_write_mp4() -> bool:
     """Whether MP4 files can be written."""
     try:
-        import_module("imageio_ffmpeg")
+        import imageio_ffmpeg  # noqa: F401
     except ImportError:
         return False
     return True
@@ -81,15 +80,15 @@ class FilmWriter:
 
     def __init__(self, path: Path, size: tuple[int, ...], fps: float) -> None:
         try:
-            ffmpeg: Any = import_module("imageio_ffmpeg")
+            import imageio_ffmpeg
         except ImportError as error:
             raise EvaluationError(INSTALL_HINT) from error
         # H.264 in its common form has pictures of even sizes only.
         self._height, self._width = size[0] // 2 * 2, size[1] // 2 * 2
-        self._writer = ffmpeg.write_frames(
+        self._writer: Any = imageio_ffmpeg.write_frames(
             str(path),
             (self._width, self._height),
-            fps=fps,
+            fps=fps,  # type: ignore[arg-type] FFmpeg takes any number
             codec="libx264",
             pix_fmt_out="yuv420p",
             macro_block_size=2,
@@ -109,4 +108,6 @@ class FilmWriter:
 
 
 def _image(frame: NDArray[np.uint8]) -> Any:
-    return import_module("PIL.Image").fromarray(frame)
+    from PIL import Image
+
+    return Image.fromarray(frame)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,8 @@ def read_mjcf(path: str | Path) -> tuple[BodyReadback, ...]:
     Raises:
         CheckError: MuJoCo refuses the file.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:

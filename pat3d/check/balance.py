@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -240,9 +238,9 @@ def _solve(
         x, t, and the length of the multiplier of every body's force and torque, shape (bodies, 2); None where the
         solver finds nothing.
     """
+    import clarabel
     from scipy import sparse
 
-    clarabel: Any = import_module("clarabel")
     rows, width = matrix.shape
     residual = sparse.lil_matrix((rows // 3 * 4, width + 1))
     target = np.zeros(rows // 3 * 4)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +84,8 @@ def ground_drop(mjcf_path: str | Path, *, heights: float = HEIGHTS) -> DropRepor
     Raises:
         CheckError: MuJoCo refuses the file, or it has not exactly one free object.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     try:
         model = mujoco.MjModel.from_xml_path(str(mjcf_path))
     except ValueError as error:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -156,7 +155,8 @@ def settle_in_mujoco(
     Raises:
         CheckError: MuJoCo refuses the file; the message is MuJoCo's.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     messages: list[str] = []
     before = mujoco.get_mju_user_warning()
     # Without a handler MuJoCo appends its warnings to a log file in the working directory.

@@ -13,7 +13,7 @@ COMMANDS = {
     "generate": ("making", "make a verified scene from a sentence, or one from every line of a file"),
     "build": ("making", "make a verified scene from a specification with your meshes, sizes and relations"),
     "settle": ("mending", "bring a scene whose poses were edited back to rest, and verify it"),
-    "optimize": ("mending", "find an initial layout that keeps the scene's relations while it settles, where its own does not"),
+    "optimize": ("mending", "find an initial layout from which a scene settles with its relations where its own fails"),
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     examples="""
     pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
     pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
-    pat3d evaluate --suite suites/tabletop --split test --policy my_package.my_policy:make --workers auto --out eval/mine
+    pat3d evaluate --suite suites/tabletop --split test --policy my_policies:make --workers auto --out eval/mine
     """,
 )
 def evaluate(options: argparse.Namespace) -> int:

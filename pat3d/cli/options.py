@@ -1,6 +1,6 @@
 """Commands and their options, each declared once: what argparse is told, and what `--help` says, come from here.
 
-    @command(positional("folder", "scene folder", metavar="SCENE"), *fields(Settings, seed="the same seed, the same scene"))
+    @command(option("folder", "scene folder", metavar="SCENE"), *fields(Settings, seed="the same seed, the same scene"))
     def check(options: argparse.Namespace) -> int: ...
 
 An option that sets a field of a settings dataclass takes its type and its default from the field.

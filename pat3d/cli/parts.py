@@ -141,7 +141,7 @@ def _worlds(folder: Path) -> str:
     env = BatchedTabletopEnv(2, device="cuda")
     try:
         env.reset(seed=0)
-        env.step(np.zeros(env.action_space.shape, dtype=np.float32))
+        env.step(np.zeros(env.action_space.shape or (), dtype=np.float32))
     finally:
         env.close()
     return "two worlds did a step on the GPU"

@@ -1,4 +1,4 @@
-"""Scenes whose poses were changed after they had settled: which objects, and a start from which they can settle again."""
+"""Scenes whose poses were edited after they had settled: which objects, and a start from which all settle again."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def edited(scene: Scene, folder: Path) -> frozenset[str]:
 
 
 def laid_out_as_posed(scene: Scene, changed: Collection[str] = ()) -> Scene:
-    """`scene` with its poses for the initial layout; what intersects is lifted, with what it carries, until it is clear.
+    """`scene` with its poses for the initial layout; what intersects is lifted, with what it carries, until clear.
 
     Of two objects that intersect, the one that `changed` names is lifted, else the one that is carried.
 

@@ -1,8 +1,8 @@
 """`pat3d optimize`: a finished scene folder, whose relations broke or which does not stay still, is made anew.
 
 The optimisation starts from the layout that the folder's scene settled from; where poses were edited since, the scene
-settles from those first. A scene that is verified and satisfied is left as it is, and so is one for which nothing better
-was found.
+settles from those first. A scene that is verified and satisfied is left as it is, and so is one for which nothing
+better was found.
 """
 
 from __future__ import annotations

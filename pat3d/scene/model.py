@@ -65,6 +65,9 @@ Point = tuple[float, float, float]
 
 MAX_ANCHORS = 64
 
+SHOWN_OBJECTS = 16
+"""Lines of a scene's `repr`."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Attachment:
@@ -127,6 +130,11 @@ class SceneObject:
         """The asset's convex parts, in its frame."""
         return self.asset.parts
 
+    def __repr__(self) -> str:
+        x, y, z = self.pose.position
+        how = ", fixed" if self.fixed else ""
+        return f"SceneObject({self.name!r}, a {self.asset.noun} at ({x:.3f}, {y:.3f}, {z:.3f}) m{how})"
+
     def __post_init__(self) -> None:
         if not self.name or self.name == GROUND:
             raise SpecError(f'"{self.name}" is not a valid object name.')
@@ -167,6 +175,14 @@ class Scene:
             if pair in pairs:
                 raise SpecError(f'"{attachment.child}" and "{attachment.parent}" are attached twice; use more anchors.')
             pairs.add(pair)
+
+    def __repr__(self) -> str:
+        """A line for the scene and one for each of its first objects: a screen, not the arrays of the meshes."""
+        said = self.prompt if len(self.prompt) <= 60 else f"{self.prompt[:57]}..."
+        lines = [f"Scene({said!r}, seed {self.seed}, {len(self.objects)} objects, {len(self.relations)} relations)"]
+        lines += [f"  {obj!r} on {self.parent(obj.name)}" for obj in self.objects[:SHOWN_OBJECTS]]
+        more = len(self.objects) - SHOWN_OBJECTS
+        return "\n".join([*lines, f"  ... and {more} more"] if more > 0 else lines)
 
     def __getitem__(self, name: str) -> SceneObject:
         for obj in self.objects:

@@ -40,7 +40,7 @@ def compare_evaluations(first: Evaluation, second: Evaluation) -> PairedResult:
             if getattr(one.episode, what) != getattr(other.episode, what):
                 raise EvaluationError(
                     f"episode {index} has {what} {getattr(one.episode, what)} in {first.folder} and "
-                    f"{getattr(other.episode, what)} in {second.folder}; give both the same --seed and --perturb."
+                    f"{getattr(other.episode, what)} in {second.folder}; {_how_to_match(first, second)}"
                 )
         if one.scene_checksum and other.scene_checksum and one.scene_checksum != other.scene_checksum:
             raise EvaluationError(f"episode {index} is about two scenes: {one.episode.scene}, {other.episode.scene}.")
@@ -133,6 +133,21 @@ def show_leaderboard(target: Any, evaluations: list[Evaluation]) -> None:
         target.print(table)
     if len(groups) > 1:
         target.print("Tables of different episodes or engines are not comparable.", highlight=False)
+
+
+def _how_to_match(first: Evaluation, second: Evaluation) -> str:
+    """Which options have to be the same for two evaluations to do the same episodes."""
+    sources = [one.manifest["source"] for one in (first, second)]
+    options = {
+        "suite": "--suite",
+        "split": "--split",
+        "scenes": "--scene",
+        "tasks": "--task",
+        "seed": "--seed",
+        "perturbation": "--perturb",
+    }
+    wanted = [flag for name, flag in options.items() if sources[0].get(name) != sources[1].get(name)]
+    return f"evaluate both with the same {', '.join(wanted or options.values())}."
 
 
 def _require_same_engine(evaluations: list[Evaluation]) -> None:

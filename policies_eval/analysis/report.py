@@ -6,7 +6,6 @@ import base64
 import io
 from collections.abc import Sequence
 from html import escape
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -245,8 +244,10 @@ def _film(replayer: Replayer, result: Result, folder: Path) -> str:
 
 
 def _jpeg(frame: Any) -> str:
+    from PIL import Image
+
     buffer = io.BytesIO()
-    import_module("PIL.Image").fromarray(frame).save(buffer, format="JPEG", quality=85)
+    Image.fromarray(frame).save(buffer, format="JPEG", quality=85)
     return base64.b64encode(buffer.getvalue()).decode()
 
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
+from typing import Literal
 
 from pat3d.errors import EvaluationError
 
@@ -70,27 +69,12 @@ class Comparison:
 
 def wilson(successes: int, episodes: int, level: float = LEVEL) -> Rate:
     """Wilson's score interval."""
-    _require(successes, episodes)
-    if not episodes:
-        return Rate(successes=0, episodes=0, low=0.0, high=1.0)
-    z = float(_stats().norm.ppf(0.5 + level / 2))
-    p, n = successes / episodes, episodes
-    middle, scale = p + z * z / (2 * n), 1.0 + z * z / n
-    half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    low = 0.0 if successes == 0 else (middle - half) / scale
-    high = 1.0 if successes == episodes else (middle + half) / scale
-    return Rate(successes=successes, episodes=episodes, low=low, high=high)
+    return _interval(successes, episodes, level, "wilson")
 
 
 def clopper_pearson(successes: int, episodes: int, level: float = LEVEL) -> Rate:
     """The exact interval: covers at least `level`, wider than Wilson's."""
-    _require(successes, episodes)
-    if not episodes:
-        return Rate(successes=0, episodes=0, low=0.0, high=1.0)
-    beta, tail = _stats().beta, (1 - level) / 2
-    low = 0.0 if successes == 0 else float(beta.ppf(tail, successes, episodes - successes + 1))
-    high = 1.0 if successes == episodes else float(beta.ppf(1 - tail, successes + 1, episodes - successes))
-    return Rate(successes=successes, episodes=episodes, low=low, high=high)
+    return _interval(successes, episodes, level, "exact")
 
 
 INTERVALS = {"wilson": wilson, "clopper-pearson": clopper_pearson}
@@ -112,10 +96,12 @@ def compare(pairs: list[tuple[bool, bool]]) -> Comparison:
 
 def mcnemar(only_first: int, only_second: int) -> float:
     """Exact two-sided p-value of McNemar's test; 1 where the two never differ."""
+    from scipy.stats import binomtest
+
     discordant = only_first + only_second
     if not discordant:
         return 1.0
-    return float(_stats().binomtest(only_first, discordant, 0.5).pvalue)
+    return float(binomtest(only_first, discordant, 0.5).pvalue)
 
 
 def episodes_needed(only_first: int, only_second: int, episodes: int, *, power: float = POWER) -> int | None:
@@ -124,18 +110,22 @@ def episodes_needed(only_first: int, only_second: int, episodes: int, *, power: 
     n = (z_a sqrt(d) + z_b sqrt(d - e^2))^2 / e^2 with d the share of episodes that differ and e the difference of the
     rates (Miettinen 1968). None where there is no difference.
     """
+    from scipy.stats import norm
+
     if not episodes or only_first == only_second:
         return None
     share, effect = (only_first + only_second) / episodes, (only_first - only_second) / episodes
-    norm = _stats().norm
     z_a, z_b = float(norm.ppf(0.5 + LEVEL / 2)), float(norm.ppf(power))
     return math.ceil((z_a * math.sqrt(share) + z_b * math.sqrt(max(share - effect**2, 0.0))) ** 2 / effect**2)
 
 
-def _require(successes: int, episodes: int) -> None:
+def _interval(successes: int, episodes: int, level: float, method: Literal["wilson", "exact"]) -> Rate:
+    """SciPy's interval; all of [0, 1] where there is no episode."""
+    from scipy.stats import binomtest
+
     if not 0 <= successes <= episodes:
         raise EvaluationError(f"{successes} successes in {episodes} episodes are impossible.")
-
-
-def _stats() -> Any:
-    return import_module("scipy.stats")
+    if not episodes:
+        return Rate(successes=0, episodes=0, low=0.0, high=1.0)
+    found = binomtest(successes, episodes).proportion_ci(level, method=method)
+    return Rate(successes=successes, episodes=episodes, low=float(found.low), high=float(found.high))

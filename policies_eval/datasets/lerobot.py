@@ -13,7 +13,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -339,5 +338,7 @@ def _filled(pattern: str, number: int, **more: str) -> str:
 
 
 def _write_table(table: Any, path: Path) -> None:
+    from pyarrow import parquet
+
     path.parent.mkdir(parents=True, exist_ok=True)
-    import_module("pyarrow.parquet").write_table(table, path, compression="snappy")
+    parquet.write_table(table, path, compression="snappy")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +28,7 @@ def write_robomimic(demonstrations: Sequence[Demonstration], file: str | os.Path
         EvaluationError: h5py is missing, or another kind of file is named.
     """
     try:
-        h5py: Any = import_module("h5py")
+        import h5py
     except ImportError as error:
         raise EvaluationError(INSTALL_HINT) from error
     path = Path(file)

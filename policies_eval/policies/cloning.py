@@ -167,9 +167,8 @@ def load(file: str | Path) -> Any:
 
 
 def _torch() -> Any:
-    from importlib import import_module
-
     try:
-        return import_module("torch")
+        import torch
     except ImportError as error:
         raise EvaluationError(INSTALL_HINT) from error
+    return torch

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -64,11 +63,12 @@ class LeRobotPolicy:
         folder = require_checkpoint(spec)
         kind = _kind(folder)
         try:
-            configs = import_module("lerobot.configs.policies")
-            factory = import_module("lerobot.policies.factory")
-            self._torch: Any = import_module("torch")
+            import torch
+            from lerobot.configs import policies as configs  # type: ignore[import-not-found]
+            from lerobot.policies import factory  # type: ignore[import-not-found]
         except ImportError as error:
             raise EvaluationError(f"{INSTALL_HINT} ({error})") from error
+        self._torch: Any = torch
         try:
             make = factory.get_policy_class(kind)
             config = configs.PreTrainedConfig.from_pretrained(str(folder))

@@ -10,7 +10,6 @@ import contextlib
 import threading
 import time
 from collections.abc import Iterator, Mapping
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -82,7 +81,9 @@ class ServerPolicy:
         Raises:
             PolicyError: no server within the time, or one that speaks another protocol.
         """
-        websockets, client = _websockets(), import_module("websockets.sync.client")
+        websockets = _websockets()
+        from websockets.sync import client
+
         last, until = "no answer", time.monotonic() + self._connect_seconds
         while True:
             try:
@@ -171,7 +172,8 @@ def serve(
         port: to listen on; 0 for any that is free.
         metadata: sent first.
     """
-    websockets, server = _websockets(), import_module("websockets.sync.server")
+    websockets = _websockets()
+    from websockets.sync import server
 
     def answer(socket: Any) -> None:
         socket.send(wire.pack(metadata or {}))
@@ -219,7 +221,8 @@ def _axis_angle(quat_wxyz: NDArray[Any]) -> NDArray[np.float64]:
 
 def _websockets() -> Any:
     try:
-        import_module("websockets.exceptions")
-        return import_module("websockets")
+        import websockets
+        import websockets.exceptions
     except ImportError as error:
         raise EvaluationError(wire.INSTALL_HINT) from error
+    return websockets

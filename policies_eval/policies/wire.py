@@ -6,7 +6,6 @@ Nothing in a message is ever executed: arrays are numbers or truth values of a s
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -95,6 +94,7 @@ def _dtype(name: Any) -> np.dtype[Any]:
 
 def _msgpack() -> Any:
     try:
-        return import_module("msgpack")
+        import msgpack
     except ImportError as error:
         raise EvaluationError(INSTALL_HINT) from error
+    return msgpack

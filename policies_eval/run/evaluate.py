@@ -1,4 +1,8 @@
-"""An evaluation: episodes, worker processes that do them, and what the parent does when one of them dies."""
+"""An evaluation: episodes, worker processes that do them, and what the parent does when one of them dies.
+
+A failure of what evaluates (the environment, a process outside of the policy) is never a score: it ends the run with an
+InfrastructureError, and the folder is not claimed before the first episode has been done.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +12,16 @@ import multiprocessing
 import os
 import shutil
 import time
-from collections import deque
+import traceback
+from collections import Counter, deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import islice
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any
 
-from pat3d.errors import EvaluationError, Pat3dError
+from pat3d.errors import EvaluationError, InfrastructureError, Pat3dError
 from pat3d.policies_eval.policies.policy import Policy
 from pat3d.policies_eval.policies.registry import identity, make_policy, require_known
 from pat3d.policies_eval.run.episodes import Episode, checksum
@@ -30,6 +35,9 @@ GRACE_SECONDS = 5.0
 
 POLL_SECONDS = 0.5
 
+DEATHS = 2
+"""Of processes over the same episode, outside of the policy, that end the run."""
+
 MAX_WORKERS = 512
 
 LOOK_AHEAD = 20_000
@@ -37,6 +45,9 @@ LOOK_AHEAD = 20_000
 
 THREADS = tuple(f"{name}_NUM_THREADS" for name in ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA"))
 """Variables that say how many threads a process's numerical libraries start."""
+
+now = time.monotonic
+"""The clock that hangs are measured by; workers write their deadlines by it."""
 
 Report = Callable[[Result, int, int], None]
 """Called with every new result, the number done and the number wanted."""
@@ -67,6 +78,8 @@ def evaluate(
 
     Raises:
         EvaluationError: `out` holds another evaluation, or the policy cannot be made.
+        InfrastructureError: the environment, or a process outside of the policy, failed.
+        ModuleNotFoundError: a package that the environment needs is not installed.
         Pat3dError: an episode that cannot be set up.
     """
     settings, folder = settings or RolloutSettings(), Path(out)
@@ -80,17 +93,21 @@ def evaluate(
     details = identity(policy) if isinstance(policy, str) else {}
     known = source or {"episodes": checksum(episodes)}
     manifest = make_manifest(name, details, settings, known, len(episodes))
-    records = _prepare(folder, manifest, overwrite=overwrite)
-    done = {one.episode.index: one for one in records.read()}
+    records, claim = _prepare(folder, manifest, overwrite=overwrite)
+    going_on = (folder / "manifest.json").exists() and not overwrite
+    done = {one.episode.index: one for one in records.read()} if going_on else {}
     for episode in episodes:
         kept = done.get(episode.index)
         if kept is not None and kept.episode != episode:
             raise EvaluationError(f"{folder}: episode {episode.index} there is another one; choose another --out.")
     todo = [episode for episode in episodes if episode.index not in done]
-    finished = len(episodes) - len(todo)
+    finished, claimed = len(episodes) - len(todo), False
 
     def keep(result: Result) -> None:
-        nonlocal finished
+        nonlocal finished, claimed
+        if not claimed:
+            claim()
+            claimed = True
         records.add(result)
         done[result.episode.index] = result
         finished += 1
@@ -105,6 +122,8 @@ def evaluate(
     except BaseException:
         records.flush()
         raise
+    if not todo:
+        claim()
     return Evaluation(
         folder=folder,
         manifest=read_manifest(folder),
@@ -112,7 +131,8 @@ def evaluate(
     )
 
 
-def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> RecordFolder:
+def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> tuple[RecordFolder, Callable[[], None]]:
+    """Where the records go, and what makes the folder this evaluation's; until that is called nothing is written."""
     records = RecordFolder(folder)
     file = folder / "manifest.json"
     if file.exists() and not overwrite:
@@ -123,13 +143,16 @@ def _prepare(folder: Path, manifest: dict[str, Any], *, overwrite: bool) -> Reco
         raise EvaluationError(f"{folder} is no folder.")
     elif folder.exists() and any(folder.iterdir()) and not file.exists():
         raise EvaluationError(f"{folder} holds something else; choose another --out.")
-    elif file.exists():
-        for name in ("episodes.parquet", "report.html"):
-            (folder / name).unlink(missing_ok=True)
-        for name in ("parts", "media"):
-            shutil.rmtree(folder / name, ignore_errors=True)
-    write_text(file, json.dumps(manifest, indent=2, sort_keys=True) + "\n")
-    return records
+
+    def claim() -> None:
+        if overwrite and file.exists():
+            for name in ("episodes.parquet", "report.html"):
+                (folder / name).unlink(missing_ok=True)
+            for name in ("parts", "media"):
+                shutil.rmtree(folder / name, ignore_errors=True)
+        write_text(file, json.dumps(manifest, indent=2, sort_keys=True) + "\n")
+
+    return records, claim
 
 
 def _here(policy: Policy, todo: Sequence[Episode], settings: RolloutSettings, keep: Callable[[Result], None]) -> None:
@@ -138,7 +161,13 @@ def _here(policy: Policy, todo: Sequence[Episode], settings: RolloutSettings, ke
         while queue:
             episode = next_episode(queue, about)
             about = (episode.scene, episode.task)
-            keep(runner.run(episode, policy))
+            try:
+                result = runner.run(episode, policy)
+            except (Pat3dError, ModuleNotFoundError):
+                raise
+            except Exception as error:
+                raise InfrastructureError(_no_score(episode, _told(error))) from error
+            keep(result)
     finally:
         runner.close()
 
@@ -154,7 +183,7 @@ class _Worker:
     episode: Episode | None = None
     about: tuple[str, str] = ("", "")
     """Scene and task of its last episode, whose world it has compiled."""
-    begun: float = field(default_factory=time.monotonic)
+    begun: float = 0.0
 
 
 def next_episode(queue: deque[Episode], about: tuple[str, str]) -> Episode:
@@ -173,6 +202,7 @@ class _Pool:
         self._policy, self._settings, self._count = policy, settings, count
         # Spawned ones share no threads, locks or graphics contexts with this process.
         self._context = multiprocessing.get_context("spawn")
+        self._deaths: Counter[int] = Counter()
 
     def run(self, todo: Sequence[Episode], keep: Callable[[Result], None]) -> None:
         queue = deque(todo)
@@ -186,13 +216,20 @@ class _Pool:
                 for number, worker in enumerate(workers):
                     if worker.episode is None:
                         continue
-                    result = self._received(worker) if worker.pipe in ready else self._overdue(worker)
+                    if worker.pipe in ready:
+                        result = self._received(worker)
+                        if result is None:
+                            queue.appendleft(worker.episode)
+                    else:
+                        result = self._overdue(worker)
+                        if result is None:
+                            continue
                     if result is not None:
                         keep(result)
-                        worker.episode = None
-                        if not worker.process.is_alive():
-                            worker.pipe.close()
-                            workers[number] = self._start()
+                    worker.episode = None
+                    if not worker.process.is_alive():
+                        worker.pipe.close()
+                        workers[number] = self._start()
         finally:
             for worker in workers:
                 self._end(worker)
@@ -211,7 +248,7 @@ class _Pool:
     def _give(self, worker: _Worker, queue: deque[Episode]) -> None:
         worker.episode = next_episode(queue, worker.about)
         worker.about = (worker.episode.scene, worker.episode.task)
-        worker.begun = time.monotonic()
+        worker.begun = now()
         try:
             worker.pipe.send(worker.episode)
         except OSError:
@@ -219,33 +256,43 @@ class _Pool:
             return
 
     def _received(self, worker: _Worker) -> Result | None:
+        """What a worker says, or its death; None where its episode has to be done again."""
         try:
             kind, content = worker.pipe.recv()
         except (EOFError, OSError):
             worker.process.join(GRACE_SECONDS)
             return self._dead(worker, f"the process ended with exit code {worker.process.exitcode}")
+        if kind == "missing":
+            raise ModuleNotFoundError(f"No module named '{content}'", name=content)
+        if kind == "broken":
+            raise InfrastructureError(_no_score(worker.episode, content))
         if kind == "error":
             raise EvaluationError(f"episode {worker.episode.index if worker.episode else ''}: {content}")
         return content
 
     def _overdue(self, worker: _Worker) -> Result | None:
+        """The end of a worker whose policy hangs; None while there is time."""
         limit = float(worker.deadline.value)
-        if not limit or time.monotonic() < limit + GRACE_SECONDS:
+        if not limit or now() < limit + GRACE_SECONDS:
             return None
         self._end(worker)
         return self._dead(worker, f"hang: no answer within {self._settings.act_seconds:g} s, its process was ended")
 
-    def _dead(self, worker: _Worker, reason: str) -> Result:
-        if worker.episode is None:
-            raise EvaluationError(f"a worker ended before its first episode: {reason}.")
-        asked = float(worker.deadline.value) != 0.0
+    def _dead(self, worker: _Worker, reason: str) -> Result | None:
+        """The result of a policy that took its process with it; None where the policy was not asked."""
+        assert worker.episode is not None
+        if float(worker.deadline.value) == 0.0:
+            self._deaths[worker.episode.index] += 1
+            if self._deaths[worker.episode.index] >= DEATHS:
+                raise InfrastructureError(_no_score(worker.episode, f"{reason}, {DEATHS} times, outside of the policy"))
+            return None
         return Result(
             episode=worker.episode,
-            outcome="policy_error" if asked else "simulation_error",
+            outcome="policy_error",
             success=False,
             steps=0,
             reason=reason,
-            wall_seconds=time.monotonic() - worker.begun,
+            wall_seconds=now() - worker.begun,
         )
 
     def _end(self, worker: _Worker) -> None:
@@ -292,5 +339,23 @@ def _work(pipe: Connection, policy: str, settings: RolloutSettings, deadline: An
         except Pat3dError as error:
             pipe.send(("error", f"{type(error).__name__}: {error}"))
             return
-        except OSError:
+        except ModuleNotFoundError as error:
+            pipe.send(("missing", error.name or str(error)))
             return
+        except BrokenPipeError:
+            return
+        except Exception as error:
+            pipe.send(("broken", _told(error)))
+            return
+
+
+def _told(error: Exception) -> str:
+    """An error and where it was raised."""
+    frames = traceback.extract_tb(error.__traceback__)
+    where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f"{type(error).__name__}: {error}{where}"
+
+
+def _no_score(episode: Episode | None, reason: str) -> str:
+    which = f"episode {episode.index}" if episode is not None else "a worker"
+    return f"{which} could not be done: {reason}. This is no score; see pat3d doctor."

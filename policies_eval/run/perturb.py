@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -150,7 +149,8 @@ class Perturber:
         return drawn
 
     def _mass(self, strength: float, random: np.random.Generator) -> dict[str, float]:
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         world, model, drawn = self._env.simulation.world, self._env.simulation.model, {}
         for name in world.objects:
             drawn[name] = _factor(strength, random)
@@ -161,7 +161,8 @@ class Perturber:
         return drawn
 
     def _camera(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         model, drawn = self._env.simulation.model, {}
         for number in np.flatnonzero(model.cam_bodyid == 0).tolist():
             shift, axis = random.uniform(-strength, strength, 3), random.standard_normal(3)
@@ -228,7 +229,8 @@ def _factor(strength: float, random: np.random.Generator) -> float:
 
 def _moved(simulation: Any, scene: Any, name: str, x: float, y: float, yaw: float) -> bool:
     """Move one object by (x, y) [m] and turn it by `yaw` [rad] about its centre; False where it does not fit there."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     world, model, data, state = simulation.world, simulation.model, simulation.data, simulation.state
     before = np.zeros(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
     mujoco.mj_getState(model, data, before, mujoco.mjtState.mjSTATE_INTEGRATION)

@@ -11,7 +11,6 @@ import os
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -40,9 +39,10 @@ def arrow() -> Any:
         EvaluationError: it is not installed.
     """
     try:
-        return import_module("pyarrow")
+        import pyarrow
     except ImportError as error:
         raise EvaluationError(INSTALL_HINT) from error
+    return pyarrow
 
 
 def schema() -> Any:
@@ -245,7 +245,9 @@ def write_text(file: Path, text: str) -> None:
 
 
 def _write_rows(file: Path, rows: Sequence[dict[str, Any]], compression: str = "zstd") -> None:
-    pa, parquet = arrow(), import_module("pyarrow.parquet")
+    pa = arrow()
+    from pyarrow import parquet
+
     table = pa.Table.from_pylist(list(rows), schema=schema())
     with replacement.replaced_file(file) as temporary:
         # A single row gains nothing from a dictionary.
@@ -253,7 +255,9 @@ def _write_rows(file: Path, rows: Sequence[dict[str, Any]], compression: str = "
 
 
 def _read_rows(file: Path) -> list[dict[str, Any]]:
-    pa, parquet = arrow(), import_module("pyarrow.parquet")
+    pa = arrow()
+    from pyarrow import parquet
+
     try:
         if file.stat().st_size > MAX_FILE:
             raise EvaluationError(f"{file}: larger than {MAX_FILE} bytes.")

@@ -17,6 +17,7 @@ from pat3d.policies_eval.run.rollout import Result, Runner
 from pat3d.policies_eval.run.settings import RolloutSettings
 from pat3d.policies_eval.strip import moments_of, write_strip
 from pat3d.policies_eval.video import write_video
+from pat3d.progress import Event, Progress, silent
 
 MOMENTS = 4
 """Of an episode in a picture."""
@@ -48,7 +49,11 @@ class Replayer:
         return self._runner.replay(result.episode, result.actions) == result.state_hash
 
     def film(
-        self, result: Result, camera: str = "agentview", size: tuple[int, int] = (320, 240)
+        self,
+        result: Result,
+        camera: str = "agentview",
+        size: tuple[int, int] = (320, 240),
+        progress: Progress = silent,
     ) -> tuple[bool, list[NDArray[np.uint8]]]:
         """The same, with pictures at FILM_RATE, shape (height, width, 3)."""
         if camera not in CAMERAS:
@@ -60,6 +65,7 @@ class Replayer:
         def watch(env: Any) -> None:
             nonlocal step
             if step % every == 0 or step == result.steps:
+                progress(Event(stage="filming", step=len(frames), steps=result.steps // every + 1))
                 frames.append(env.pictures.take(camera, size[1], size[0]).image)
             step += 1
 
@@ -98,6 +104,7 @@ def replay_episodes(
     camera: str,
     size: tuple[int, int],
     target: Any,
+    progress: Progress = silent,
 ) -> int:
     """Replay and report; returns 1 where an episode goes otherwise than it was recorded.
 
@@ -109,6 +116,7 @@ def replay_episodes(
         camera: of film and picture.
         size: width and height of the film, and of each moment [pixel].
         target: a console.
+        progress: told of every episode and every picture.
 
     Raises:
         EvaluationError: no such episode, or a film or picture of several.
@@ -126,7 +134,9 @@ def replay_episodes(
         line("note: recorded with another engine: " + "; ".join(changed))
     replayer, different = Replayer(evaluation), []
     try:
-        for result in chosen:
+        for number, result in enumerate(chosen):
+            if video is None:
+                progress(Event(stage="replaying", step=number, steps=len(chosen)))
             if not result.state_hash:
                 line(f"episode {result.episode.index}: nothing was recorded ({result.reason})")
                 continue
@@ -135,7 +145,7 @@ def replay_episodes(
                 caption = f"{result.instruction}: {result.outcome.replace('_', ' ')}"
                 line(f"wrote {write_strip([(caption, frames)], picture)}")
             if video is not None:
-                same, frames = replayer.film(result, camera, size)
+                same, frames = replayer.film(result, camera, size, progress)
                 line(f"wrote {write_video(frames, Path(video), FILM_RATE)}, {len(frames)} frames")
             else:
                 same = replayer.same(result)

@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -190,7 +189,9 @@ class Recorder:
     """Keeps the actions, and a hash of all states, of one episode."""
 
     def __init__(self, env: Any) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self._simulation = env.simulation
         self._signature = int(self._mujoco.mjtState.mjSTATE_FULLPHYSICS)
         self._buffer = np.zeros(self._mujoco.mj_stateSize(env.simulation.model, self._signature))

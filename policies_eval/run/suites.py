@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from pat3d.errors import EvaluationError
 from pat3d.policies_eval.run.episodes import Setting
 
 
@@ -17,14 +15,11 @@ def suite_settings(folder: str, split: str | None) -> tuple[tuple[Setting, ...],
     Every scene's files are compared with the checksum that the suite keeps of them.
 
     Raises:
-        EvaluationError: this installation knows no suites.
         Pat3dError: no such suite or split, or a scene that was changed; says what is valid.
     """
-    try:
-        suites: Any = import_module("pat3d.envs.suites.suite")
-    except ImportError as error:
-        raise EvaluationError(f"suites cannot be read here ({error}); give --scene and --task.") from error
-    suite = suites.Suite.open(folder)
+    from pat3d.envs.suites.suite import Suite
+
+    suite = Suite.open(folder)
     found = []
     for entry in suite.select(split):
         suite.verify(entry)
