@@ -78,6 +78,7 @@ def domino(degrees: float = 55.0) -> tuple[Scene, float | None]:
     return scene_of(
         placed("plank", plank, pose=Pose.from_matrix(turn.as_matrix(), np.array([0.0, 0.0, GAP]))),
         placed("wall", asset_of(box(0.1, 1, 1)), (reach + GAP + 0.05, 0, 0), fixed=True),
+        settling_friction=0.4,
     ), None
 
 
