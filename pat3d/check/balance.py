@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.geometry.contacts import Contacts, find_contacts, merged
+from pat3d.geometry.contacts import Contacts, corners_of_planes
 from pat3d.scene.model import Scene
 from pat3d.scene.physics import GRAVITY, ground_friction
 
@@ -48,11 +48,11 @@ class Anchors:
 class Balance:
     """What holds a scene, in groups of free bodies that press on or hang from one another."""
 
-    def __init__(self, scene: Scene, activation: float) -> None:
-        """Find the contacts of `scene` within `activation` [m]."""
-        contacts = find_contacts(scene.objects, activation)
+    def __init__(self, scene: Scene, contacts: Contacts) -> None:
+        """Let `contacts` press on the objects of `scene`."""
         self.found = len(contacts)
-        contacts, anchors = merged(contacts), _anchors(scene)
+        needed, anchors = corners_of_planes(contacts), _anchors(scene)
+        contacts = contacts.pick(needed)
         free = [k for k, obj in enumerate(scene.objects) if not obj.fixed]
         masses = [obj.asset.mass_properties for obj in scene.objects]
         bodies = _Bodies(
@@ -68,15 +68,10 @@ class Balance:
                 [*(obj.asset.material.friction for obj in scene.objects), ground_friction(scene.settling_friction)]
             ),
         )
-        self.groups = [
-            Group(
-                bodies,
-                members,
-                contacts.pick(np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))),
-                anchors.of(members),
-            )
-            for members in _groups(free, np.concatenate([contacts.bodies, anchors.bodies]))
-        ]
+        self.groups = []
+        for members in _groups(free, np.concatenate([contacts.bodies, anchors.bodies])):
+            own = np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))
+            self.groups.append(Group(bodies, members, contacts.pick(own), anchors.of(members), needed[own]))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -96,10 +91,13 @@ class _Bodies:
 class Group:
     """Free bodies and all that holds them."""
 
-    def __init__(self, bodies: _Bodies, members: list[int], contacts: Contacts, anchors: Anchors) -> None:
-        """`members` of `bodies`, held by `contacts` and `anchors`."""
+    def __init__(
+        self, bodies: _Bodies, members: list[int], contacts: Contacts, anchors: Anchors, source: NDArray[np.int64]
+    ) -> None:
+        """`members` of `bodies`, held by `contacts`, those at positions `source` of the scene's, and by `anchors`."""
         self.members = members
         self.contacts = len(contacts)
+        self.source = source
         self.exported = np.min(bodies.friction[contacts.bodies], axis=1) if self.contacts else np.zeros(0)
         """Of every contact, the lower coefficient [-] of its two bodies; engines take that or a larger one."""
         self._weight = bodies.weight[members]
@@ -141,6 +139,51 @@ class Group:
             return np.ones(len(self.members))
         return self._left(matrix, still, found[0])
 
+    def first_to_fall(self, friction: NDArray[np.float64]) -> tuple[int, ...]:
+        """The bodies that move where nothing balances them, with `friction` [-] at every contact."""
+        still = np.tile([*DOWN, 0.0, 0.0, 0.0], len(self.members))
+        if not self._forces.shape[1]:
+            return tuple(self.members)
+        found = _solve(self._with(friction), still, None, self.contacts, 0.0)
+        return tuple(self.members) if found is None else self._moving(found[2])
+
+    def least_forces(self, friction: NDArray[np.float64], tolerance: float) -> NDArray[np.float64] | None:
+        """Normal forces of least sum that leave at most `tolerance` unbalanced.
+
+        Args:
+            friction: coefficient [-] of every contact, shape (contacts,).
+            tolerance: largest residual.
+
+        Returns:
+            In weights of the lighter body of each contact, shape (contacts,); None where nothing balances.
+        """
+        still = np.tile([*DOWN, 0.0, 0.0, 0.0], len(self.members))
+        matrix = self._with(friction)
+        weights = np.zeros(matrix.shape[1])
+        weights[: 3 * self.contacts : 3] = 1.0
+        found = _solve(matrix, still, (np.zeros(len(still)), 1.0), self.contacts, 0.5 * tolerance, weights)
+        if found is None or self._left(matrix, still, found[0]).max() > tolerance:
+            return None
+        return np.maximum(found[0][: 3 * self.contacts : 3], 0.0)
+
+    def closing(self, chosen: NDArray[np.int64]) -> float:
+        """Least rate at which contacts `chosen` close in the motion of the bodies that closes all of them most.
+
+        Zero where no motion closes them all, so that forces along their normals alone can balance one another.
+        """
+        from scipy.optimize import linprog
+
+        normals = self._forces[:, 3 * chosen]
+        normals = normals / np.linalg.norm(normals, axis=0)
+        rows, count = normals.shape
+        found = linprog(
+            np.append(np.zeros(rows), -1.0),
+            A_ub=np.column_stack([-normals.T, np.ones(count)]),
+            b_ub=np.zeros(count),
+            bounds=[(-1.0, 1.0)] * rows + [(0.0, 1.0)],
+        )
+        return float(found.x[-1]) if found.x is not None else 0.0
+
     def largest_tilt(
         self, friction: NDArray[np.float64], angle: float, limit: float, tolerance: float
     ) -> tuple[float, tuple[int, ...]]:
@@ -168,10 +211,14 @@ class Group:
         tilt = min(max(tilt, 0.0), limit)
         if self._left(matrix, still + tilt * push, forces).max() > tolerance:
             return 0.0, tuple(self.members)
+        return tilt, self._moving(multipliers)
+
+    def _moving(self, multipliers: NDArray[np.float64]) -> tuple[int, ...]:
+        """The bodies that move most by the multipliers of their force and torque, shape (bodies, 2), first."""
         # The multiplier of a body's force is the velocity, times its weight, at which the bodies start to go together.
         moved = multipliers.sum(axis=1) / self._weight
         first = np.argsort(-moved)[: np.count_nonzero(moved >= FIRST_TO_GO * moved.max())]
-        return tilt, tuple(self.members[k] for k in first)
+        return tuple(self.members[k] for k in first)
 
     def _with(self, friction: NDArray[np.float64]) -> NDArray[np.float64]:
         """Wrenches by (f_n, f_n u) at contacts and forces at anchors, in units of weight; shape (6 bodies, ...)."""
@@ -227,12 +274,13 @@ def _solve(
     tilted: tuple[NDArray[np.float64], float] | None,
     contacts: int,
     allowed: float,
+    weights: NDArray[np.float64] | None = None,
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]] | None:
     """Forces x that leave the least, or that bear the largest tilt.
 
     Without `tilted` = (push, limit), the least t with |still + matrix x| <= t for the force and the torque of every
-    body; with it, the largest t, up to limit, with |still + t push + matrix x| <= allowed. In both, the first
-    `contacts` triples of x have f_n >= |f_n u|.
+    body; with it, the largest t, up to limit, with |still + t push + matrix x| <= allowed, or with `weights` the least
+    weights x instead. In all, the first `contacts` triples of x have f_n >= |f_n u|.
 
     Returns:
         x, t, and the length of the multiplier of every body's force and torque, shape (bodies, 2); None where the
@@ -258,6 +306,8 @@ def _solve(
     cones = [clarabel.SecondOrderConeT(3)] * contacts + [clarabel.SecondOrderConeT(4)] * (rows // 3)
     objective = np.zeros(width + 1)
     objective[-1] = 1.0 if tilted is None else -1.0
+    if weights is not None:
+        objective = np.append(weights, 0.0)
     if tilted is not None:
         last = sparse.csc_matrix(([1.0], ([0], [width])), shape=(1, width + 1))
         blocks, targets, cones = [*blocks, last], [*targets, [tilted[1]]], [*cones, clarabel.NonnegativeConeT(1)]

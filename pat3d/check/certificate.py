@@ -14,27 +14,45 @@ largest tilt of the ground is found, too, under which such forces exist with eve
 sixteen sides the largest s with g = |g| (s cos a, s sin a, -1) is a program of the same kind. The tilts that are stood
 are a convex set, so what is stood towards sixteen sides is stood in the polygon between them, and the radius of the
 circle that fits into it is stood whichever way. Friction there is that of the exports, since a scene that crept to rest
-with less has none of that to spare; what hangs is clamped, since it swings and comes back.
+with less has none of that to spare; what hangs is clamped, since it swings and comes back. The tilt is the lesser of
+what the convex parts stand, as engines have them, and of what the true surfaces stand (see `support`).
+
+Forces must have a cause. Two walls could hold a block between them by friction, however little there is, if they only
+pressed hard enough; nothing makes them. Of all forces that balance, those of least sum are looked at: where some of
+them, along their normals, balance one another, no motion closes all these contacts, so no weight can have pressed them.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from pat3d.check.balance import Balance
+from pat3d.check.support import Support, true_support
 from pat3d.errors import CheckError
+from pat3d.geometry.contacts import Contacts, find_contacts
 from pat3d.scene.model import Scene
 
 TOLERANCE = 1e-3
 """Largest residual, as a share of the weight, that passes."""
 
-ACTIVATION = 2e-4
-"""[m]; surfaces closer than this may press on each other."""
+ACTIVATION = 3e-5
+"""[m]; surfaces closer than this may press on each other. The simulator's press within 1.5e-5 m (`final_d_hat`), and
+exports give each contact a margin of a fifth more than its gap; twice that distance leaves room for the rounding of
+poses, and what is further away carries nothing before it has fallen."""
+
+NEARLY_AT_REST = 2e-4
+"""[m]; the same for layouts on their way to rest, whose steadiness is compared."""
+
+CLOSING = 1e-6
+"""Rate below which contacts do not close."""
+
+CARRIES = 0.01
+"""Share of the lighter object's weight from which a contact counts as carrying."""
 
 MAX_FRICTION = 2.0
 FRICTION_STEP = 0.005
@@ -76,6 +94,12 @@ class Certificate:
     asked."""
     first_to_go: tuple[str, ...] = ()
     """Objects that slide or tip over first when the ground is tilted further, those that move most in front."""
+    largest_gap: float | None = None
+    """Between parts that carry weight [m]; None if not asked."""
+    jammed: tuple[str, ...] = ()
+    """Objects that only forces without a cause hold: pairs of contacts that press because they press."""
+    support: Support | None = None
+    """What holds on true surfaces; None if not asked."""
 
     @property
     def worst(self) -> float:
@@ -84,8 +108,20 @@ class Certificate:
 
     @property
     def passed(self) -> bool:
-        """Every residual is at most 1e-3 of the weight, and a tilt of 0.57 degrees is stood if that was asked."""
-        return not self.unbalanced and not self.fragile
+        """Every residual is at most 1e-3 of the weight.
+
+        If asked, that is so on true surfaces and by forces that have a cause, and a tilt of 0.57 degrees is stood.
+        """
+        return not self.unbalanced and not self.fragile and not self.unreal
+
+    @property
+    def unreal(self) -> tuple[str, ...]:
+        """A line for everything that is balanced, and not by what gravity presses on what is there."""
+        lines = [
+            f'"{name}" is jammed: no weight can have pressed the contacts that would have to hold it by friction.'
+            for name in self.jammed
+        ]
+        return (*lines, *(self.support.failures if self.support else ()))
 
     @property
     def unbalanced(self) -> tuple[str, ...]:
@@ -101,10 +137,12 @@ class Certificate:
         """Plain data for report.json."""
         least = self.smallest_friction
         return {
-            **asdict(self),
+            **asdict(replace(self, support=None)),
             "residuals": dict(self.residuals),
             "smallest_friction": None if least is None or math.isinf(least) else least,
             "first_to_go": list(self.first_to_go),
+            "jammed": list(self.jammed),
+            "support": self.support and self.support.as_dict(),
             "worst": self.worst,
             "passed": self.passed,
         }
@@ -127,29 +165,43 @@ def certify(
     friction = scene.settling_friction if friction is None else friction
     if not (math.isfinite(friction) and friction >= 0.0):
         raise CheckError(f"friction must be a number that is not negative, got {friction}.")
-    balance = Balance(scene, activation)
+    names = [obj.name for obj in scene.objects]
+    contacts = find_contacts(scene.objects, activation)
+    balance = Balance(scene, contacts)
     found: dict[int, float] = {}
     for group in balance.groups:
         residuals = group.residuals(np.full(group.contacts, friction))
         found |= dict(zip(group.members, residuals.tolist(), strict=True))
-    tilt, first = _largest_tilt(balance, None) if margin else (None, ())
-    return Certificate(
+    certificate = Certificate(
         friction=friction,
-        residuals={scene.objects[body].name: found[body] for body in sorted(found)},
+        residuals={names[body]: found[body] for body in sorted(found)},
         contacts=balance.found,
         activation=activation,
-        smallest_friction=_smallest_friction(balance) if margin else None,
-        largest_tilt=tilt,
-        first_to_go=tuple(scene.objects[body].name for body in first),
+    )
+    if not margin:
+        return certificate
+    gap, jammed = _pressed(balance, contacts, friction)
+    true = true_support(scene, contacts, balance, friction, TOLERANCE)
+    tilt, first = min(
+        (_largest_tilt(one, None) for one in (balance, Balance(scene, true.contacts))), key=lambda one: one[0]
+    )
+    return replace(
+        certificate,
+        smallest_friction=_smallest_friction(balance),
+        largest_tilt=0.0 if certificate.unbalanced else tilt,
+        first_to_go=tuple(names[body] for body in first),
+        largest_gap=gap,
+        jammed=tuple(names[body] for body in jammed),
+        support=true.support,
     )
 
 
 def smallest_friction(scene: Scene, activation: float = ACTIVATION) -> float:
     """The least uniform friction coefficient [-] at which the certificate holds, to 0.005; infinite if none up to 2."""
-    return _smallest_friction(Balance(scene, activation))
+    return _smallest_friction(Balance(scene, find_contacts(scene.objects, activation)))
 
 
-def steadiness(scene: Scene, friction: float | None = None, activation: float = ACTIVATION) -> float:
+def steadiness(scene: Scene, friction: float | None = None, activation: float = NEARLY_AT_REST) -> float:
     """How far the ground can be tilted, whichever way, before the certificate fails [degrees], at most 8.
 
     Objects stay where they are on it. What slides as well as what tips over fails; 0 where it fails on level ground
@@ -161,7 +213,23 @@ def steadiness(scene: Scene, friction: float | None = None, activation: float = 
             the two materials.
         activation: surfaces closer than this touch [m].
     """
-    return _largest_tilt(Balance(scene, activation), friction)[0]
+    return _largest_tilt(Balance(scene, find_contacts(scene.objects, activation)), friction)[0]
+
+
+def _pressed(balance: Balance, contacts: Contacts, friction: float) -> tuple[float, list[int]]:
+    """The largest gap [m] of a contact that carries weight, and the bodies that forces without a cause hold."""
+    largest, jammed = 0.0, []
+    for group in balance.groups:
+        forces = group.least_forces(np.full(group.contacts, friction), TOLERANCE)
+        if forces is None:
+            continue
+        carrying = np.flatnonzero(forces >= CARRIES)
+        if not len(carrying):
+            continue
+        largest = max(largest, float(contacts.gaps[group.source[carrying]].max()))
+        if group.closing(carrying) < CLOSING:
+            jammed += group.members
+    return largest, jammed
 
 
 def _smallest_friction(balance: Balance) -> float:

@@ -39,6 +39,7 @@ class Verification:
                 f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. A verified scene stands "
                 f"{LEAST_TILT:.2f} degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
             )
+        lines += self.certificate.unreal
         for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
             lines += [
                 f'the {what} of "{pair.first}" and "{pair.second}" intersect, {1e3 * pair.depth:.3g} mm deep.'

@@ -108,10 +108,11 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
     for gap in verification.penetration.gaps:
         for name in (gap.first, gap.second):
             gaps[name] = min(gap.distance, gaps.get(name, gap.distance))
+    support = verification.certificate.support
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("object", overflow="fold")
     table.add_column("rests on", overflow="fold")
-    for title in ("mass kg", "drift mm", "drift deg", "unbalanced", "gap mm"):
+    for title in ("mass kg", "drift mm", "drift deg", "unbalanced", "gap mm", "air mm", "excess mm"):
         table.add_column(title, justify="right")
     for obj in scene.objects:
         drift = drifts.get(obj.name)
@@ -124,6 +125,8 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
             "-" if drift is None else f"{drift.degrees:.3f}",
             "-" if residual is None else f"{residual:.0e}",
             f"{1e3 * gaps[obj.name]:.3f}" if obj.name in gaps else "-",
+            _millimetres(support and support.air, obj.name),
+            _millimetres(support and support.excess, obj.name),
         )
     target.print(table)
     target.print()
@@ -151,6 +154,11 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
     for name, verdict in verdicts.items():
         target.print(verdict, style={"pass": "green", "FAIL": "bold red"}[verdict], end="  ")
         target.print(f"{name}: {texts[name]}", markup=False)
+
+
+def _millimetres(lengths: Mapping[str, float] | None, name: str) -> str:
+    """The length [m] of object `name` in millimetres, or a dash."""
+    return f"{1e3 * lengths[name]:.1f}" if lengths and name in lengths else "-"
 
 
 def _tilt(certificate: Certificate) -> str:

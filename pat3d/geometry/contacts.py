@@ -157,8 +157,8 @@ def find_contacts(objects: Sequence[Body], activation: float = 2e-4) -> Contacts
     )
 
 
-def merged(contacts: Contacts) -> Contacts:
-    """Fewer contacts that can carry exactly the same loads.
+def corners_of_planes(contacts: Contacts) -> NDArray[np.int64]:
+    """Positions of the fewest contacts that can carry exactly the same loads, in order.
 
     Where one pair of bodies touches in one plane with one normal, forces inside the convex hull of the points are
     combinations of forces at its corners with the same friction cone; only the corners are kept.
@@ -172,7 +172,12 @@ def merged(contacts: Contacts) -> Contacts:
             same &= np.abs((contacts.points[members] - point) @ normal) < 1e-4
             keep += _corners(contacts.points, members[same], normal)
             members = members[~same]
-    return contacts.pick(np.array(sorted(keep), dtype=np.int64))
+    return np.array(sorted(keep), dtype=np.int64)
+
+
+def merged(contacts: Contacts) -> Contacts:
+    """Fewer contacts that can carry exactly the same loads."""
+    return contacts.pick(corners_of_planes(contacts))
 
 
 def _corners(points: NDArray[np.float64], members: NDArray[np.int64], normal: NDArray[np.float64]) -> list[int]:

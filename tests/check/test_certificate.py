@@ -66,7 +66,7 @@ def test_a_tower_stands_a_tilt_until_its_weight_leaves_its_base(count, yaw):
     objects = (replace(obj, pose=Pose.from_yaw(yaw, obj.pose.position)) for obj in tilted.objects)
     scene = replace(tilted, objects=tuple(objects))
     certificate = certify(scene, margin=True)
-    assert certificate.largest_tilt == steadiness(scene)
+    assert certificate.largest_tilt == pytest.approx(steadiness(scene), abs=1e-6)
     assert_tilt(certificate.largest_tilt, math.atan(width / (count * height)), sides=yaw not in (0.0, math.pi / 4))
     assert certificate.first_to_go[0] == f"box {count}"
 
@@ -162,6 +162,65 @@ def test_a_plank_leans_on_a_wall_from_the_friction_of_the_ladder_formula(degrees
     centre = reach / 2 - thickness / 2 * math.sin(angle)
     least = min(root for root in np.roots([centre - reach, -length * math.sin(angle), centre]).real if root > 0)
     assert smallest_friction(scene) == pytest.approx(least, abs=2 * FRICTION_STEP)
+
+
+@pytest.mark.parametrize(("gap", "carried"), [(2e-5, True), (5e-5, False), (1.5e-4, False)])
+def test_what_is_further_from_its_support_than_the_tolerance_is_not_carried(gap, carried):
+    """The simulator presses within 0.015 mm; a tolerance of twice that leaves 0.15 mm of air visible as such."""
+    certificate = certify(tower(2, gap=gap), margin=True)
+    assert certificate.passed is carried
+    assert set(certificate.unbalanced) == (set() if carried else {"box 1", "box 2"})
+    if carried:
+        assert certificate.largest_gap == pytest.approx(gap)
+
+
+def _between_walls(clearance, *, floor=False, lean=0.0):
+    """A block between two fixed walls, `clearance` [m] from either, in mid-air or on the ground."""
+    walls = asset_of(box(0.1, 0.3, 0.5))
+    x = 0.05 + 0.05 + clearance
+    height = GAP if floor else 0.2
+    return scene_of(
+        placed("left", walls, (-x, 0, 0), fixed=True),
+        placed("right", walls, (x, 0, 0), fixed=True),
+        placed("block", asset_of(box(0.1, 0.1, 0.1)), (0, 0, height)),
+    )
+
+
+def test_a_block_jammed_in_mid_air_by_forces_that_nothing_causes_is_refused():
+    """Friction alone would do at any coefficient: the walls need only press hard enough, and nothing makes them."""
+    scene = _between_walls(1.2e-5)
+    assert not certify(scene, friction=0.01).unbalanced
+    certificate = certify(scene, margin=True)
+    assert certificate.jammed == ("block",)
+    assert not certificate.passed
+    assert '"block" is jammed' in certificate.unreal[0]
+
+
+def test_the_same_block_on_the_ground_is_carried_by_it():
+    certificate = certify(_between_walls(1.2e-5, floor=True), margin=True)
+    assert not certificate.jammed
+    assert certificate.passed
+
+
+def test_weight_presses_a_wedge_into_its_groove_and_a_plank_against_its_wall():
+    """Both are held by forces that slope against each other; here weight is their cause."""
+    turn = Rotation.from_euler("y", 45, degrees=True)
+    side = asset_of(box(0.3, 0.2, 0.02).moved(x=0.15, z=-0.02))
+    half = math.sqrt(0.5)
+    mirrored = Rotation.from_euler("z", 180, degrees=True) * Rotation.from_euler("y", -45, degrees=True)
+    slopes = [Rotation.from_euler("y", -45, degrees=True), mirrored]
+    cube = asset_of(box(0.1, 0.1, 0.1).moved(z=-0.05))
+    centre = 0.05 / half + GAP / half
+    scene = scene_of(
+        *(
+            placed(f"side {k}", side, pose=Pose.from_matrix(slope.as_matrix(), np.array([0.0, 0.0, 0.3])), fixed=True)
+            for k, slope in enumerate(slopes)
+        ),
+        placed("cube", cube, pose=Pose.from_matrix(turn.as_matrix(), np.array([0.0, 0.0, 0.3 + centre]))),
+    )
+    certificate = certify(scene, margin=True)
+    assert not certificate.unbalanced
+    assert not certificate.jammed
 
 
 def test_lifting_one_object_by_5_mm_convicts_it_and_only_it():

@@ -1,0 +1,183 @@
+"""Is the tilt margin of a certificate what a scene stands? Gravity leans slowly in MuJoCo until something goes.
+
+python benchmarks/tilt.py forms [NAME ...]      closed forms: boxes, pencil, overhang, domino, balls
+python benchmarks/tilt.py scenes FOLDER [...]   scene folders, as `pat3d generate` writes them
+
+A row for each: the tilt that the certificate claims (whichever way), the least of what was stood towards eight sides,
+their ratio, and where a form has one the closed form of the ideal shapes. A scene goes when an object's centre has
+strayed 5 mm or it has turned 4 degrees.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import tempfile
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
+
+from pat3d.assets.shapes import box, cylinder, ellipsoid
+from pat3d.check.certificate import MAX_TILT, certify
+from pat3d.exporters.mjcf.writer import write_mjcf
+from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Material
+from pat3d.scene.io import load_scene
+from pat3d.scene.model import Scene
+from tests.scenes import GAP, asset_of, placed, scene_of, tower
+
+SIDES = 8
+SECONDS = 12.0
+"""In which gravity leans by the claim [s]."""
+FURTHEST = 1.6
+"""Tilt at which a run ends, in claims."""
+MM, DEGREES = 5.0, 4.0
+GRAVITY = 9.81
+
+
+def pencil() -> tuple[Scene, float | None]:
+    """A rod of 7 mm on its end, 175 mm high."""
+    return scene_of(placed("pencil", asset_of(cylinder(0.0035, 0.175)), (0, 0, GAP))), math.atan(0.0035 / 0.0875)
+
+
+def one_box() -> tuple[Scene, float | None]:
+    """A box of a ready meal on its narrow side, turned by 0.2 rad."""
+    one = asset_of(box(0.04, 0.16, 0.4))
+    return scene_of(placed("box", one, pose=Pose.from_yaw(0.2, (0, 0, GAP)))), math.atan(0.04 / 0.4)
+
+
+def boxes() -> tuple[Scene, float | None]:
+    """Five boxes on one another."""
+    return tower(5, (0.04, 0.05, 0.1)), math.atan(0.04 / (5 * 0.1))
+
+
+def overhang(factor: float = 0.95) -> tuple[Scene, float | None]:
+    """Five bricks at 95 % of the harmonic overhang."""
+    length, height, count = 0.2, 0.05, 5
+    asset = asset_of(box(length, 0.1, height))
+    x, objects = 0.0, []
+    for level in range(count):
+        objects.append(placed(f"brick {level}", asset, (x, 0, GAP + level * (height + GAP))))
+        x += factor * length / (2 * (count - 1 - level)) if level < count - 1 else 0.0
+    # Of all upper piles the one with least to spare over its height.
+    return scene_of(*objects), min(math.atan((1 - factor) * length / 2 / (k * height / 2)) for k in range(1, count))
+
+
+def domino(degrees: float = 55.0) -> tuple[Scene, float | None]:
+    """A plank that leans on a fixed wall."""
+    length, thickness = 0.2, 0.02
+    angle = math.radians(degrees)
+    turn = Rotation.from_euler("y", -degrees, degrees=True)
+    plank = asset_of(box(length, 0.1, thickness).moved(x=length / 2))
+    reach = length * math.cos(angle)
+    return scene_of(
+        placed("plank", plank, pose=Pose.from_matrix(turn.as_matrix(), np.array([0.0, 0.0, GAP]))),
+        placed("wall", asset_of(box(0.1, 1, 1)), (reach + GAP + 0.05, 0, 0), fixed=True),
+        settling_friction=0.4,
+    ), None
+
+
+def slab() -> tuple[Scene, float | None]:
+    """A flat slab that slides before it tips, at friction 0.1."""
+    slick = asset_of(box(0.2, 0.2, 0.01), material=Material(name="slick", density=900.0, friction=0.1))
+    plate = asset_of(box(0.4, 0.4, 0.02), material=Material(name="slick", density=900.0, friction=0.1))
+    return scene_of(
+        placed("plate", plate, (0, 0, 0), fixed=True), placed("slab", slick, (0, 0, 0.02 + GAP))
+    ), math.atan(0.1)
+
+
+def balls() -> tuple[Scene, float | None]:
+    """A ball on a facet of another; the smooth ones fall."""
+    ball = asset_of(ellipsoid(0.03))
+    hull = ConvexHull(ball.parts[0].vertices)
+    normal = hull.equations[0, :3]
+    turn, _ = Rotation.align_vectors([[0, 0, 1]], [normal])
+    depth = -hull.equations[0, 3]
+    other, _ = Rotation.align_vectors([[0, 0, -1]], [normal])
+    return scene_of(
+        placed("low", ball, pose=Pose.from_matrix(turn.as_matrix(), np.array([0, 0, depth])), fixed=True),
+        placed("high", ball, pose=Pose.from_matrix(other.as_matrix(), np.array([0, 0, 3 * depth + GAP]))),
+    ), 0.0
+
+
+FORMS: dict[str, Callable[[], tuple[Scene, float | None]]] = {
+    "box": one_box,
+    "boxes": boxes,
+    "pencil": pencil,
+    "slab": slab,
+    "overhang 0.90": lambda: overhang(0.90),
+    "overhang 0.95": lambda: overhang(0.95),
+    "domino 45": lambda: domino(45.0),
+    "domino 60": lambda: domino(60.0),
+    "ball on ball": balls,
+}
+
+
+def survived(mjcf: Path, claim: float, *, seconds: float = SECONDS) -> tuple[float, str]:
+    """Least tilt [degrees] towards any side at which something goes, at most FURTHEST claims, and what went."""
+    mujoco: Any = import_module("mujoco")
+    model = mujoco.MjModel.from_xml_path(str(mjcf))
+    free = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
+    least, first = FURTHEST * claim, ""
+    for side in range(SIDES):
+        angle = 2 * math.pi * (side + 0.5) / SIDES
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        centre, quat = data.xipos[free].copy(), data.xquat[free].copy()
+        model.opt.gravity[:] = (0, 0, -GRAVITY)
+        mujoco.mj_step(model, data, nstep=100)
+        rate = claim / seconds
+        tilt = 0.0
+        while tilt < least:
+            tilt += rate * 10 * model.opt.timestep
+            lean = math.radians(tilt)
+            model.opt.gravity[:] = GRAVITY * np.array(
+                [math.sin(lean) * math.cos(angle), math.sin(lean) * math.sin(angle), -math.cos(lean)]
+            )
+            mujoco.mj_step(model, data, nstep=10)
+            moved = 1e3 * np.linalg.norm(data.xipos[free] - centre, axis=1)
+            turned = 2 * np.degrees(np.arccos(np.clip(np.abs(np.einsum("ni,ni->n", data.xquat[free], quat)), 0.0, 1.0)))
+            gone = np.maximum(moved / MM, turned / DEGREES)
+            if gone.max() > 1.0:
+                least, first = tilt, model.body(int(free[np.argmax(gone)])).name
+                break
+    return least, first
+
+
+def row(name: str, scene: Scene, ideal: float | None, seconds: float) -> str:
+    """One line of the table."""
+    certificate = certify(scene, margin=True)
+    claim = certificate.largest_tilt or 0.0
+    if claim < 0.05:
+        return f"{name:24} claims {claim:5.2f}"
+    with tempfile.TemporaryDirectory() as folder:
+        found, first = survived(write_mjcf(scene, Path(folder) / "mjcf"), claim, seconds=seconds)
+    capped = " (at least)" if claim >= MAX_TILT * 0.999 else ""
+    form = "" if ideal is None else f"  form {math.degrees(ideal):5.2f}"
+    verdict = "" if found >= 0.9 * claim else "  TOO MUCH"
+    stands = f"stands {found:5.2f} ({first})  ratio {found / claim:4.2f}"
+    return f"{name:24} claims {claim:5.2f}{capped}  {stands}{form}{verdict}"
+
+
+def main() -> None:
+    """Print a table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("forms", "scenes"))
+    parser.add_argument("which", nargs="*", help="forms or folders")
+    parser.add_argument("--seconds", type=float, default=SECONDS, help="to lean by the claim [s]")
+    given = parser.parse_args()
+    if given.what == "forms":
+        for name in given.which or FORMS:
+            print(row(name, *FORMS[name](), given.seconds), flush=True)
+    else:
+        for folder in given.which:
+            print(row(Path(folder).name, load_scene(folder), None, given.seconds), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+import math
+
+import numpy as np
+import pytest
+
+from pat3d.assets.shapes import Shape, box, cylinder, ellipsoid, frustum
+from pat3d.check.certificate import certify
+from pat3d.geometry.pose import Pose
+from tests.scenes import GAP, asset_of, placed, scene_of, tower
+
+RADIUS, THICK = 0.05, 0.026
+
+
+def _puck(spike):
+    """A disc whose one convex part has a corner `spike` [m] beyond its rim towards x, as bad reductions leave them."""
+    disc = cylinder(RADIUS, THICK)
+    corners = [(RADIUS + spike, 0.0, z) for z in (0.0, THICK)]
+    return asset_of(Shape(disc.solid, (np.concatenate([disc.hulls[0], corners]),)), noun="puck")
+
+
+def _plank_on_puck(inside, spike=0.02):
+    """A plank whose centre of mass is `inside` [m] within the puck's true rim."""
+    plank = asset_of(box(0.06, 0.02, 0.01))
+    return scene_of(
+        placed("puck", _puck(spike), (0, 0, 0), fixed=True),
+        placed("plank", plank, (RADIUS - inside, 0, THICK + GAP)),
+    )
+
+
+@pytest.mark.parametrize("inside", [0.003, 0.005])
+def test_a_plank_with_its_weight_inside_a_true_rim_is_held(inside):
+    certificate = certify(_plank_on_puck(inside), margin=True)
+    assert certificate.passed
+    assert certificate.support is not None
+    assert certificate.support.excess["plank"] == pytest.approx(0.02, abs=2e-3)
+    # The plank tips over the rim, 5 mm below its centre.
+    assert certificate.largest_tilt <= math.degrees(math.atan(inside / 0.005)) + 0.1
+
+
+@pytest.mark.parametrize("inside", [-0.001, -0.003, -0.005])
+def test_a_plank_with_its_weight_on_the_excess_of_a_hull_is_refused(inside):
+    """Its convex part reaches 2 cm beyond the rim and balances it; what a person sees falls."""
+    scene = _plank_on_puck(inside)
+    assert certify(scene).passed
+    certificate = certify(scene, margin=True)
+    assert not certificate.passed
+    assert set(certificate.support.unsupported) == {"plank"}
+    (line,) = certificate.unreal
+    assert '"plank" is held only by convex parts that stick out' in line
+    assert '"puck"' in line
+
+
+def test_boxes_are_their_own_hulls():
+    """No air, no excess, and the tilt of the convex parts."""
+    support = certify(tower(3), margin=True).support
+    assert support.failures == ()
+    assert max(support.excess.values()) < 1e-6
+    assert set(support.air.values()) == {1e-4}
+
+
+def _lidded(depth):
+    """A tin with a recess of `depth` [m] in its lid, 6 cm wide, that its convex part fills."""
+    tin = cylinder(0.04, 0.1)
+    return asset_of(Shape(tin.solid - cylinder(0.03, 0.05).moved(z=0.1 - depth).solid, tin.hulls), noun="tin")
+
+
+@pytest.mark.parametrize(("depth", "held"), [(0.0005, True), (0.002, False), (0.003, False)])
+def test_a_cube_over_a_filled_recess_floats(depth, held):
+    """It fits into the recess, and the part that fills it carries it above the floor that is seen."""
+    cube = asset_of(box(0.03, 0.03, 0.03))
+    scene = scene_of(placed("tin", _lidded(depth), (0, 0, GAP)), placed("cube", cube, (0, 0, 0.1 + 2 * GAP)))
+    certificate = certify(scene, margin=True)
+    assert certify(scene).passed
+    assert certificate.passed is held
+    if held:
+        assert certificate.support.air["cube"] == pytest.approx(depth, rel=0.05)
+    else:
+        assert certificate.support.unsupported["cube"][0].air == pytest.approx(depth, rel=0.05)
+
+
+def test_a_cube_as_wide_as_the_rim_stands_on_it():
+    """The recess is 3 mm deep and the rim 1 cm wide; a larger cube rests on the rim all around."""
+    cube = asset_of(box(0.07, 0.07, 0.07))
+    scene = scene_of(placed("tin", _lidded(0.003), (0, 0, GAP)), placed("cube", cube, (0, 0, 0.1 + 2 * GAP)))
+    certificate = certify(scene, margin=True)
+    assert certificate.passed
+    assert certificate.support.air["cube"] == 1e-4
+
+
+@pytest.mark.parametrize("sides", [6, 16])
+def test_a_round_foot_tips_over_its_true_edge(sides):
+    """The convex part of a tall cone on its small end has corners beyond the foot; the tilt is that of the circle."""
+    radius, height = 0.01, 0.2
+    asset = asset_of(cylinder(radius, height, sides=sides))
+    scene = scene_of(placed("rod", asset, pose=Pose.from_yaw(0.1, (0, 0, GAP))))
+    certificate = certify(scene, margin=True)
+    ideal = math.degrees(math.atan(radius / (height / 2)))
+    # 48 sides of the picture, sixteen corners of the support, sixteen directions: each inscribed in a circle.
+    assert 0.93 * ideal <= certificate.largest_tilt <= 1.005 * ideal
+
+
+def test_a_thin_foot_of_a_wide_part_has_its_own_tilt():
+    """A cone on its tip, cut to a foot of 1 cm, inside a part as wide as the cone: 20 cm over a foot of 5 mm radius."""
+    cone = frustum(0.005, 0.03, 0.2)
+    scene = scene_of(placed("cone", asset_of(Shape(cone.solid, cylinder(0.03, 0.2).hulls)), (0, 0, GAP)))
+    certificate = certify(scene, margin=True)
+    centre = float(scene["cone"].asset.mass_properties.centre_of_mass[2])
+    assert certificate.largest_tilt == pytest.approx(math.degrees(math.atan(0.005 / centre)), rel=0.05)
+
+
+def test_a_ball_in_a_part_around_it_touches_where_the_ball_does():
+    """A ball on the flat side of its polyhedron: the surfaces meet in the middle of that side, within a cap."""
+    ball = asset_of(ellipsoid(0.03).cut_below(-0.0299).moved(z=0.0299))
+    certificate = certify(scene_of(placed("ball", ball, (0, 0, GAP))), margin=True)
+    assert certificate.passed
+    cap = math.sqrt(2 * 0.03 * 2e-4)
+    assert certificate.largest_tilt <= math.degrees(math.atan(cap / 0.0299)) * 1.2
+
+
+def test_what_leans_may_touch_a_little_further_on_than_what_stands():
+    """A board against a wall whose part stands off 8 mm, over 1 % of its size, is held, and the air is said."""
+    length, angle, off = 0.3, math.radians(70), 0.008
+    wall = box(0.1, 0.6, 0.6)
+    asset = asset_of(Shape(wall.moved(x=off).solid ^ wall.solid, wall.hulls), noun="wall")
+    turn = np.array(
+        [[math.sin(angle), 0, math.cos(angle)], [0, 1, 0], [-math.cos(angle), 0, math.sin(angle)]], dtype=np.float64
+    )
+    board = asset_of(box(0.02, 0.1, length))
+    low = float((board.parts[0].vertices @ turn.T)[:, 2].min())
+    right = float((board.parts[0].vertices @ turn.T)[:, 0].max())
+    scene = scene_of(
+        placed("wall", asset, (right + 0.05 + GAP, 0, 0), fixed=True),
+        placed("board", board, pose=Pose.from_matrix(turn, np.array([0.0, 0.0, GAP - low]))),
+        settling_friction=0.4,
+    )
+    certificate = certify(scene, margin=True)
+    assert certificate.passed
+    assert certificate.support.air["board"] == pytest.approx(off, rel=0.05)
+
+
+def test_a_part_far_from_any_surface_carries_nothing():
+    """A box seen as a small cube at the bottom of its tall part."""
+    tall = Shape(box(0.1, 0.1, 0.1).solid, box(0.1, 0.1, 0.15).hulls)
+    cube = asset_of(box(0.05, 0.05, 0.05))
+    scene = scene_of(placed("tall", asset_of(tall), (0, 0, GAP)), placed("cube", cube, (0, 0, 0.15 + 2 * GAP)))
+    certificate = certify(scene, margin=True)
+    assert set(certificate.support.unsupported) == {"cube"}
+    assert "more than 10 mm away" in certificate.unreal[0]
+    assert certificate.as_dict()["support"]["unsupported"]["cube"][0]["second"] == "tall"
