@@ -274,3 +274,10 @@ STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""
+
+CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "dishwasher", "dryer", "filing cabinet",
+          "toolbox", "treasure chest", "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
+          "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
+"""What things go into through a door, a drawer or a lid."""
+SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture", "color", "colour"})
+"""Parts that every object has: to name them says nothing."""

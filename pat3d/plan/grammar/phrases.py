@@ -8,7 +8,7 @@ from typing import Literal
 
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.arrangements import RINGS, grid_size, refuse, shape_said
+from pat3d.plan.grammar.shapes import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
@@ -42,6 +42,8 @@ class Phrase:
     one_of: bool = False
     """"one of two boxes"."""
     possessive: bool = False
+    other: bool = False
+    """"the other mug": not the one named before."""
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
     modifiers: Modifiers = NO_MODIFIERS
@@ -155,7 +157,7 @@ class PhraseReader:
                 if word in ("each", "every"):
                     flags["each"] = True
             elif word in ("other", "same", "single") and flags.get("determined"):
-                pass
+                flags["other"] = word == "other"
             else:
                 break
             at += 1

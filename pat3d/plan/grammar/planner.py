@@ -1,24 +1,36 @@
-"""The offline planner: a grammar over English prompts."""
+"""The offline planner: a grammar over English, ranked by what is likely, that accounts for every word."""
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Sequence
+from dataclasses import replace
+
 from pat3d.errors import PromptError
-from pat3d.plan.grammar.build import build
-from pat3d.plan.grammar.chunks import chunk
-from pat3d.plan.grammar.draft import Draft
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.chunks import Chunk, Cutter
 from pat3d.plan.grammar.ellipsis import completed
-from pat3d.plan.grammar.groups import GroupMaker
-from pat3d.plan.grammar.reader import Reader
+from pat3d.plan.grammar.finish import finish
+from pat3d.plan.grammar.interpret import Interpreter
+from pat3d.plan.grammar.lexing import Token, normalise, tokenise
+from pat3d.plan.grammar.objects import Maker
+from pat3d.plan.grammar.plausible import Plausible
+from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
+from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
+TRIED = 4
+"""Readings of a sentence of which references and supports are worked out."""
+CLOSE = 0.15
+"""Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
 class GrammarPlanner:
-    """Plans a prompt with word tables and a shallow grammar: no model, no network, the same plan every time.
+    """Plans a prompt with word tables and a grammar: no model, no network, the same plan every time.
 
     With `allow_proxies` an unknown noun becomes a plain box, said so in the plan's notes, instead of an error.
     """
@@ -30,7 +42,8 @@ class GrammarPlanner:
 
             vocabulary = lookup
         self._nouns = Nouns(vocabulary)
-        self._allow_proxies = allow_proxies
+        self._likely = Plausible(self._nouns)
+        self._maker = Maker(self._nouns, allow_proxies=allow_proxies)
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt`.
@@ -43,9 +56,75 @@ class GrammarPlanner:
             raise PromptError('the prompt is empty. Describe a scene: "a red mug on a wooden table".')
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
-        draft = Draft(self._nouns)
-        maker = GroupMaker(draft, allow_proxies=self._allow_proxies)
-        unread: list[str] = []
-        Reader(draft, maker).read(completed(chunk(prompt, self._nouns, unread), self._nouns))
-        draft.notes += [_CHOICE if word == "or" else f'"{word}" is left out.' for word in unread]
-        return build(prompt, draft)
+        text = normalise(prompt)
+        world = World(self._likely)
+        for tokens in _sentences(tokenise(text)):
+            world = self._read(text, tokens, world)
+        return finish(prompt, world, self._nouns)[0]
+
+    def _read(self, text: str, tokens: Sequence[Token], world: World) -> World:
+        """`world` with what the sentence of `tokens` says."""
+        sentence = Cutter(text, tokens, self._nouns).cut()
+        world.aside += [aside for aside in sentence.aside if aside not in world.aside]
+        chunks = completed(_trimmed(sentence.chunks), self._nouns)
+        for word in sentence.unread:
+            world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
+        if not chunks:
+            return world
+        readings, chunks = self._readings(chunks, world)
+        tried: list[tuple[float, World]] = []
+        error: PromptError | None = None
+        for reading in readings[:TRIED]:
+            trial = copy.deepcopy(world, {id(self._likely): self._likely})
+            try:
+                cost = reading.cost + Interpreter(trial, chunks, self._maker).add(reading)
+            except PromptError as caught:
+                error = error or caught
+                continue
+            tried.append((cost, trial))
+        if not tried:
+            assert error is not None
+            raise error
+        return min(tried, key=lambda each: each[0])[1]
+
+    def _readings(self, chunks: list[Chunk], world: World) -> tuple[list[Node], list[Chunk]]:
+        """Readings of `chunks`, or of all but one of them, which a note then names.
+
+        Raises:
+            PromptError: there is none.
+        """
+        if readings := Grammar(chunks, self._likely).readings():
+            return readings, chunks
+        for at, chunk in enumerate(chunks):
+            if chunk.kind == "noun" and chunk.phrase and chunk.phrase.kind not in ("part", "pieces", "background"):
+                continue
+            rest = _trimmed([*chunks[:at], *chunks[at + 1 :]])
+            if rest and (readings := Grammar(rest, self._likely).readings()):
+                if chunk.kind not in ("joint", "verb", "there", "clause"):
+                    world.note(f'not understood: "{chunk.text}"')
+                return readings, rest
+        raise PromptError(f"cannot read: {' | '.join(f'{chunk.kind}:{chunk.text}' for chunk in chunks)}")
+
+
+def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:
+    """`tokens` cut after every stop."""
+    made: list[list[Token]] = [[]]
+    for token in tokens:
+        made[-1].append(token)
+        if token.text == ".":
+            made.append([])
+    return [sentence for sentence in made if len(sentence) > 1]
+
+
+def _trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` without joints at either end or in a row."""
+    made: list[Chunk] = []
+    for chunk in chunks:
+        if chunk.kind in ("joint", "clause") and (not made or made[-1].kind in ("joint", "clause")):
+            if made and chunk.kind == "joint" and made[-1].kind == "joint" and "and" in chunk.text:
+                made[-1] = replace(made[-1], text=", and")
+            continue
+        made.append(chunk)
+    while made and made[-1].kind in ("joint", "clause"):
+        made.pop()
+    return made
