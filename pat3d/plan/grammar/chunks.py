@@ -107,11 +107,11 @@ class Cutter:
         """Whether a clause begins here."""
         return self._last is None or self._last.kind in ("joint", "clause")
 
-    def _add(self, kind: ChunkKind, size: int = 1, text: str | None = None, **fields: object) -> None:
-        words = self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end]
+    def _add(self, kind: ChunkKind, taken: int = 1, text: str | None = None, **fields: object) -> None:
+        words = self._text[self._tokens[self._at].start : self._tokens[self._at + taken - 1].end]
         chunk = Chunk(kind=kind, text=words if text is None else text, **fields)  # type: ignore[arg-type]
         self._made.chunks.append(chunk)
-        self._at += size
+        self._at += taken
 
     def _words(self, count: int) -> tuple[str, ...]:
         return tuple(token.text for token in self._tokens[self._at : self._at + count])
@@ -148,13 +148,11 @@ class Cutter:
             return None
         of_each = follower == "of" and self._last is not None and self._last.kind == "rel"
         alone = (
-            follower in (*lexicon.COPULAS, "of")
+            follower in (*lexicon.COPULAS, "of", "and", "or")
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
         )
         if word == "each" and not of_each and alone and self._last is not None:
-            if self._last.kind == "rel":
-                return self._add("noun", phrase=Phrase(kind="pieces", head="each", words=word, number=token.number))
             return self._add("noun", phrase=Phrase(kind="pieces", head="each", words=word, number=token.number))
         relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
@@ -175,6 +173,8 @@ class Cutter:
         if read is None:
             return self._pronoun(word) if word in lexicon.PRONOUNS else self._drop()
         phrase, after = read
+        if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
+            return self._aside(after + 1 - self._at)
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         return self._add("noun", after - self._at, phrase=phrase)

@@ -155,7 +155,8 @@ def _towers(chunks: list[Chunk]) -> list[Chunk]:
     while at < len(chunks):
         end = _end_of_stack(chunks, at)
         if end:
-            made += [*chunks[at + 2 : end], Chunk(kind="form", text="tower")]
+            listed = chunks[at + 2 : end]
+            made += [*listed, Chunk(kind="form", text="tower", size=sum(piece.kind == "noun" for piece in listed))]
             at = end
         else:
             made.append(chunks[at])

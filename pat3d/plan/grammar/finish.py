@@ -85,6 +85,8 @@ def _widen_bowls(world: World, nouns: Nouns) -> None:
 def _pair_sides(world: World) -> None:
     """Objects on the left are left of what is on the right or in the middle, on the same support."""
     told: set[int] = set()
+    order = {item: at for at, item in enumerate(world.items())}
+    world.sided.sort(key=lambda each: order.get(each.items[0], 0))
     for each in world.sided:
         item, owner = each.items[0], each.owner
         if owner and item not in owner:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.instructions import Clause, Step
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.objects import Maker, check_total, describe, forget_count, multiply, recount, tell, tell_colours
+from pat3d.plan.grammar.modifiers import Modifiers
+from pat3d.plan.grammar.objects import Maker, describe, forget_count, multiply, recount, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
 
@@ -31,10 +34,11 @@ _SIDES: dict[str, LateralKind] = {"left": "left_of", "right": "right_of", "front
 class Interpreter:
     """Adds one reading of a sentence to a world."""
 
-    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker) -> None:
+    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, clause: Clause) -> None:
         self._world = world
         self._chunks = chunks
         self._maker = maker
+        self._clause = clause
         self._refs: dict[int, list[Item]] = {}
         self._bound: dict[int, tuple[int, ...]] = {}
         self._each: set[int] = set()
@@ -42,7 +46,6 @@ class Interpreter:
         self._subjects: list[tuple[int, list[Item]]] = []
         """What the clauses are about, by where they begin."""
         self._landmark: tuple[list[Item], bool] = ([], False)
-        self._fronts: list[int] = []
         self.cost = 0.0
 
     def add(self, reading: Node) -> float:
@@ -51,15 +54,19 @@ class Interpreter:
         Raises:
             PromptError: it cannot be a scene.
         """
-        facts = sorted(reading.facts, key=lambda fact: fact[1] if isinstance(fact[1], int) else -1)
+        facts = reading.facts
         self._bound = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
         clauses = {fact[2]: fact[1] for fact in facts if fact[0] == "subject"}
-        self._fronts = [fact[1][0] for fact in facts if fact[0] == "front"]
         self._clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
+        self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._related_heads = [(set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list")]
         for at, chunk in enumerate(self._chunks):
             if chunk.phrase is not None:
                 self._create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
+        for fact in facts:
+            if fact[0] == "form" and self._chunks[fact[1]].text in ("rows", "stacks", "stack", "tower"):
+                self._formed(fact[1], fact[2])
         for fact in facts:
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None:
@@ -67,17 +74,40 @@ class Interpreter:
         for fact in facts:
             if fact[0] == "place":
                 self._placed(fact[1], fact[2], fact[3])
-            elif fact[0] == "form":
+            elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
                 self._formed(fact[1], fact[2])
             elif fact[0] == "quality":
-                for group in dict.fromkeys(item.group for head in fact[2] for item in self._ref(head)):
-                    describe(group, self._chunks[fact[1]].modifiers)
+                self._qualified(fact[2], self._chunks[fact[1]].modifiers)
+            elif fact[0] == "goal":
+                self._aimed(fact[1], fact[2], fact[3])
+        if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
+            self._done(reading.heads)
         world = self._world
         subject = self._ref(reading.heads[0]) if reading.heads else []
         last = max(self._clauses)
         world.subject = self._ref(self._clauses[last][0]) or subject or world.subject
+        if self._clause.manner is not None:
+            world.subject = subject or world.subject
         world.landmark = self._landmark
+        self.cost += self._loose()
         return self.cost
+
+    def _loose(self) -> float:
+        """What it costs that small things are nowhere, where something is there to carry them."""
+        world = self._world
+        items = world.items()
+        carried = any(world.support(item) is not None for item in items)
+        if not carried or not any(world.is_table(item) for item in items):
+            return 0.0
+        related = {each for edge in world.laterals for each in (edge.child, edge.parent)}
+        told = {item for each in world.sided for item in each.items}
+        loose = [
+            item for item in items
+            if world.support(item) is None and not world.on_floor(item) and item not in related and item not in told
+            and not world.is_a(item, lexicon.BY_A_SEAT, LARGE)
+            and not any(world.support(other) is item for other in items)
+        ]  # fmt: skip
+        return 0.5 * len({id(item.group) for item in loose})
 
     def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
         """Phrases of which a bare plural means many, and the generics that list others."""
@@ -87,16 +117,76 @@ class Interpreter:
             link = self._chunks[fact[1]].link if fact[0] == "have" else None
             if link is not None and link.filling:
                 fillings |= set(fact[3])
-            if link is not None and link.manner == "include":
+            if fact[0] == "include":
                 kinds |= dict.fromkeys(fact[3], fact[2][0])
         return fillings, kinds
+
+    # Instructions
+
+    def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
+        """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
+        link = self._chunks[at].link
+        assert link is not None
+        parents = self._refs_of(parent_heads, link, child_heads)
+        children = self._refs_of(child_heads, link, parent_heads)
+        phrases = [self._chunks[head].phrase for head in child_heads]
+        made_up = self._clause.manner in ("make", "stack") and all(
+            phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
+            for phrase in phrases
+        )
+        if made_up:
+            if self._clause.manner == "stack" and len(children) > 1:
+                self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
+            if children and parents:
+                several = any(head in self._each for head in parent_heads) or any(
+                    each is not None and each.each for each in (self._chunks[head].phrase for head in parent_heads)
+                )
+                if several:
+                    children = multiply(self._world, children, len(parents))
+                if self._clause.verb == "hang" and link.kind == "on":
+                    link = Link(kind="hangs_from")
+                if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
+                    link = Link(kind="next_to", says="leaning_against")
+                self.relate(children, link, parents)
+                self._world.note(
+                    f'"{self._clause.said}" is read as the scene to make; with "the" before what is moved it is a task.'
+                )
+            return
+        for head in parent_heads:
+            self._note_part(head)
+        self._step(children, link, parents)
+
+    def _done(self, heads: Sequence[int]) -> None:
+        children = self._refs_of(heads)
+        phrases = [self._chunks[head].phrase for head in heads]
+        made_up = all(phrase is not None and phrase.determined and not phrase.definite for phrase in phrases)
+        if self._clause.manner == "stack" and made_up:
+            self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
+        elif self._clause.manner != "make" or not made_up:
+            self._step(children, None, [])
+
+    def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
+        manner = self._clause.manner
+        assert manner is not None
+        self._world.steps.append(
+            Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
+        )
+
+    def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
+        items = [item for head in heads for item in self._ref(head)]
+        for group in dict.fromkeys(item.group for item in items):
+            if all(item in items for item in group.items):
+                describe(group, told)
+            else:
+                for item in items:
+                    tell(item, told)
 
     # What a phrase speaks of
 
     def _create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
         world = self._world
         if phrase.kind in ("object", "unknown"):
-            if (found := self._refer(phrase)) is not None:
+            if (found := self._refer(at, phrase)) is not None:
                 self._refs[at] = found
                 return
             generic = self._refs.get(kind) if kind is not None else None
@@ -121,16 +211,22 @@ class Interpreter:
             elif phrase.words not in world.aside:
                 world.aside.append(phrase.words)
 
-    def _refer(self, phrase: Phrase) -> list[Item] | None:
+    def _refer(self, at: int, phrase: Phrase) -> list[Item] | None:
         """The objects already read that `phrase` speaks of, or None."""
         if phrase.head == "another" or phrase.kind not in ("object", "unknown") or phrase.other:
             return None
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
-        if not phrase.definite and not (bare and any(group.noun == phrase.noun for group in self._earlier)):
-            return None
         world = self._world
+        again = self._earlier if bare else []
+        again = again or [group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural]
+        if not phrase.definite and not any(group.noun == phrase.noun for group in again):
+            return None
+        partners = {head for one, other in self._related_heads for head in (*one, *other) if at in (*one, *other)} - {at}
+        besides = {item.group for head in partners if head < at for item in self._refs.get(head, ())}
         for same in (_same_noun, _same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
+                if same is _same_head and group in besides:
+                    continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1):
@@ -182,6 +278,9 @@ class Interpreter:
             return
         for other in self._world.items():
             same = other.group.noun == placed.group.noun and not other.group.cycle
+            known = any({edge.child, edge.parent} == {placed, other} for edge in self._world.laterals)
+            if known:
+                continue
             if same and other is not placed and other.place in ("", _OPPOSITE[placed.place]):
                 self._world.laterals.append(Edge(child=placed, kind=_SIDES[placed.place], parent=other))
 
@@ -194,7 +293,8 @@ class Interpreter:
         rest = phrase.head in _REST
         if phrase.head == "each":
             self._each.add(at)
-            subject = self._before(at)
+            plural = self._plural_before(at)
+            subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
         if rest and world.telling:
             told = world.telling[: phrase.count or len(world.telling)]
@@ -281,12 +381,19 @@ class Interpreter:
         starts = [start for start in sorted(self._clauses) if start < at]
         before = [list(self._ref(self._clauses[start][0])) for start in reversed(starts)]
         before += [self._world.subject]
-        which = phrase.head == "which"
+        near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
+        meant = [self._refs[key] for key in self._refs if key < at and self._is_pronoun(key) and self._refs[key]]
+        if meant and not plural:
+            # "behind it a mug, and in front of it a bowl" speaks twice of the same.
+            candidates.append((-0.1, meant[-1]))
+        if self._landmark[0] and not near:
+            candidates.append((0.1, self._landmark[0]))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank, items))
         nearest = [self._refs[key] for key in sorted(self._refs, reverse=True) if key < at and self._refs[key]]
+        nearest = [items for items in nearest if not set(items) & set(other)]
         for rank, items in enumerate(nearest[:4]):
-            candidates.append(((0.0 if which else 0.35) + 0.1 * rank, items))
+            candidates.append(((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         best: tuple[float, list[Item]] | None = None
@@ -306,6 +413,10 @@ class Interpreter:
             return []
         self.cost += min(best[0], 1.5)
         return best[1]
+
+    def _is_pronoun(self, at: int) -> bool:
+        phrase = self._chunks[at].phrase
+        return phrase is not None and phrase.kind == "pronoun"
 
     # Relations
 
@@ -354,6 +465,8 @@ class Interpreter:
         world = self._world
         said = f'"{children[0].group.words}" {{}} "{parents[0].group.words}"'
         if set(children) == set(parents):
+            if link.kind in SUPPORT_KINDS:
+                raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
             return
         children = [child for child in children if child not in parents] or children
         if link.manner == "gaze":
@@ -363,6 +476,7 @@ class Interpreter:
         elif link.manner == "under":
             self._under(children, parents, said)
         elif link.manner == "sides":
+            self._landmark = (parents, False)
             self._both_sides(children, parents)
         elif link.manner == "between":
             self._between(children, parents)
@@ -378,7 +492,7 @@ class Interpreter:
         elif link.kind in SUPPORT_KINDS:
             self._carried(children, link, parents, said, one_of=one_of)
         elif link.kind in LATERAL_KINDS:
-            if link.kind in ("left_of", "right_of"):
+            if link.kind not in ("next_to", "around"):
                 self._landmark = (parents, False)
             if link.says == "leaning_against":
                 world.arrange("leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it")
@@ -437,13 +551,15 @@ class Interpreter:
     def _both_sides(self, children: list[Item], parents: list[Item]) -> None:
         world = self._world
         if len(children) == 1:
-            children = multiply(world, children, 2)
+            group = children[0].group
+            children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
         self._flanked(children, parents)
 
     def _flanked(self, children: Sequence[Item], parents: list[Item], sides: Sequence[str] = ()) -> None:
         kinds: dict[str, LateralKind] = {"one": "left_of", "left": "left_of", "other": "right_of", "right": "right_of"}
+        given = {kinds[side] for side in sides if side in kinds}
         for index, child in enumerate(self._world.bases(children)):
-            kind: LateralKind = "right_of" if index % 2 else "left_of"
+            kind: LateralKind = "right_of" if (index % 2 if not given else "left_of" in given) else "left_of"
             if index < len(sides) and sides[index] in kinds:
                 kind = kinds[sides[index]]
             self._world.beside([child], kind, parents[:1])
@@ -508,10 +624,13 @@ class Interpreter:
         if not children:
             return
         if link.manner == "flank":
-            self._flanked(children, owners)
+            sides = [self._sides.get(head, "") for head in things for _ in self._ref(head)]
+            self._flanked(children, owners, sides)
             return
         if each and len(children) < len(owners):
-            children = multiply(world, children, len(owners))
+            multiply(world, children, len(owners))
+            for head in things:
+                self._refs[head] = [item for group in dict.fromkeys(i.group for i in self._ref(head)) for item in group.items]
         for head in things:
             items = [item for item in self._ref(head) if item not in owners]
             if items:
@@ -563,7 +682,8 @@ class Interpreter:
         begun = self._begun(at, heads)
         implied = begun or self._previous(at)
         if chunk.link is not None:
-            parents = owners or implied
+            depth = chunk.link.kind in ("in_front_of", "behind") and not set(self._landmark[0]) & set(children)
+            parents = owners or (self._landmark[0] if depth else []) or implied
             lateral = chunk.link.kind in LATERAL_KINDS
             if owners and lateral and world.is_table(owners[0]) and not world.on_floor(children[0]):
                 others = [item for item in self._on(owners[0]) if item not in children]
@@ -631,7 +751,11 @@ class Interpreter:
             if plural is None:
                 world.note(f'"{chunk.size} {chunk.text}": of what is not said.')
                 return
+            before = set(plural.items)
             recount(world, plural, chunk.size * chunk.each)
+            for head, items in self._refs.items():
+                if set(items) == before:
+                    self._refs[head] = list(plural.items)
             if chunk.text == "rows":
                 plural.rows = chunk.size
             else:
@@ -685,11 +809,3 @@ def _same_head(group: Group, phrase: Phrase) -> bool:
     heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
     return not group.cycle and bool(wanted & heads)
 
-
-__all__ = ["Interpreter", "check_total"]
-
-
-def without_place(phrase: Phrase) -> Phrase:
-    """`phrase` that no word of place tells from others."""
-    left = tuple(word for word in phrase.modifiers.adjectives if word not in POSITIONS)
-    return replace(phrase, modifiers=replace(phrase.modifiers, adjectives=left))

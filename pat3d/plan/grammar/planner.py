@@ -11,18 +11,19 @@ from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk, Cutter
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.finish import finish
+from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lexing import Token, normalise, tokenise
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
-from pat3d.plan.grammar.world import World
+from pat3d.plan.grammar.world import Item, World
 from pat3d.plan.scene_plan import ScenePlan
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
-TRIED = 4
+TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
 CLOSE = 0.15
 """Readings that differ by less in cost are both told."""
@@ -59,25 +60,31 @@ class GrammarPlanner:
         text = normalise(prompt)
         world = World(self._likely)
         for tokens in _sentences(tokenise(text)):
-            world = self._read(text, tokens, world)
-        return finish(prompt, world, self._nouns)[0]
+            for clause in clauses(text, plainer(tokens, self._nouns), self._nouns):
+                world = self._read(text, clause, world)
+        plan, names = finish(prompt, world, self._nouns)
+        stacks = {item: not self._likely.hollow(obj) and not self._likely.level(obj) for item, obj in _nouns(world)}
+        task, notes = task_of(world.steps, names, stacks)
+        return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
-    def _read(self, text: str, tokens: Sequence[Token], world: World) -> World:
-        """`world` with what the sentence of `tokens` says."""
-        sentence = Cutter(text, tokens, self._nouns).cut()
+    def _read(self, text: str, clause: Clause, world: World) -> World:
+        """`world` with what `clause` says."""
+        sentence = Cutter(text, clause.tokens, self._nouns).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
         chunks = completed(_trimmed(sentence.chunks), self._nouns)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not chunks:
+            if clause.manner is not None:
+                world.note(f'not modelled: "{clause.said}": it names no object.')
             return world
-        readings, chunks = self._readings(chunks, world)
+        readings, chunks = self._readings(chunks, world, moving=clause.manner in ("make", "move", "stack", "sort"))
         tried: list[tuple[float, World]] = []
         error: PromptError | None = None
         for reading in readings[:TRIED]:
-            trial = copy.deepcopy(world, {id(self._likely): self._likely})
+            trial = _copied(world)
             try:
-                cost = reading.cost + Interpreter(trial, chunks, self._maker).add(reading)
+                cost = reading.cost + Interpreter(trial, chunks, self._maker, clause).add(reading)
             except PromptError as caught:
                 error = error or caught
                 continue
@@ -87,23 +94,31 @@ class GrammarPlanner:
             raise error
         return min(tried, key=lambda each: each[0])[1]
 
-    def _readings(self, chunks: list[Chunk], world: World) -> tuple[list[Node], list[Chunk]]:
+    def _readings(self, chunks: list[Chunk], world: World, *, moving: bool) -> tuple[list[Node], list[Chunk]]:
         """Readings of `chunks`, or of all but one of them, which a note then names.
 
         Raises:
             PromptError: there is none.
         """
-        if readings := Grammar(chunks, self._likely).readings():
+        if readings := Grammar(chunks, self._likely).readings(moving=moving):
             return readings, chunks
         for at, chunk in enumerate(chunks):
             if chunk.kind == "noun" and chunk.phrase and chunk.phrase.kind not in ("part", "pieces", "background"):
                 continue
             rest = _trimmed([*chunks[:at], *chunks[at + 1 :]])
-            if rest and (readings := Grammar(rest, self._likely).readings()):
+            if rest and (readings := Grammar(rest, self._likely).readings(moving=moving)):
                 if chunk.kind not in ("joint", "verb", "there", "clause"):
                     world.note(f'not understood: "{chunk.text}"')
                 return readings, rest
         raise PromptError(f"cannot read: {' | '.join(f'{chunk.kind}:{chunk.text}' for chunk in chunks)}")
+
+
+def _copied(world: World) -> World:
+    return copy.deepcopy(world, {id(world.likely): world.likely})
+
+
+def _nouns(world: World) -> list[tuple[Item, str]]:
+    return [(item, world.noun(item)) for item in world.items()]
 
 
 def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:

@@ -22,6 +22,11 @@ _SUPPORTING = (
 """Flat enough to carry one thing, besides furniture and dishes."""
 
 
+LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone", "barrel",
+          "tv", "dog", "rabbit", "robot", "globe", "drum", "broom", "toy truck", "ladder")  # fmt: skip
+"""What may stand on the floor as well as on a table."""
+
+
 class Plausible:
     """Costs of relations between catalogue nouns; 0 for the ordinary, 3 for what hardly happens."""
 
@@ -51,7 +56,7 @@ class Plausible:
     def on(self, child: str, parent: str) -> float:
         """Of `child` resting on `parent`."""
         if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
-            return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 0.3
+            return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 0.8
         if self.floor(child):
             return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
@@ -91,7 +96,7 @@ class Plausible:
         if self.floor(child) == self.floor(parent):
             return 0.1
         lone = child if self.floor(parent) else parent
-        return 0.7 if self.is_a(lone, lexicon.BY_A_SEAT) else 1.1
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.0
 
     def relation(self, link: Link, child: str, parent: str) -> float:
         """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chart import Node, Rule, parse
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexicon import DEMONSTRATIVES
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
@@ -23,6 +24,16 @@ _LEAVES = {
     "verb": "V", "there": "E", "which": "W",
 }  # fmt: skip
 _HEADLESS = ("pieces", "part")
+
+
+def _list_cost(joints: str) -> float:
+    """How unusual it is to list with these joints: "," and "&" for "and", ";" for ", and"."""
+    closers = len(joints) - joints.count(",")
+    if not closers:
+        return 0.3 if joints else 0.0
+    early = sum(joint != "," for joint in joints[:-1])
+    cost = early * (0.35 if "," in joints else 0.05) + (0.3 if joints.endswith(",") else 0.0)
+    return cost + (0.15 if joints == ";" else 0.0)
 
 
 class Grammar:
@@ -44,23 +55,43 @@ class Grammar:
             # Clauses
             ("E", "L"): [self._existing], ("C", "EL"): [self._joined], ("M", "EL"): [self._fronted],
             ("M", "CEL"): [self._fronted], ("M", "CL"): [self._fronted], ("M", "L"): [self._fronted],
-            ("M", "VL"): [self._fronted], ("C", "S"): [self._clause], ("X", "S"): [self._clause],
+            ("M", "VL"): [self._fronted], ("M", "S"): [self._fronted_clause], ("M", "CS"): [self._fronted_clause],
+            ("C", "S"): [self._clause], ("X", "S"): [self._clause],
             ("X", "L"): [self._clause], ("C", "W"): [lambda a, b: replace(b, start=a.start)],
             ("S", "CS"): [self._clauses], ("L", "CS"): [self._clauses], ("S", "CL"): [self._clauses],
-            ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front], ("S", "CM"): [self._late],
+            ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front], ("CM", "CL"): [self._clause_front], ("S", "CM"): [self._late],
         }  # fmt: skip
         self._unary: dict[str, list[Callable[[Node], Node | None]]] = {
             "A": [self._place], "F": [self._place], "EL": [lambda node: replace(node, cat="S")],
         }
 
-    def readings(self) -> list[Node]:
-        """Readings of the whole sentence, likeliest first."""
+    def readings(self, *, moving: bool = False) -> list[Node]:
+        """Readings of the whole sentence, likeliest first; of what is `moving`, those that say where to before all."""
         leaves = [
             Node(cat=_LEAVES[chunk.kind], start=at, heads=(at,) if chunk.kind == "noun" else (), mod=(at,))
             for at, chunk in enumerate(self._chunks)
         ]
         leaves = [replace(leaf, mod=None) if leaf.cat == "L" else leaf for leaf in leaves]
-        return parse(leaves, self._rules, self._unary, ("L", "S"))
+        if not moving:
+            return parse(leaves, self._rules, self._unary, ("L", "S"))
+        rules = {**self._rules, ("L", "M"): [self._modified, self._goal], ("L", "CM"): [self._modified, self._goal]}
+        made = parse(leaves, rules, self._unary, ("IM", "L", "S"))
+        return [node for node in made if node.cat == "IM"] or made
+
+    def _goal(self, named: Node, modifier: Node) -> Node | None:
+        """"the mug" + "on the plate", where it is to go."""
+        kind, at = modifier.mod  # type: ignore[misc]
+        if kind != "link" or self._link(at).inverse or self._link(at).manner == "source":
+            return None
+        link = self._link(at)
+        cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
+        # What is told of with the object itself keeps near to it.
+        cost += 0.15 * ("modified" in named.flags)
+        cost += sum(
+            self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
+        )
+        facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
+        return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
 
     def _phrase(self, at: int) -> Phrase:
         phrase = self._chunks[at].phrase
@@ -130,24 +161,55 @@ class Grammar:
             cost += 0.1
         if "colon" in named.flags:
             cost += 0.3
+        inner = kind == "place" or (kind == "link" and self._is_pronoun(modifier.heads) and not self._link(at).inverse)
+        if "told" in named.flags and "finite" not in modifier.flags:
+            cost += 0.4
+        if kind == "link" and not self._link(at).inverse and self._only_background(named.heads):
+            cost += 0.6
+        if kind == "link" and (self._link(at).manner == "of" or self._link(at).filling) and "finite" not in modifier.flags:
+            # "a bowl of oranges": of what stands directly before.
+            if named.heads != (at - 1,):
+                return None
+        inner = inner and self._chunks[at].text not in ("one", "other")
+        if inner and "having" in named.flags and modifier.cat == "M" and "finite" not in modifier.flags:
+            # "a crate with a dog on top": what stands behind the dog is said of the dog.
+            cost += 0.6
+        if kind == "link" and self._link(at).inverse:
+            flags |= {"having"}
+        if kind != "link" or not self._link(at).inverse:
+            flags |= {"placed"}
         if kind != "link":
             if kind == "form" and len(named.heads) == 1 and not self._several(named.heads[0]):
                 cost += 0.6
+            if kind == "form" and self._chunks[at].text == "tower" and len(named.heads) != self._chunks[at].size:
+                return None
+            if self._chunks[at].text in ("one", "other"):
+                cost += 0.5
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
-                cost += 0.25
+                close = self._chunks[at].link is None and "," not in named.joints
+                cost += 0.2 if close else 0.45
             said = (kind, at, named.heads, ()) if kind == "place" else (kind, at, named.heads)
             return Node("L", named.start, cost, named.heads, (*facts, said), named.joints, flags)
         link = self._link(at)
         if len(named.heads) > 1 and link.inverse:
             cost += 0.9
+        if link.manner == "include":
+            listed = ("include", at, named.heads, modifier.heads)
+            cost += 0.0 if len(named.heads) == 1 and self._several(named.heads[0]) else 1.5
+            told = all(self._phrase(head).kind in _HEADLESS for head in modifier.heads)
+            heads = named.heads if told else modifier.heads
+            return Node("L", named.start, cost, heads, (*facts, listed), named.joints, flags | {"included"})
         if link.inverse:
             made, extra = self._having(at, link, named.heads, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
         extra = self._arcs(link, named.heads, modifier.heads)
         if link.kind in SUPPORT_KINDS and link.manner == "place":
             extra += sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
-        if self._is_pronoun(modifier.heads) and self._holder(named, modifier.heads[0]):
-            cost += 0.0
+        if link.manner == "under" and modifier.heads[:1] != (self._carrier(modifier.heads[0], modifier.facts),):
+            # "A book under a lamp on a table": the book is on the table.
+            cost += 0.6
+        if any(self._again_named(head, named.heads) for head in modifier.heads):
+            cost += 1.0
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
 
@@ -156,28 +218,33 @@ class Grammar:
         told = (fact for fact in facts if fact[0] == "rel" and head in fact[2] and len(fact[2]) == 1)
         return 0.25 if any(self._link(fact[1]).kind in SUPPORT_KINDS for fact in told) else 0.0
 
-    def _holder(self, named: Node, pronoun: int) -> bool:
-        return bool(named.heads) and pronoun > named.start
-
     def _having(self, at: int, link: Link, owners: tuple[int, ...], modifier: Node) -> tuple[list[tuple], float]:
         """Facts of `owners` with what `modifier` names: in or on them, or where it says ("a pen inside")."""
         facts: list[tuple] = []
         placed: set[int] = set()
         cost = 0.0
         for fact in modifier.facts:
-            if fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3] and not placed & set(fact[2]):
+            ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
+            if ours and link.manner == "flank":
+                facts.append(("side", fact[1], fact[2]))
+                cost -= 0.5
+                continue
+            if ours and not placed & set(fact[2]):
                 facts.append(("place", fact[1], fact[2], owners))
                 placed |= set(fact[2])
                 said = self._chunks[fact[1]].link
                 if said is not None:
-                    cost += self._arcs(said, fact[2], owners)
+                    near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
+                    cost += 0.1 if near else self._arcs(said, fact[2], owners)
                 continue
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._is_pronoun(fact[3]):
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
                 placed |= set(fact[2])
             facts.append(fact)
-        left = tuple(head for head in modifier.heads if head not in placed)
+        carriers = {head: self._carrier(head, modifier.facts) for head in modifier.heads}
+        left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
+        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
         if left:
             facts.append(("have", at, owners, left))
             parts = [head for head in left if self._phrase(head).kind in _HEADLESS]
@@ -189,8 +256,23 @@ class Grammar:
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
         if link.manner == "of" and left:
+            cost += 0.6 * (len(modifier.heads) > 1)
             cost += 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
         return facts, cost
+
+    def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
+        """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
+        phrase = self._phrase(head)
+        same = phrase.definite and not phrase.other and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
+        return same or (phrase.head == "each" and len(heads) > 1)
+
+    def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
+        """What "with a lamp on two books" has: the books."""
+        for fact in facts:
+            if fact[0] == "rel" and head in fact[2] and self._link(fact[1]).kind in SUPPORT_KINDS:
+                if self._link(fact[1]).manner == "place" and self._phrase(fact[3][0]).kind in ("object", "unknown"):
+                    return fact[3][0] if fact[3][0] != head else head
+        return head
 
     def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
         costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
@@ -198,9 +280,14 @@ class Grammar:
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
         return len(heads) == 1 and (
-            self._phrase(heads[0]).kind == "pronoun"
+            (self._phrase(heads[0]).kind == "pronoun" and self._phrase(heads[0]).head not in DEMONSTRATIVES)
             or (self._phrase(heads[0]).kind == "part" and self._phrase(heads[0]).possessive)
         )
+
+    def _means(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether the pronoun `heads` may mean `owners`."""
+        plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
+        return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
 
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
@@ -229,29 +316,34 @@ class Grammar:
                 self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head)) for head in rest.heads
             ) / len(rest.heads)
             return Node("L", first.start, cost + extra, first.heads, (*facts, said), "", first.flags | {"colon"})
-        if "&" == mark and set(later) & {",", ";"}:
-            cost += 0.5
-        if mark in "&;" and "&" in later:
-            cost += 0.1 if "," not in later else 0.6
-        if mark == "," and not set(later) & {"&", ";"}:
-            cost += 0.3
-        if mark == ";" and not later and not first.joints:
-            cost += 0.15
+        if first.joints and "modified" not in first.flags:
+            return None
+        cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
         headless = [self._phrase(head).kind in _HEADLESS for head in rest.heads]
         if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
             flags = first.flags | (rest.flags & {"finite"}) | {"told"}
+            cost += 0.8 * sum(self._says_nothing(head, rest.facts) for head in rest.heads)
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         if any(headless) and not all(headless):
             cost += 0.4
-        if "modified" in rest.flags and "modified" not in first.flags and len(rest.heads) == 1:
-            cost += 0.15
+        if "placed" in rest.flags and "placed" not in first.flags:
+            # "a mug and a plate on a table": what stands behind a list is said of all of it, or of its last.
+            cost += 0.3 if len(rest.heads) == 1 else 0.6
         if "modified" in first.flags:
             cost += 0.15 if "finite" not in first.flags else 0.3
         if "finite" in rest.flags and "finite" not in first.flags:
             cost += 0.4
-        flags = (first.flags | rest.flags) - {"comma", "modified"}
-        return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints + first.joints, flags)
+        flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
+        return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+
+    def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
+        words = self._phrase(head).modifiers
+        told = words.colours or words.palette or words.size_word or words.material or words.adjectives
+        return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
+
+    def _only_background(self, heads: tuple[int, ...]) -> bool:
+        return all(self._phrase(head).kind == "background" and not self._phrase(head).substance for head in heads)
 
     def _predicated(self, verb: Node, named: Node) -> Node:
         return replace(named, cat="VL", start=verb.start)
@@ -285,16 +377,26 @@ class Grammar:
             return None
         first = modifier.heads[:1] if link is not None else ()
         facts = (*whole.facts, ("subject", named.heads, modifier.start), *((("front", first),) if first else ()))
+        if named.cat == "CL" and not named.joints.startswith(":"):
+            facts = (*facts, ("comma front", modifier.start))
         if len(named.heads) > 1:
             cost -= 0.1
         return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
 
+    def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
+        """"On a table," + "from left to right: a mug and a bowl"."""
+        if any(fact[0] == "front" for fact in clause.facts):
+            return None
+        return self._fronted(modifier, replace(clause, cat="CL"))
+
     def _clause(self, joint: Node, clause: Node) -> Node:
-        return replace(clause, cat="CS", start=joint.start, cost=clause.cost + 0.2)
+        comma = 0.9 * any(fact[0] == "comma front" for fact in clause.facts)
+        return replace(clause, cat="CS", start=joint.start, cost=clause.cost + 0.2 + comma)
 
     def _clause_front(self, modifier: Node, named: Node) -> Node | None:
         made = self._fronted(replace(modifier, cat="M"), named)
-        return None if made is None else replace(made, cat="CS", cost=made.cost + 0.2)
+        comma = 0.9 * (named.cat == "CL")
+        return None if made is None else replace(made, cat="CS", cost=made.cost + 0.2 + comma)
 
     def _clauses(self, first: Node, second: Node) -> Node:
         subject = () if any(fact[0] == "subject" and fact[1] == first.heads for fact in first.facts) else (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
@@ -12,6 +13,9 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.scene_plan import ArrangementKind
 from pat3d.scene.model import LateralKind, RelationKind
+
+if TYPE_CHECKING:
+    from pat3d.plan.grammar.instructions import Step
 
 MAX_OBJECTS = 60
 """Objects in one scene."""
@@ -109,6 +113,8 @@ class World:
         self.laterals: list[Edge] = []
         self.sided: list[Sided] = []
         self.arranged: list[Arranged] = []
+        self.steps: list[Step] = []
+        """What an instruction asks for."""
         self.aside: list[str] = []
         self.notes: list[str] = []
         self.subject: list[Item] = []
@@ -198,7 +204,9 @@ class World:
             PromptError: the prompt has an object carry itself.
         """
         tops = self.tops(parents)
-        for index, child in enumerate(self.bases(children)):
+        # Of a tower the lowest stands on what the tower is on.
+        lowest = [child for child in self.bases(children) if not set(self.ancestors(child)) & set(children)]
+        for index, child in enumerate(lowest):
             self._put(child, kind, tops[index % len(tops)], weak)
 
     def _put(self, child: Item, kind: RelationKind, parent: Item, weak: bool) -> None:
