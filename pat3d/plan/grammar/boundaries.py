@@ -72,14 +72,19 @@ class Boundaries:
             return False
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
+        if word in lexicon.VERBS and link_at(self._tokens, at + 1):
+            return True
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
+        if word in lexicon.DIRECTIONS:
+            return True
         posture = word in lexicon.VERBS and not self._names_a_stand(words, at)
         verb = is_marked(word) or multi or posture or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
         verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
             follower = self._tokens[at + 1]
             runs_on = not follower.mark and follower.text not in ("and", "or", "of")
+            runs_on = runs_on or follower.text in ("out", "up", "down", "off", "away")
             verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
         return bool(verb) and not self._extends(words, word)
 

@@ -128,6 +128,8 @@ class Cutter:
         if token.mark:
             self._at += 1
             return None
+        if self._unsaid(word, follower):
+            return None
         if is_marked(word):
             return self._mark()
         if word in lexicon.MOOD_VERBS and self._made.chunks and not (word == "lit" and follower != "by"):
@@ -178,6 +180,29 @@ class Cutter:
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         return self._add("noun", after - self._at, phrase=phrase)
+
+    def _unsaid(self, word: str, follower: str) -> bool:
+        """Name what no scene has and go on behind it: purposes, directions, the viewer."""
+        if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            return self._leave(read[1] - self._at)
+        if word == "which" and follower in ("means", "ensures", "makes"):
+            self._remark()
+            return True
+        if word in lexicon.DIRECTIONS:
+            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
+            return self._leave(3 if to else 1)
+        size = link_at(self._tokens, self._at)
+        if size and self._word(size) in lexicon.VIEWERS and (
+            self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or")
+        ):
+            return self._leave(size + 1)
+        return False
+
+    def _leave(self, size: int) -> bool:
+        words = self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end]
+        self._made.unread.append(words)
+        self._at += size
+        return True
 
     def _names(self, word: str, follower: str) -> bool:
         return self._nouns.match([word, follower]) is not None
@@ -256,6 +281,7 @@ class Cutter:
             link_at(self._tokens, self._at + 1)
             or self._tokens[self._at + 1].mark
             or follower in lexicon.ADVERBS
+            or follower in ("out", "off", "away")
             or follower.endswith("ly")
         )
         if word in lexicon.PARTICIPLES or (word in lexicon.COMMANDS and after_phrase and moving):
@@ -315,7 +341,7 @@ class Cutter:
         follows = self._tokens[self._at + size]
         bare = " ".join(key) in _BARE_PLACES and (
             follows.mark or follows.text in ("and", "while", "which", "that", "there", "but", "or")
-            or follows.text in lexicon.COPULAS or (link_at(self._tokens, self._at + size) > 0 and self._last is not None
+            or follows.text in lexicon.COPULAS or follows.text in lexicon.VERBS or (link_at(self._tokens, self._at + size) > 0 and self._last is not None
                                                   and self._last.kind == "noun")
         )  # fmt: skip
         if bare:

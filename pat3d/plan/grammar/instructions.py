@@ -6,7 +6,7 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -25,7 +25,7 @@ Manner = Literal["make", "move", "stack", "pick", "unload", "sort", "other"]
 _VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",
                      "balance", "scatter", "spread", "stick", "keep", "distribute", "rest", "center", "centre",
-                     "line", "align", "sit", "fill"), "make"),
+                     "line", "sit", "fill"), "make"),
     **dict.fromkeys(("move", "bring", "transport", "transfer", "carry", "drop", "insert", "throw", "toss", "pack",
                      "store", "return", "deliver", "relocate", "hand", "pass", "organize", "organise", "push", "slide",
                      "drag", "add", "collect", "clean", "plate", "load", "deposit"), "move"),
@@ -36,7 +36,7 @@ _VERBS: dict[str, Manner] = {
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
-                     "unplug", "unstack", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch", "tidy",
+                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch", "tidy",
                      "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble"), "other"),
 }  # fmt: skip
@@ -51,7 +51,7 @@ _ASKING = (
     ("could", "you"), ("can", "you"), ("would", "you"), ("will", "you"), ("you", "should"), ("you", "must"),
     ("you", "need", "to"), ("i", "want", "you", "to"), ("help", "me"), ("help", "me", "to"), ("let's",), ("let", "us"),
     ("your", "task", "is", "to"), ("the", "task", "is", "to"), ("make", "sure", "to"), ("go", "and"), ("you", "have", "to"),
-    ("please", "help", "me"),
+    ("please", "help", "me"), ("go",),
 )  # fmt: skip
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
 _PARTICLES = frozenset({"up", "down", "away", "back", "out", "over", "off", "on", "close"})
@@ -222,13 +222,16 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
     return 0
 
 
-def task_of(steps: Sequence[Step], names: Mapping[Item, str], stacks: Mapping[Item, bool]) -> tuple[str | None, list[str]]:
+def task_of(
+    steps: Sequence[Step], names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]
+) -> tuple[str | None, list[str]]:
     """The one task that `steps` are, None where no kind of task is, and notes on what is not in it.
 
     Args:
         steps: what to do, in order.
         names: of the objects of the plan.
         stacks: whether something is stacked on an object rather than put into it.
+        fixed: what no robot moves: furniture.
     """
     notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
     wanted = [step for step in steps if step.manner != "other" and step.items]
@@ -240,7 +243,7 @@ def task_of(steps: Sequence[Step], names: Mapping[Item, str], stacks: Mapping[It
     ]
     specs: list[str] = []
     for step in wanted:
-        made = _specs(step, names, stacks)
+        made = _specs(step, names, stacks, fixed)
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
@@ -250,8 +253,12 @@ def task_of(steps: Sequence[Step], names: Mapping[Item, str], stacks: Mapping[It
     return (specs[0] if specs else None), notes
 
 
-def _specs(step: Step, names: Mapping[Item, str], stacks: Mapping[Item, bool]) -> list[str]:
+def _specs(
+    step: Step, names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]
+) -> list[str]:
     items = [names[item] for item in step.items if item in names]
+    if step.manner not in ("unload", "sort"):
+        items = [names[item] for item in step.items if item in names and item not in fixed]
     if step.manner == "unload":
         return [f"unload:{items[0]}"] if items else []
     if step.manner == "sort":

@@ -60,7 +60,8 @@ class Interpreter:
         self._clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
-        self._related_heads = [(set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list")]
+        self._related_heads = [(set(fact[2]), set(fact[3])) for fact in facts
+                               if fact[0] in ("rel", "have", "list", "goal")]  # fmt: skip
         for at, chunk in enumerate(self._chunks):
             if chunk.phrase is not None:
                 self._create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
@@ -89,7 +90,8 @@ class Interpreter:
         if self._clause.manner is not None:
             world.subject = subject or world.subject
         world.landmark = self._landmark
-        self.cost += self._loose()
+        if self._clause.manner is None:
+            self.cost += self._loose()
         return self.cost
 
     def _loose(self) -> float:
@@ -115,7 +117,7 @@ class Interpreter:
         kinds: dict[int, int] = {}
         for fact in facts:
             link = self._chunks[fact[1]].link if fact[0] == "have" else None
-            if link is not None and link.filling:
+            if link is not None and link.filling and len(fact[3]) == 1:
                 fillings |= set(fact[3])
             if fact[0] == "include":
                 kinds |= dict.fromkeys(fact[3], fact[2][0])
@@ -128,7 +130,7 @@ class Interpreter:
         link = self._chunks[at].link
         assert link is not None
         parents = self._refs_of(parent_heads, link, child_heads)
-        children = self._refs_of(child_heads, link, parent_heads)
+        children = self._refs_of(child_heads, link, parent_heads, child=True)
         phrases = [self._chunks[head].phrase for head in child_heads]
         made_up = self._clause.manner in ("make", "stack") and all(
             phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
@@ -154,10 +156,12 @@ class Interpreter:
             return
         for head in parent_heads:
             self._note_part(head)
+        self._not_understood((*child_heads, *parent_heads))
         self._step(children, link, parents)
 
     def _done(self, heads: Sequence[int]) -> None:
         children = self._refs_of(heads)
+        self._not_understood(heads)
         phrases = [self._chunks[head].phrase for head in heads]
         made_up = all(phrase is not None and phrase.determined and not phrase.definite for phrase in phrases)
         if self._clause.manner == "stack" and made_up:
@@ -225,7 +229,8 @@ class Interpreter:
         besides = {item.group for head in partners if head < at for item in self._refs.get(head, ())}
         for same in (_same_noun, _same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
-                if same is _same_head and group in besides:
+                own = group.modifiers.colours or (group.items[0].colours or ())
+                if group in besides and (same is _same_head or phrase.modifiers.colours != own):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
@@ -362,17 +367,21 @@ class Interpreter:
             return [item for head in self._bound[at] for item in self._ref(head)]
         return []
 
-    def _refs_of(self, heads: Sequence[int], link: Link | None = None, other: Sequence[int] = ()) -> list[Item]:
+    def _refs_of(
+        self, heads: Sequence[int], link: Link | None = None, other: Sequence[int] = (), *, child: bool = False
+    ) -> list[Item]:
+        """What `heads` speak of; of a pronoun, what makes `link` to or from (`child`) the `other` heads likely."""
         made: list[Item] = []
         for head in heads:
             phrase = self._chunks[head].phrase
             pronoun = phrase is not None and (phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive))
             if pronoun and head not in self._bound and head not in self._refs:
-                self._refs[head] = self._pronoun(head, link, [item for each in other for item in self._ref(each)])
+                others = [item for each in other for item in self._ref(each)]
+                self._refs[head] = self._pronoun(head, link, others, child=child)
             made += [item for item in self._ref(head) if item not in made]
         return [item for item in made if not item.group.replaced]
 
-    def _pronoun(self, at: int, link: Link | None, other: Sequence[Item]) -> list[Item]:
+    def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
         phrase = self._chunks[at].phrase
         assert phrase is not None
@@ -404,7 +413,8 @@ class Interpreter:
                 cost += 0.4
             if link is not None and other:
                 world = self._world
-                cost += world.likely.relation(link, world.noun(other[0]), world.noun(items[0]))
+                pair = (items[0], other[0]) if child else (other[0], items[0])
+                cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
             if best is None or cost < best[0]:
                 best = (cost, list(items))
         if best is None:
@@ -413,6 +423,10 @@ class Interpreter:
             return []
         self.cost += min(best[0], 1.5)
         return best[1]
+
+    def _open(self, at: int) -> bool:
+        """Whether chunk `at` is a pronoun of which it is still to be found what it means."""
+        return self._is_pronoun(at) and at not in self._bound and at not in self._refs
 
     def _is_pronoun(self, at: int) -> bool:
         phrase = self._chunks[at].phrase
@@ -423,16 +437,17 @@ class Interpreter:
     def _related(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         link = self._chunks[at].link
         assert link is not None
-        children = self._refs_of(child_heads)
-        parents = self._refs_of(parent_heads, link, child_heads)
-        if not children:
-            children = self._refs_of(child_heads, link, parent_heads)
+        parents: list[Item] = []
+        if not any(self._open(head) for head in child_heads):
+            parents = self._refs_of(parent_heads, link, child_heads)
+        children = self._refs_of(child_heads, link, parent_heads, child=True)
+        parents = parents or self._refs_of(parent_heads, link, child_heads)
         places = [self._chunks[head].phrase for head in parent_heads]
         for head in parent_heads:
             self._note_part(head)
         if not children or not parents:
-            if parents and not children:
-                self._of_everything(child_heads, link, parents)
+            if not (parents and not children and self._of_everything(child_heads, link, parents)):
+                self._not_understood((*child_heads, *parent_heads))
             return
         phrase = places[0]
         several = any(head in self._each for head in (*child_heads, *parent_heads)) or any(
@@ -444,20 +459,27 @@ class Interpreter:
             children = multiply(self._world, children, len(parents))
         self.relate(children, link, parents, one_of=phrase is not None and phrase.one_of)
 
-    def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> None:
+    def _not_understood(self, heads: Sequence[int]) -> None:
+        for head in heads:
+            phrase = self._chunks[head].phrase
+            if phrase is not None and not self._ref(head) and phrase.kind in ("items", "pieces", "part", "pronoun"):
+                self._world.note(f'not understood: "{phrase.words}"')
+
+    def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
         """"Everything is on a table": all that is not yet carried."""
         world = self._world
         kinds = {self._chunks[head].phrase.kind for head in heads if self._chunks[head].phrase}  # type: ignore[union-attr]
         if "items" not in kinds:
-            return
+            return False
         free = [item for item in world.items() if world.support(item) is None and item not in parents]
         free = [item for item in free if not world.on_floor(item)]
         if free:
             self.relate(free, link, parents)
+        return bool(free)
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if phrase is not None and phrase.part in lexicon.DRAWERS and phrase.kind == "object":
+        if phrase is not None and phrase.part in lexicon.DRAWERS | lexicon.DETACHED and phrase.kind == "object":
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def relate(self, children: list[Item], link: Link, parents: list[Item], *, one_of: bool = False) -> None:
@@ -540,7 +562,8 @@ class Interpreter:
         child, parent = children[0], parents[0]
         world.forget_guess(child, parent)
         table = world.is_a(child, ("table",)) and not world.on_floor(parent)
-        thin = world.is_a(child, lexicon.THIN) and not table
+        rug = world.is_a(child, ("rug", "mat", "carpet", "blanket")) or not world.on_floor(parent)
+        thin = world.is_a(child, lexicon.THIN) and not table and rug
         if thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
             world.place(parents, "on", children)
             world.arrange("under", children, parents)

@@ -40,7 +40,7 @@ SHADE_WORDS = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "war
 DETERMINERS = frozenset({
     "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "any", "all",
 })  # fmt: skip
-DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both"})
+DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both", "all", "any"})
 DEMONSTRATIVES = frozenset({"that", "this"})
 """Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their"})
@@ -49,14 +49,15 @@ PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "thems
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({
     "sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean", "perches",
-    "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
+    "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
-    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "propped", "laid",
+    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "nestled", "wedged", "stuck", "squeezed", "nestling", "planted", "served", "shown", "seen",
+    "parked", "strewn", "lined", "sprawled", "tossed", "cast", "propped", "laid",
     "floating", "sleeping", "scattered", "left", "hanging", "mounted", "lined", "spread", "kept", "stored", "tucked",
     "put", "facing", "crouching", "kneeling", "waiting", "posing", "dropped", "organised", "organized", "grouped",
 })  # fmt: skip
@@ -114,7 +115,7 @@ PARTS = frozenset({
     "texture", "finish", "design", "base", "eye", "ear", "tail", "nose", "spine", "trim", "accent", "print", "foot",
     "paw", "hand", "arm", "armrest", "shelf", "drawer", "mattress", "corner", "surface", "fur", "body", "beak",
     "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
-    "end", "half", "tip", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
+    "end", "half", "tip", "blade", "button", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
 })  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({
@@ -281,3 +282,27 @@ CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "di
 """What things go into through a door, a drawer or a lid."""
 SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture", "color", "colour"})
 """Parts that every object has: to name them says nothing."""
+DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob", "drawers", "doors", "shelf", "button"})
+"""Parts with a name that is a thing's too: "the lid of the box" is the box."""
+ALIASES = {"container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser"}
+"""Words for what the catalogue knows by another name."""
+VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
+DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther", "clockwise",
+                        "counterclockwise", "sideways"})  # fmt: skip
+HONOURED = frozenset({
+    "square", "cubic", "flat", "tall", "long", "rectangular", "striped", "high", "deep", "short", "shallow", "low",
+    "wide", "narrow", "baby", "young", "newborn", "lit", "burning", "flickering", "thin", "slim", "thick", "heavy",
+    "round", "landscape", "kitten",
+})  # fmt: skip
+"""Adjectives that recipes of the catalogue make something of."""
+SAID_OTHERWISE = frozenset({
+    "other", "same", "different", "another", "single", "own", "more", "left", "right", "middle", "first", "second",
+    "third", "fourth", "fifth", "last", "leftmost", "rightmost", "front", "back", "alternating", "stacked", "of",
+    "smallest", "largest", "biggest", "smaller", "larger", "bigger", "center", "centre", "normal", "regular", "standard",
+    "ordinary", "typical", "real", "whole", "colored", "coloured", "matching", "identical", "potted", "plush", "stuffed",
+})  # fmt: skip
+"""Adjectives that tell which, or say nothing."""
+PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine", "newspaper", "pancake", "notebook",
+         "envelope", "cardboard sheet", "plank", "cushion", "pillow", "tray", "blanket", "cutting board", "bowl",
+         "cup", "crate", "t-shirt", "jeans", "waffle", "stack of paper", "placemat", "napkin")  # fmt: skip
+"""What a pile of is a stack."""

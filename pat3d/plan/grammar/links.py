@@ -121,7 +121,7 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
-    add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
+    add(Link(manner="hold", finite=True), "holds", "hold", "held", "contained", "contains", "contain", "carries", "carry", "supports",
         "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
         "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pat3d.assets.colours import COLOURS
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.modifiers import Modifiers
+from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import MAX_OBJECTS, Group, Item, World
@@ -41,12 +41,32 @@ class Maker:
         group.items = [Item(group=group) for _ in range(count)]
         if phrase.left_out:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
+        if phrase.substance:
+            world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
+        self._note_adjectives(world, phrase)
         if kind is not None:
             self._take_after(world, group, kind)
         share_colours(group)
         world.groups.append(group)
         check_total(world)
         return group
+
+    def _note_adjectives(self, world: World, phrase: Phrase) -> None:
+        """Say which words describe the object and make no difference to it."""
+        said = f'"{phrase.words}"'
+        idle: list[str] = []
+        for word in phrase.modifiers.adjectives:
+            if word in lexicon.HONOURED | lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
+                continue
+            kind = self._nouns.match([word]) is not None or word in lexicon.SUBSTANCES
+            if kind and not is_modifier(word):
+                world.note(f'"{word}" of {said} is left out: it is made as a "{phrase.said or phrase.head}".')
+            elif (colour := nearest_colour(word)) and not is_modifier(word):
+                world.note(f'"{word}" of {said} is no colour known here; did you mean "{colour}"?')
+            else:
+                idle.append(f'"{word}"')
+        if idle:
+            world.note(f"not modelled: {', '.join(idle)} of {said}")
 
     def _proxy(self, world: World, phrase: Phrase) -> tuple[str, str, bool]:
         if self._allow_proxies:

@@ -183,6 +183,11 @@ class PhraseReader:
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
+        if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
+            # "the top dresser drawer", "the cabinet shelf"
+            whole = self._simple(run[:-1], count)
+            if whole.kind == "object" and not whole.cycle:
+                return replace(whole, part=head)
         found = self._nouns.longest(words)
         if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):
             match, used = found
@@ -229,7 +234,8 @@ class PhraseReader:
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
             rolls = inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)
-            if lexicon.HEAPS & set(singular) or ("pile" in singular and rolls):
+            flat = self._nouns.of_class(inner.noun, lexicon.PILES) or not inner.noun
+            if lexicon.HEAPS & set(singular) or ("pile" in singular and (rolls or not flat)):
                 amount = inner.count or lexicon.STACK_HEIGHT
                 return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
                                modifiers=inner.modifiers.under(own)), after  # fmt: skip
@@ -263,6 +269,8 @@ class PhraseReader:
         part = any(word in lexicon.PARTS for word in singular)
         if known is None:
             part = part and (inner.definite or not plural)
+        elif head in lexicon.DETACHED and inner.definite:
+            part = True
         else:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)

@@ -64,7 +64,8 @@ class GrammarPlanner:
                 world = self._read(text, clause, world)
         plan, names = finish(prompt, world, self._nouns)
         stacks = {item: not self._likely.hollow(obj) and not self._likely.level(obj) for item, obj in _nouns(world)}
-        task, notes = task_of(world.steps, names, stacks)
+        fixed = {item for item in world.items() if world.on_floor(item)}
+        task, notes = task_of(world.steps, names, stacks, fixed)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
     def _read(self, text: str, clause: Clause, world: World) -> World:

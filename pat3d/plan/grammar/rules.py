@@ -166,7 +166,9 @@ class Grammar:
             cost += 0.4
         if kind == "link" and not self._link(at).inverse and self._only_background(named.heads):
             cost += 0.6
-        if kind == "link" and (self._link(at).manner == "of" or self._link(at).filling) and "finite" not in modifier.flags:
+        if kind == "link" and (self._link(at).manner == "of" or self._link(at).filling) and not modifier.flags & {
+            "finite", "which"
+        }:
             # "a bowl of oranges": of what stands directly before.
             if named.heads != (at - 1,):
                 return None

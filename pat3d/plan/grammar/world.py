@@ -228,7 +228,8 @@ class World:
         if old is not None and not old.weak:
             below = old.parent
             free = self.support(below) is None and not self.on_floor(below)
-            if not weak and self.is_table(parent) and free and parent is not below:
+            carries = self.is_table(parent) or self.likely.on(self.noun(below), self.noun(parent)) < 1.0
+            if not weak and carries and free and parent is not below:
                 # "A lamp on a book" that is "on a table": the book is.
                 self._put(below, kind, parent, False)
             if weak or parent is below or parent in self.ancestors(child):
