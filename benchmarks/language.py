@@ -95,7 +95,7 @@ def _wanted(phrase: str) -> Wanted:
     nouns: set[str] = set()
     for name in names:
         parts = name.split()
-        while len(parts) > 1 and (find_colour(parts[0]) or parts[0] in ("small", "large", "big")):
+        while len(parts) > 1 and not _NOUNS.match(parts) and (find_colour(parts[0]) or parts[0] in ("small", "large", "big")):
             if colour := find_colour(parts.pop(0)):
                 colours.add(colour)
         said = " ".join(parts)

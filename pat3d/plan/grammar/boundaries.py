@@ -127,7 +127,7 @@ class Boundaries:
             for ahead in (1, 2):
                 if back <= len(run) and at + ahead < len(tokens):
                     words = [token.text for token in (*run[-back:], *tokens[at : at + ahead + 1])]
-                    if self._nouns.match(words):
+                    if not lexicon.DETERMINERS & set(words) and self._nouns.match(words):
                         return True
         return False
 

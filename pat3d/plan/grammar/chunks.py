@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -14,6 +14,7 @@ from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Lin
 from pat3d.plan.grammar.measures import Measure, is_measure
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase, PhraseReader
+from pat3d.plan.grammar.plausible import sense
 from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -72,7 +73,9 @@ class Sentence:
 class Cutter:
     """Cuts the tokens of one sentence, which end in a stop, into chunks."""
 
-    def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns) -> None:
+    def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns, company: Collection[str] = ()) -> None:
+        """Cut `tokens` of `text`; `company` are the words of the whole prompt, which tell senses."""
+        self._company = company
         self._text = text
         # Looking ahead never runs over the end: stops follow the stop.
         self._tokens = [*tokens, *[tokens[-1]] * (LONGEST_LINK + 4)]
@@ -169,6 +172,9 @@ class Cutter:
             return self._add("verb")
         if self._meaningless(word, follower):
             return self._drop()
+        if word == "both" and follower in ("a", "an", "the") and self._correlative():
+            self._at += 1
+            return None
         if word == "both" and (follower in ("a", "an") or self._tokens[self._at + 1].mark):
             return self._pronoun("them")
         read = self._phrases.read(self._at)
@@ -177,9 +183,15 @@ class Cutter:
         phrase, after = read
         if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
             return self._aside(after + 1 - self._at)
+        if phrase.kind == "object" and {phrase.said, phrase.head} & lexicon.SENSES.keys():
+            phrase = self._sense(phrase)
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
-        return self._add("noun", after - self._at, phrase=phrase)
+        self._add("noun", after - self._at, phrase=phrase)
+        while phrase.substance and self._word(0) in ("and", ",") and self._word(1) in lexicon.SUBSTANCES:
+            # "a bowl of cereal and milk"
+            self._made.unread.append(self._word(1))
+            self._at += 2
 
     def _unsaid(self, word: str, follower: str) -> bool:
         """Name what no scene has and go on behind it: purposes, directions, the viewer."""
@@ -203,6 +215,26 @@ class Cutter:
         self._made.unread.append(words)
         self._at += size
         return True
+
+    def _correlative(self) -> bool:
+        """Whether "both the soup and the sauce" begins here, and not "both the mugs"."""
+        for ahead in range(2, 8):
+            word = self._word(ahead)
+            if word == "and":
+                return self._word(ahead + 1) in (*lexicon.DETERMINERS, *lexicon.NUMBERS)
+            if self._tokens[self._at + ahead].mark or link_at(self._tokens, self._at + ahead):
+                return False
+        return False
+
+    def _sense(self, phrase: Phrase) -> Phrase:
+        senses = [(found.noun, about) for name, about in lexicon.SENSES.get(phrase.head) or lexicon.SENSES[phrase.said]
+                  if (found := self._nouns.match(name.split()))]  # fmt: skip
+        if not any(phrase.noun == noun for noun, _ in senses) and phrase.said not in lexicon.SENSES:
+            return phrase
+        noun = sense(phrase.noun, self._company, senses)
+        count = 1 if noun == "sunglasses" and phrase.count is None else phrase.count
+        said = phrase.head if noun == "sunglasses" else phrase.said
+        return replace(phrase, noun=noun, said=said, count=count)
 
     def _names(self, word: str, follower: str) -> bool:
         return self._nouns.match([word, follower]) is not None
@@ -324,10 +356,10 @@ class Cutter:
     def _link(self, key: tuple[str, ...], size: int) -> bool:
         link = LINKS[key]
         if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
-            beside = link.manner == "place" and link.kind == "next_to" and link.says is None
-            if not beside:
+            apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
+            if link.kind != "next_to" and not apart:
                 self._made.unread.append(" ".join(self._words(size + 2)))
-            self._add("form", size + 2, text="beside")
+            self._add("form", size + 2, text=apart or "beside", link=link)
             return True
         if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
             return False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
@@ -18,11 +19,6 @@ from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
 
-POSITIONS: dict[str, int] = {
-    "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
-    "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,
-}  # fmt: skip
-"""Words for one of several by its place, and its index."""
 _SAME = {"leftmost": "left", "rightmost": "right"}
 _OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
@@ -81,6 +77,9 @@ class Interpreter:
                 self._qualified(fact[2], self._chunks[fact[1]].modifiers)
             elif fact[0] == "goal":
                 self._aimed(fact[1], fact[2], fact[3])
+            elif fact[0] == "extra":
+                where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
+                self._world.note(f'not modelled: "{where}"')
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
         world = self._world
@@ -107,7 +106,7 @@ class Interpreter:
             item for item in items
             if world.support(item) is None and not world.on_floor(item) and item not in related and item not in told
             and not world.is_a(item, lexicon.BY_A_SEAT, LARGE)
-            and not any(world.support(other) is item for other in items)
+            and not (world.is_a(item, lexicon.THIN) and any(world.support(other) is item for other in items))
         ]  # fmt: skip
         return 0.5 * len({id(item.group) for item in loose})
 
@@ -266,7 +265,7 @@ class Interpreter:
         return items[: phrase.count or 1] if wanted else list(items)
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
-        index = len(items) // 2 if where in ("middle", "center", "centre") else POSITIONS[where]
+        index = len(items) // 2 if where in ("middle", "center", "centre") else lexicon.POSITIONS[where]
         if not -len(items) <= index < len(items):
             self._world.note(f'"{phrase.words}": there are only {len(items)}.')
             return items[-1:]
@@ -340,7 +339,13 @@ class Interpreter:
         if words.palette or (not phrase.determined and phrase.count is None) or phrase.plural and phrase.count is None:
             tell_colours(self._world, whole, words)
             return list(whole.items)
-        free = [item for item in whole.items if item.colours is None and not item.told.size_word]
+        free = [item for item in whole.items if not _colours(item) and not item.told.size_word]
+        known = {colour for item in whole.items for colour in _colours(item)}
+        if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
+            # "a blue cube and the yellow one": one more of the kind.
+            more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
+                           modifiers=words, definite=phrase.definite)  # fmt: skip
+            return list(self._maker.make(self._world, more).items)
         picked = free[:count]
         for item in picked:
             tell(item, words)
@@ -449,6 +454,10 @@ class Interpreter:
             if not (parents and not children and self._of_everything(child_heads, link, parents)):
                 self._not_understood((*child_heads, *parent_heads))
             return
+        first = self._chunks[child_heads[0]].phrase
+        if first is not None and first.one_of and len(children) > 1:
+            children = children[:1]
+            tell(children[0], first.superlative)
         phrase = places[0]
         several = any(head in self._each for head in (*child_heads, *parent_heads)) or any(
             each is not None and each.each for each in places
@@ -537,7 +546,9 @@ class Interpreter:
         world, kind = self._world, link.kind
         parent = parents[0]
         if kind == "in" and not world.is_a(parent, lexicon.HOLLOW):
-            if world.is_a(parent, lexicon.CLOSED):
+            if world.is_a(parent, tuple(lexicon.OPENED)):
+                pass
+            elif world.is_a(parent, lexicon.CLOSED):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
             elif world.on_floor(parent):
@@ -785,6 +796,9 @@ class Interpreter:
                 plural.height = -(-len(plural.items) // chunk.size)
         elif chunk.text in ("stack", "tower"):
             self._stacked(groups, tall=whole is not None or chunk.text == "tower")
+        elif chunk.link is not None and chunk.text != "beside":
+            kind = chunk.link.says or "far_from"
+            world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
         elif chunk.text == "circle":
             world.arrange("circle", items, (), f'"{groups[0].words}" in a circle')
         elif whole is not None:
@@ -815,7 +829,7 @@ def _colours(item: Item) -> tuple[str, ...]:
 
 def _position(phrase: Phrase) -> str:
     """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
-    found = next((word for word in phrase.modifiers.adjectives if word in POSITIONS), "")
+    found = next((word for word in phrase.modifiers.adjectives if word in lexicon.POSITIONS), "")
     return _SAME.get(found, found) if phrase.definite else ""
 
 

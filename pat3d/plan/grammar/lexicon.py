@@ -178,9 +178,23 @@ GENERICS: dict[str, tuple[str, ...]] = {
     "stationery": ("pencil", "pen", "ruler"),
     "toiletry": ("toothbrush", "soap", "toothpaste"),
     "furniture": ("chair", "table", "sofa"),
+    "tool": ("hammer", "screwdriver", "wrench", "pliers"),
+    "snack": ("chip bag", "cookie", "granola bar", "pretzel"),
+    "drink": ("soda can", "juice bottle", "bottle"),
+    "beverage": ("soda can", "juice bottle", "bottle"),
+    "condiment": ("ketchup", "mustard", "salt shaker"),
+    "sauce bottle": ("ketchup", "mustard", "hot sauce"),
+    "spice": ("spice bottle", "salt shaker"),
+    "electronics": ("phone", "tablet", "camera"),
+    "canned good": ("can", "tuna can", "tomato soup can"),
+    "canned food": ("can", "tuna can", "tomato soup can"),
+    "veggie": ("carrot", "tomato", "pepper", "potato", "onion"),
+    "baked good": ("bread", "croissant", "bagel"),
+    "office supply": ("pencil", "pen", "ruler"),
+    "ball toy": ("ball",),
 }  # fmt: skip
 """Nouns for a kind of thing, and the things that stand for it in turn."""
-MASS_GENERICS = frozenset({"fruit", "cutlery", "silverware", "stationery", "furniture"})
+MASS_GENERICS = frozenset({"electronics", "fruit", "cutlery", "silverware", "stationery", "furniture"})
 
 FLOOR = (
     "bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee table", "table", "desk", "rug", "chair",
@@ -284,7 +298,10 @@ SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture",
 """Parts that every object has: to name them says nothing."""
 DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob", "drawers", "doors", "shelf", "button"})
 """Parts with a name that is a thing's too: "the lid of the box" is the box."""
-ALIASES = {"container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser"}
+ALIASES = {
+    "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
+    "desktop computer": "monitor", "pc": "laptop", "computer screen": "monitor",
+}  # fmt: skip
 """Words for what the catalogue knows by another name."""
 VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther", "clockwise",
@@ -306,3 +323,70 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
          "envelope", "cardboard sheet", "plank", "cushion", "pillow", "tray", "blanket", "cutting board", "bowl",
          "cup", "crate", "t-shirt", "jeans", "waffle", "stack of paper", "placemat", "napkin")  # fmt: skip
 """What a pile of is a stack."""
+PACKED = {
+    "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
+    "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
+    "jam": "cookie jar", "shampoo": "shampoo",
+}  # fmt: skip
+"""What "the soup" is, where it can be put somewhere."""
+SENSES: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {
+    "mouse": (
+        ("mouse", frozenset({"cheese", "cat", "trap", "animal", "plush", "toy", "rabbit", "bird"})),
+        ("computer mouse", frozenset({
+            "laptop", "keyboard", "monitor", "computer", "desk", "pad", "pc", "screen", "office", "printer", "webcam",
+            "headset", "headphones", "workstation", "usb", "wireless", "speaker", "tablet"})),
+    ),
+    "glasses": (
+        ("glass", frozenset({
+            "wine", "water", "bottle", "pitcher", "plate", "juice", "milk", "beer", "jug", "drink", "tray", "cup", "bar",
+            "kitchen", "dinner", "napkin", "bowl"})),
+        ("sunglasses", frozenset({"book", "newspaper", "magazine", "reading", "nightstand", "case", "pair", "wallet", "hat",
+                                  "beach", "phone", "key", "letter", "desk", "towel", "sunscreen"})),
+    ),
+    "tube": (
+        ("toothpaste", frozenset({"toothbrush", "bathroom", "sink", "soap", "towel"})),
+        ("test tube", frozenset({"rack", "beaker", "flask", "pipette", "lab", "laboratory", "petri", "microscope", "syringe"})),
+    ),
+    "rack": (
+        ("shelf", frozenset({"box", "book", "storage", "tool"})),
+        ("test tube rack", frozenset({"tube", "vial", "pipette", "beaker", "flask", "lab", "laboratory"})),
+        ("wine rack", frozenset({"wine", "bottle"})),
+        ("dish rack", frozenset({"plate", "dish", "bowl", "sink", "kitchen", "mug", "cup", "counter", "spoon", "fork"})),
+    ),
+    "bar": (
+        ("soap", frozenset({"bathroom", "sink", "towel", "dish", "shampoo"})),
+        ("granola bar", frozenset({"bowl", "plate", "apple", "banana", "drawer", "snack", "lunch", "kitchen"})),
+    ),
+    "board": (
+        ("plank", frozenset({"hammer", "nail", "saw", "wood", "block"})),
+        ("cutting board", frozenset({"knife", "bread", "kitchen", "vegetable", "cheese", "tomato", "onion", "carrot", "jam",
+                                     "counter", "croissant", "meat", "cleaver", "lime", "garlic"})),
+    ),
+    "pot": (
+        ("pot", frozenset({"stove", "kitchen", "pan", "lid", "soup", "ladle", "burner"})),
+        ("flower pot", frozenset({"plant", "flower", "soil", "garden", "trowel", "cactus", "seed", "watering"})),
+    ),
+    "nut": (
+        ("nut", frozenset({"bolt", "screw", "wrench"})),
+        ("walnut", frozenset({"bowl", "fruit", "cracker", "walnut"})),
+    ),
+}
+"""What a word of several meanings names, and the company that tells it; the first where none does."""
+MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "food", "foods", "stuff", "clutter", "mess", "brunch",
+                   "picnic", "dessert", "feast", "salad", "groceries", "ingredients", "supplies"})  # fmt: skip
+"""Words that name no single thing."""
+FOREIGN = frozenset({
+    "una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das", "auf", "dem", "ein",
+    "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur", "avec", "et", "dans", "il",
+    "uno", "della", "sul", "tavolo", "een", "op", "het", "naast", "um", "uma", "em", "com", "na", "och", "ett", "przy", "jest",
+})  # fmt: skip
+"""Function words of other languages."""
+SUPERLATIVES = {
+    "smallest": ("small", 0.75), "largest": ("large", 1.3), "biggest": ("big", 1.3), "tallest": ("tall", 1.0),
+    "shortest": ("short", 1.0), "littlest": ("little", 0.75),
+}  # fmt: skip
+POSITIONS: dict[str, int] = {
+    "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
+    "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,
+}  # fmt: skip
+"""Words for one of several by its place, and its index."""

@@ -72,10 +72,21 @@ class Maker:
         if self._allow_proxies:
             world.note(f'"{phrase.head}" (word {phrase.number}) is not in the catalogue: a plain box stands in.')
             return "box", phrase.head[:40], True
-        raise self.unknown(phrase.head, phrase.number)
+        raise self.unknown(phrase)
 
-    def unknown(self, word: str, number: int) -> PromptError:
+    def unknown(self, phrase: Phrase) -> PromptError:
         """The error for a noun that the catalogue lacks."""
+        word, number = phrase.head, phrase.number
+        if word in lexicon.MEALS:
+            return PromptError(
+                f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
+            )
+        functions = lexicon.VERBS | lexicon.PARTICIPLES | lexicon.ADVERBS | lexicon.DIRECTIONS | lexicon.POSITIONS.keys()
+        if word in functions | lexicon.COPULAS or len(word) == 1:
+            return PromptError(
+                f'"{word}" (word {number}) is not understood where it stands. Say one thing in a sentence: "A mug is on the '
+                'table. A spoon is to the left of the mug."'
+            )
         near = self._nouns.nearest(word)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
         return PromptError(

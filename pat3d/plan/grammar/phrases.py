@@ -39,6 +39,8 @@ class Phrase:
     """Opens with a determiner or a number."""
     definite: bool = False
     each: bool = False
+    superlative: Modifiers = NO_MODIFIERS
+    """What tells one of them: "the smallest of three boxes"."""
     one_of: bool = False
     """"one of two boxes"."""
     possessive: bool = False
@@ -71,10 +73,12 @@ class PhraseReader:
         self._tokens = tokens
         self._nouns = nouns
         self._bounds = Boundaries(tokens, nouns)
+        self._definite = False
 
     def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
         at, count, flags = self._opening(start)
+        self._definite = flags.get("definite", False)
         run, after = self._bounds.run(at)
         tokens = self._tokens
         if not run:
@@ -104,6 +108,14 @@ class PhraseReader:
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
             if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
                 told = Modifiers(adjectives=(run[0].text,))
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
+                              determined=True, definite=True, modifiers=told), after  # fmt: skip
+            if run[-1].text in lexicon.SUPERLATIVES and len(run) == 1 and flags.get("definite"):
+                size, scale = lexicon.SUPERLATIVES[run[0].text]
+                told = Modifiers(size_word=size, scale=scale)
+                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
+                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
+                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
                               determined=True, definite=True, modifiers=told), after  # fmt: skip
             if run[-1].text == "one" and flags.get("determined"):
@@ -167,6 +179,11 @@ class PhraseReader:
         """The phrase of a run without "of"."""
         words = [token.text for token in run]
         head, number = words[-1], run[-1].number
+        if head in lexicon.PACKED and self._definite and self._nouns.match([head]) is None:
+            packed = self._nouns.match(lexicon.PACKED[head].split())
+            if packed is not None:
+                return Phrase(kind="object", head=head, number=number, count=count, noun=packed.noun, said=packed.said,
+                              modifiers=read_modifiers(words[:-1]))  # fmt: skip
         base = Phrase(kind="unknown", head=head, number=number, count=count, modifiers=read_modifiers(words[:-1]))
         singular = (head, *singulars(head))
         for size in (2, 1):
@@ -280,9 +297,8 @@ class PhraseReader:
             whole = self._simple(run, count)
             compound = self._nouns.match([inner.head, singular[-1]])
             if compound:
-                return replace(
-                    whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count
-                ), after
+                return replace(whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
+                               substance=inner.head), after  # fmt: skip
             return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
         holds = known is not None and any(
             self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)

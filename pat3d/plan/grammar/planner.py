@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk, Cutter
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
 from pat3d.plan.grammar.interpret import Interpreter
-from pat3d.plan.grammar.lexing import Token, normalise, tokenise
+from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.rules import Grammar
@@ -58,19 +59,22 @@ class GrammarPlanner:
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
+        _check_language(text)
         world = World(self._likely)
-        for tokens in _sentences(tokenise(text)):
-            for clause in clauses(text, plainer(tokens, self._nouns), self._nouns):
-                world = self._read(text, clause, world)
+        tokens = tokenise(text)
+        company = {word for token in tokens for word in (token.text, *singulars(token.text))}
+        for sentence in _sentences(tokens):
+            for clause in clauses(text, plainer(sentence, self._nouns), self._nouns):
+                world = self._read(text, clause, world, company)
         plan, names = finish(prompt, world, self._nouns)
         stacks = {item: not self._likely.hollow(obj) and not self._likely.level(obj) for item, obj in _nouns(world)}
         fixed = {item for item in world.items() if world.on_floor(item)}
         task, notes = task_of(world.steps, names, stacks, fixed)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
-    def _read(self, text: str, clause: Clause, world: World) -> World:
+    def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> World:
         """`world` with what `clause` says."""
-        sentence = Cutter(text, clause.tokens, self._nouns).cut()
+        sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
         chunks = completed(_trimmed(sentence.chunks), self._nouns)
         for word in sentence.unread:
@@ -111,7 +115,26 @@ class GrammarPlanner:
                 if chunk.kind not in ("joint", "verb", "there", "clause"):
                     world.note(f'not understood: "{chunk.text}"')
                 return readings, rest
-        raise PromptError(f"cannot read: {' | '.join(f'{chunk.kind}:{chunk.text}' for chunk in chunks)}")
+        for end in range(len(chunks) - 1, 0, -1):
+            if Grammar(chunks[:end], self._likely).readings():
+                break
+        at, before = chunks[end], chunks[end - 1]
+        raise PromptError(
+            f'cannot read "{at.text}" after "{before.text}". Say one thing in a sentence: "A mug is on the table. A spoon '
+            'is in the mug."'
+        )
+
+
+def _check_language(text: str) -> None:
+    """Raises: PromptError: `text` is in another language than English."""
+    words = [word.strip(".,;:!?").lower() for word in text.split()]
+    foreign = [word for word in words if word in lexicon.FOREIGN]
+    english = sum(word in lexicon.DETERMINERS or word in ("is", "are", "with", "and", "of") for word in words)
+    letters = [letter for letter in text if letter.isalpha()]
+    other = [letter for letter in letters if ord(letter) > 0x24F]
+    if len(foreign) >= 2 and len(foreign) > english or len(other) * 2 > len(letters):
+        said = " ".join(foreign[:3]) or "".join(other[:8])
+        raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')
 
 
 def _copied(world: World) -> World:

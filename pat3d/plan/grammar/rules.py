@@ -74,9 +74,22 @@ class Grammar:
         leaves = [replace(leaf, mod=None) if leaf.cat == "L" else leaf for leaf in leaves]
         if not moving:
             return parse(leaves, self._rules, self._unary, ("L", "S"))
-        rules = {**self._rules, ("L", "M"): [self._modified, self._goal], ("L", "CM"): [self._modified, self._goal]}
+        rules = {**self._rules, ("L", "M"): [self._modified, self._goal], ("L", "CM"): [self._modified, self._goal],
+                 ("C", "IM"): [lambda a, b: replace(b, cat="CIM", start=a.start)], ("IM", "CIM"): [self._goals],
+                 ("IM", "M"): [self._further], ("IM", "CM"): [self._further]}  # fmt: skip
         made = parse(leaves, rules, self._unary, ("IM", "L", "S"))
         return [node for node in made if node.cat == "IM"] or made
+
+    def _goals(self, first: Node, second: Node) -> Node:
+        """"the forks in the drawer" + ", the plates on the rack"."""
+        return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
+
+    def _further(self, goal: Node, modifier: Node) -> Node | None:
+        """"it on the table" + "in front of the bowl": a second word on where it is to go."""
+        if modifier.mod[0] != "link":  # type: ignore[index]
+            return None
+        extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
+        return replace(goal, cost=goal.cost + modifier.cost + 0.3, facts=(*goal.facts, *modifier.facts, extra))
 
     def _goal(self, named: Node, modifier: Node) -> Node | None:
         """"the mug" + "on the plate", where it is to go."""
@@ -85,6 +98,9 @@ class Grammar:
             return None
         link = self._link(at)
         cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
+        cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
+            "modified" in named.flags and self._is_pronoun(named.heads)
+        )
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)
         cost += sum(
@@ -212,6 +228,8 @@ class Grammar:
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
             cost += 1.0
+        if any(self._said_of(named, head) for head in modifier.heads):
+            cost += 1.2
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
 
@@ -239,12 +257,19 @@ class Grammar:
                     near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
                 continue
+            apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
+            if apart and self._link(fact[1]).kind not in SUPPORT_KINDS and self._likely.floor(self._noun(fact[3][0])):
+                # "A pot on a stove with flour beside the stove"
+                placed |= set(fact[2])
+                cost += 0.2
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
                 placed |= set(fact[2])
             facts.append(fact)
         carriers = {head: self._carrier(head, modifier.facts) for head in modifier.heads}
+        # What stands on something known already is told of by that alone.
+        placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
         if left:
@@ -261,6 +286,14 @@ class Grammar:
             cost += 0.6 * (len(modifier.heads) > 1)
             cost += 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
         return facts, cost
+
+    def _said_of(self, named: Node, parent: int) -> bool:
+        """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
+        noun = self._phrase(parent).noun
+        return bool(noun) and self._phrase(parent).definite and any(
+            fact[0] == "rel" and set(fact[2]) & set(named.heads) and self._phrase(fact[3][0]).noun == noun
+            for fact in named.facts
+        )  # fmt: skip
 
     def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
         """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
@@ -321,7 +354,8 @@ class Grammar:
         if first.joints and "modified" not in first.flags:
             return None
         cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
-        headless = [self._phrase(head).kind in _HEADLESS for head in rest.heads]
+        coloured = any(self._phrase(head).modifiers.colours for head in first.heads)
+        headless = [self._phrase(head).kind in _HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads]
         if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
             flags = first.flags | (rest.flags & {"finite"}) | {"told"}
@@ -338,6 +372,11 @@ class Grammar:
             cost += 0.4
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+
+    def _one_more(self, head: int) -> bool:
+        """Whether "two green ones" names more objects of a kind and tells nothing of those before."""
+        phrase = self._phrase(head)
+        return phrase.words.split()[-1:] in (["one"], ["ones"]) and bool(phrase.modifiers.colours)
 
     def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
         words = self._phrase(head).modifiers

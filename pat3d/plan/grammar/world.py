@@ -154,11 +154,11 @@ class World:
 
     def flat(self, item: Item) -> bool:
         """Whether nothing can be in it."""
-        return not self.is_a(item, lexicon.HOLLOW) and self.likely.level(self.noun(item))
+        return not self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED)) and self.likely.level(self.noun(item))
 
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
-        return "in" if self.is_a(parent, lexicon.HOLLOW) else "on"
+        return "in" if self.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) else "on"
 
     # Stacks
 
