@@ -233,7 +233,7 @@ class Cutter:
             return phrase
         noun = sense(phrase.noun, self._company, senses)
         count = 1 if noun == "sunglasses" and phrase.count is None else phrase.count
-        said = phrase.head if noun == "sunglasses" else phrase.said
+        said = phrase.head if noun == "sunglasses" else noun if noun != phrase.noun else phrase.said
         return replace(phrase, noun=noun, said=said, count=count)
 
     def _names(self, word: str, follower: str) -> bool:

@@ -528,6 +528,10 @@ class Interpreter:
             if link.says == "leaning_against":
                 world.arrange("leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it")
             self._settle(children, parents)
+            small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
+            if link.kind == "next_to" and small and world.is_table(parents[0]) and world.on_floor(parents[0]):
+                if world.support(children[0]) is None:
+                    world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
             world.beside(children, link.kind, parents)  # type: ignore[arg-type]
 
     def _settle(self, children: list[Item], parents: list[Item]) -> None:

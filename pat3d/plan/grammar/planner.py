@@ -21,6 +21,8 @@ from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import Item, World
 from pat3d.plan.scene_plan import ScenePlan
+from pat3d.plan.telling import tell
+from pat3d.scene.model import Relation
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
@@ -54,26 +56,56 @@ class GrammarPlanner:
             PromptError: the prompt is empty or too long, names something that cannot be made, asks for too many
                 objects, or has an object rest on itself.
         """
+        first, *others = self.readings(prompt)
+        return replace(first, otherwise=tell(others[0])) if others else first
+
+    def readings(self, prompt: str) -> tuple[ScenePlan, ...]:
+        """The likeliest plan, and the next where it has other objects or supports and is nearly as likely.
+
+        Raises:
+            PromptError: see `plan`.
+        """
         if not prompt.strip():
             raise PromptError('the prompt is empty. Describe a scene: "a red mug on a wooden table".')
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
         _check_language(text)
-        world = World(self._likely)
         tokens = tokenise(text)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        for sentence in _sentences(tokens):
-            for clause in clauses(text, plainer(sentence, self._nouns), self._nouns):
-                world = self._read(text, clause, world, company)
+        told = [
+            clause
+            for sentence in _sentences(tokens)
+            for clause in clauses(text, plainer(sentence, self._nouns), self._nouns)
+        ]
+        world, others = World(self._likely), list[tuple[int, World]]()
+        for at, clause in enumerate(told):
+            world, other = self._read(text, clause, world, company)
+            if other is not None:
+                others.append((at + 1, other))
+        plans = [self._finished(prompt, world)]
+        for at, other in others[:1]:
+            try:
+                for clause in told[at:]:
+                    other, _ = self._read(text, clause, other, company)
+                second = self._finished(prompt, other)
+            except PromptError:
+                continue
+            if _supports(second) != _supports(plans[0]):
+                plans.append(second)
+        return tuple(plans)
+
+    def _finished(self, prompt: str, world: World) -> ScenePlan:
         plan, names = finish(prompt, world, self._nouns)
-        stacks = {item: not self._likely.hollow(obj) and not self._likely.level(obj) for item, obj in _nouns(world)}
+        stacks = {item: not self._likely.hollow(noun) and not self._likely.level(noun) for item, noun in _nouns(world)}
         fixed = {item for item in world.items() if world.on_floor(item)}
         task, notes = task_of(world.steps, names, stacks, fixed)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
-    def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> World:
-        """`world` with what `clause` says."""
+    def _read(
+        self, text: str, clause: Clause, world: World, company: Collection[str]
+    ) -> tuple[World, World | None]:
+        """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
         chunks = completed(_trimmed(sentence.chunks), self._nouns)
@@ -82,7 +114,7 @@ class GrammarPlanner:
         if not chunks:
             if clause.manner is not None:
                 world.note(f'not modelled: "{clause.said}": it names no object.')
-            return world
+            return world, None
         readings, chunks = self._readings(chunks, world, moving=clause.manner in ("make", "move", "stack", "sort"))
         tried: list[tuple[float, World]] = []
         error: PromptError | None = None
@@ -97,7 +129,10 @@ class GrammarPlanner:
         if not tried:
             assert error is not None
             raise error
-        return min(tried, key=lambda each: each[0])[1]
+        tried.sort(key=lambda each: each[0])
+        best, first = tried[0]
+        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.signature() != first.signature())
+        return first, next(close, None)
 
     def _readings(self, chunks: list[Chunk], world: World, *, moving: bool) -> tuple[list[Node], list[Chunk]]:
         """Readings of `chunks`, or of all but one of them, which a note then names.
@@ -135,6 +170,10 @@ def _check_language(text: str) -> None:
     if len(foreign) >= 2 and len(foreign) > english or len(other) * 2 > len(letters):
         said = " ".join(foreign[:3]) or "".join(other[:8])
         raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')
+
+
+def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:
+    return {obj.name for obj in plan.objects}, {relation for relation in plan.relations if relation.supports}
 
 
 def _copied(world: World) -> World:

@@ -58,7 +58,7 @@ class Plausible:
         if self.floor(child) and self.is_a(parent, lexicon.THIN) and not self.is_a(parent, ("rug", "mat", "carpet", "blanket")):
             return 2.5
         if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
-            return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 0.8
+            return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 1.2
         if self.floor(child):
             return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):

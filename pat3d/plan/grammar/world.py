@@ -128,6 +128,12 @@ class World:
         """Every object, in the order of the prompt."""
         return [item for group in self.groups if not group.replaced for item in group.items]
 
+    def signature(self) -> tuple[int, frozenset[tuple[int, str, int]]]:
+        """How many objects there are, and what carries what."""
+        number = {item: at for at, item in enumerate(self.items())}
+        edges = ((number.get(e.child, -1), e.kind, number.get(e.parent, -1)) for e in self.supports.values())
+        return len(number), frozenset(edges)
+
     def note(self, text: str) -> None:
         """Say `text` once."""
         if text not in self.notes:
