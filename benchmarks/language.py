@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pat3d.assets.catalogue import registry
+from pat3d.assets.catalogue import lookup
 from pat3d.assets.colours import find_colour
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.lexicon import GENERICS
@@ -32,7 +32,7 @@ _KINDS = {
     "on", "in", "on|in", "in|on", "hangs_from", "left_of", "right_of", "in_front_of", "behind", "next_to", "around",
     "under", "between", "far_from", "above",
 }  # fmt: skip
-_NOUNS = Nouns(registry)
+_NOUNS = Nouns(lookup)
 
 
 @dataclass(kw_only=True)

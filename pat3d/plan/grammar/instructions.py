@@ -8,19 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
-from pat3d.plan.grammar.world import Item
+from pat3d.plan.grammar.world import Item, Manner, Step
 from pat3d.scene.model import SUPPORT_KINDS
-
-Manner = Literal["make", "move", "stack", "pick", "unload", "sort", "other"]
 
 _VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",
@@ -70,18 +66,6 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Step:
-    """One thing to do."""
-
-    manner: Manner
-    said: str
-    """The clause, as written."""
-    items: tuple[Item, ...]
-    link: Link | None = None
-    goal: tuple[Item, ...] = ()
 
 
 def plainer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -9,14 +9,14 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.instructions import Clause, Step
+from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, forget_count, multiply, recount, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import LARGE
-from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
+from pat3d.plan.grammar.world import Edge, Group, Item, Sided, Step, World
 from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
 
 _SAME = {"leftmost": "left", "rightmost": "right"}
@@ -51,6 +51,11 @@ class Interpreter:
             PromptError: it cannot be a scene.
         """
         facts = reading.facts
+        for fact in facts:
+            if fact[0] == "extra":
+                where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
+                self._world.note(f'not modelled: "{where}"')
+                self._clause = replace(self._clause, manner="other")
         self._bound = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
         clauses = {fact[2]: fact[1] for fact in facts if fact[0] == "subject"}
         self._clauses = {**clauses} or {0: reading.heads}
@@ -77,9 +82,6 @@ class Interpreter:
                 self._qualified(fact[2], self._chunks[fact[1]].modifiers)
             elif fact[0] == "goal":
                 self._aimed(fact[1], fact[2], fact[3])
-            elif fact[0] == "extra":
-                where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
-                self._world.note(f'not modelled: "{where}"')
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
         world = self._world

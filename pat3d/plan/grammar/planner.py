@@ -15,6 +15,7 @@ from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.rules import Grammar
@@ -42,9 +43,7 @@ class GrammarPlanner:
     def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
         """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`."""
         if vocabulary is None:
-            from pat3d.assets.catalogue import lookup
-
-            vocabulary = lookup
+            vocabulary = catalogue_names()
         self._nouns = Nouns(vocabulary)
         self._likely = Plausible(self._nouns)
         self._maker = Maker(self._nouns, allow_proxies=allow_proxies)

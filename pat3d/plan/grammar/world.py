@@ -4,21 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import Literal
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.scene_plan import ArrangementKind
 from pat3d.scene.model import LateralKind, RelationKind
 
-if TYPE_CHECKING:
-    from pat3d.plan.grammar.instructions import Step
-
 MAX_OBJECTS = 60
 """Objects in one scene."""
+
+
+Manner = Literal["make", "move", "stack", "pick", "unload", "sort", "other"]
 
 
 @dataclass(kw_only=True, eq=False)
@@ -101,6 +102,18 @@ class Arranged:
     items: list[Item]
     of: list[Item]
     arranged: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """One thing to do."""
+
+    manner: Manner
+    said: str
+    """The clause, as written."""
+    items: tuple[Item, ...]
+    link: Link | None = None
+    goal: tuple[Item, ...] = ()
 
 
 class World:
