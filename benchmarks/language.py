@@ -95,7 +95,11 @@ def _wanted(phrase: str) -> Wanted:
     nouns: set[str] = set()
     for name in names:
         parts = name.split()
-        while len(parts) > 1 and not _NOUNS.match(parts) and (find_colour(parts[0]) or parts[0] in ("small", "large", "big")):
+        while (
+            len(parts) > 1
+            and not _NOUNS.match(parts)
+            and (find_colour(parts[0]) or parts[0] in ("small", "large", "big"))
+        ):
             if colour := find_colour(parts.pop(0)):
                 colours.add(colour)
         said = " ".join(parts)
@@ -105,7 +109,9 @@ def _wanted(phrase: str) -> Wanted:
         elif match := _NOUNS.match(said.split()):
             nouns.add(match.noun)
     nouns |= {wide for narrow, wide in (("bowl", "fruit bowl"), ("box", "storage box")) if narrow in nouns}
-    return Wanted(nouns=frozenset(nouns), words=" ".join(words), count=count, colours=frozenset(colours), optional=optional)
+    return Wanted(
+        nouns=frozenset(nouns), words=" ".join(words), count=count, colours=frozenset(colours), optional=optional
+    )
 
 
 def _told(text: str, objects: Sequence[Wanted]) -> Told:
@@ -114,7 +120,9 @@ def _told(text: str, objects: Sequence[Wanted]) -> Told:
     count = int(words.pop(0)) if words[0].isdecimal() else None
     at = next(index for index, word in enumerate(words) if word in _KINDS)
     child, parent = (_named(" ".join(part), objects) for part in (words[:at], words[at + 1 :]))
-    return Told(child=child, kinds=frozenset(words[at].split("|")), parent=parent, count=count, notable=notable, said=text)
+    return Told(
+        child=child, kinds=frozenset(words[at].split("|")), parent=parent, count=count, notable=notable, said=text
+    )
 
 
 def _named(name: str, objects: Sequence[Wanted]) -> Wanted:

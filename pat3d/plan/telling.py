@@ -61,7 +61,9 @@ class _Teller:
                 if not own:
                     continue
                 told |= set(own)
-                verb = "is" if len(own) == 1 and (self._stack(own[0])[1:] or not _is_plural(self._base[own[0]])) else "are"
+                verb = (
+                    "is" if len(own) == 1 and (self._stack(own[0])[1:] or not _is_plural(self._base[own[0]])) else "are"
+                )
                 if parent == GROUND:
                     stand = "stands" if verb == "is" else "stand"
                     made.append(f"{self._listed(own)} {stand} on the ground")
@@ -138,7 +140,7 @@ class _Teller:
     # Names
 
     def _listed(self, names: Sequence[str]) -> str:
-        """"a mug and two plates", by kind, towers as one."""
+        """ "a mug and two plates", by kind, towers as one."""
         parts: list[str] = []
         by_kind: dict[str, list[str]] = {}
         for name in names:
@@ -161,7 +163,7 @@ class _Teller:
         return _joined(parts)
 
     def _all(self, names: Sequence[str]) -> str:
-        """"the mug and the two plates"."""
+        """ "the mug and the two plates"."""
         by_kind: dict[str, list[str]] = {}
         for name in dict.fromkeys(names):
             by_kind.setdefault(self._base[name], []).append(name)
@@ -181,7 +183,11 @@ class _Teller:
         at = whole.index(name)
         if len(self._stack(whole[0])) == len(whole):
             end = "lowest" if at == 0 else "top" if at == len(whole) - 1 else _ordinal(at)
-            return f"the {end} of the {_count(len(whole))} {plural(base)}" if end != "top" else f"the stack of {plural(base)}"
+            return (
+                f"the {end} of the {_count(len(whole))} {plural(base)}"
+                if end != "top"
+                else f"the stack of {plural(base)}"
+            )
         return f"the {_ordinal(at)} of the {_count(len(whole))} {plural(base)}"
 
 

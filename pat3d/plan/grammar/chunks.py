@@ -204,8 +204,10 @@ class Cutter:
             to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
             return self._leave(3 if to else 1)
         size = link_at(self._tokens, self._at)
-        if size and self._word(size) in lexicon.VIEWERS and (
-            self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or")
+        if (
+            size
+            and self._word(size) in lexicon.VIEWERS
+            and (self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or"))
         ):
             return self._leave(size + 1)
         return False

@@ -99,7 +99,7 @@ def _pair_sides(world: World) -> None:
             one, two = each.items[0], other.items[0]
             (axis, place), (other_axis, other_place) = _ORDER[each.side], _ORDER[other.side]
             apart = world.support(one) is not world.support(two)
-            if one.group is two.group and one is two or apart or axis != other_axis or place == other_place:
+            if (one.group is two.group and one is two) or apart or axis != other_axis or place == other_place:
                 continue
             if any(side.owner and world.support(side.items[0]) is None for side in (each, other)):
                 continue

@@ -145,7 +145,9 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     actor = False
     while at < len(tokens) - 1:
         words = [token.text for token in tokens[at : at + 4]]
-        asking = next((each for each in sorted(_ASKING, key=len, reverse=True) if tuple(words[: len(each)]) == each), None)
+        asking = next(
+            (each for each in sorted(_ASKING, key=len, reverse=True) if tuple(words[: len(each)]) == each), None
+        )
         if asking:
             at += len(asking)
         elif words[0] in _FILLERS and (opening or words[0] != ","):
@@ -164,7 +166,18 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         return at
     if nouns.match([word, follower]):
         return None
-    if follower in _PARTICLES and base in ("pick", "turn", "clean", "lift", "hand", "take", "switch", "set", "put", "push"):
+    if follower in _PARTICLES and base in (
+        "pick",
+        "turn",
+        "clean",
+        "lift",
+        "hand",
+        "take",
+        "switch",
+        "set",
+        "put",
+        "push",
+    ):
         return at
     noun = not tokens[at + 1].mark and (is_modifier(follower) or nouns.match([follower]) is not None)
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
@@ -232,14 +245,14 @@ def task_of(
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
     if len(specs) > 1:
-        notes.append(f"the instruction is several tasks, of which the environment has one at a time: {', '.join(specs)}.")
+        notes.append(
+            f"the instruction is several tasks, of which the environment has one at a time: {', '.join(specs)}."
+        )
         return None, notes
     return (specs[0] if specs else None), notes
 
 
-def _specs(
-    step: Step, names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]
-) -> list[str]:
+def _specs(step: Step, names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]) -> list[str]:
     items = [names[item] for item in step.items if item in names]
     if step.manner not in ("unload", "sort"):
         items = [names[item] for item in step.items if item in names and item not in fixed]

@@ -223,10 +223,14 @@ class Interpreter:
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
         again = self._earlier if bare else []
-        again = again or [group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural]
+        again = again or [
+            group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
+        ]
         if not phrase.definite and not any(group.noun == phrase.noun for group in again):
             return None
-        partners = {head for one, other in self._related_heads for head in (*one, *other) if at in (*one, *other)} - {at}
+        partners = {head for one, other in self._related_heads for head in (*one, *other) if at in (*one, *other)} - {
+            at
+        }
         besides = {item.group for head in partners if head < at for item in self._refs.get(head, ())}
         for same in (_same_noun, _same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
@@ -338,7 +342,11 @@ class Interpreter:
         whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
         if whole is None:
             return []
-        if words.palette or (not phrase.determined and phrase.count is None) or phrase.plural and phrase.count is None:
+        if (
+            words.palette
+            or (not phrase.determined and phrase.count is None)
+            or (phrase.plural and phrase.count is None)
+        ):
             tell_colours(self._world, whole, words)
             return list(whole.items)
         free = [item for item in whole.items if not _colours(item) and not item.told.size_word]
@@ -409,7 +417,9 @@ class Interpreter:
         nearest = [self._refs[key] for key in sorted(self._refs, reverse=True) if key < at and self._refs[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         for rank, items in enumerate(nearest[:4]):
-            candidates.append(((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items))
+            candidates.append(
+                ((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items)
+            )
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         best: tuple[float, list[Item]] | None = None
@@ -477,7 +487,7 @@ class Interpreter:
                 self._world.note(f'not understood: "{phrase.words}"')
 
     def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
-        """"Everything is on a table": all that is not yet carried."""
+        """ "Everything is on a table": all that is not yet carried."""
         world = self._world
         kinds = {self._chunks[head].phrase.kind for head in heads if self._chunks[head].phrase}  # type: ignore[union-attr]
         if "items" not in kinds:
@@ -517,9 +527,15 @@ class Interpreter:
             self._on_half(children, link.side or "centre", parents)
         elif link.manner == "edge" and link.says is not None:
             level = world.likely.level(world.noun(parents[0]))
-            where = link.says.replace("_", " ").replace("at edge", "at the edge of").replace("in corner", "in the corner of")
+            where = (
+                link.says.replace("_", " ")
+                .replace("at edge", "at the edge of")
+                .replace("in corner", "in the corner of")
+            )
             self.relate(children, Link(kind="on" if level else "next_to"), parents)
-            world.arrange(link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it")
+            world.arrange(
+                link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
+            )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
             self.relate(children, Link(kind=world.containment(parents[0])), parents)
         elif link.kind in SUPPORT_KINDS:
@@ -528,7 +544,9 @@ class Interpreter:
             if link.kind not in ("next_to", "around"):
                 self._landmark = (parents, False)
             if link.says == "leaning_against":
-                world.arrange("leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it")
+                world.arrange(
+                    "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
+                )
             self._settle(children, parents)
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
             if link.kind == "next_to" and small and world.is_table(parents[0]) and world.on_floor(parents[0]):
@@ -611,7 +629,9 @@ class Interpreter:
         groups = list(dict.fromkeys(item.group for item in parents))
         if len(parents) < 2 and len(groups) < 2:
             world.note(f"{said}: the other neighbour is not said.")
-        sides = list(parents) if len(groups) == 1 else [[item for item in parents if item.group is g][0] for g in groups]
+        sides = (
+            list(parents) if len(groups) == 1 else [[item for item in parents if item.group is g][0] for g in groups]
+        )
         for child in children:
             world.forget_guess(child, parents[0])
         if len(sides) > 2:
@@ -670,7 +690,9 @@ class Interpreter:
         if each and len(children) < len(owners):
             multiply(world, children, len(owners))
             for head in things:
-                self._refs[head] = [item for group in dict.fromkeys(i.group for i in self._ref(head)) for item in group.items]
+                self._refs[head] = [
+                    item for group in dict.fromkeys(i.group for i in self._ref(head)) for item in group.items
+                ]
         for head in things:
             items = [item for item in self._ref(head) if item not in owners]
             if items:
@@ -694,16 +716,22 @@ class Interpreter:
             world.beside(children, "around", owners)
         elif link.kind == "on":
             world.place(children, "on", owners)
-        elif weak and world.is_a(children[0], lexicon.ON_HEAD) and not world.flat(owner) and not world.is_a(
-            owner, lexicon.HOLLOW
+        elif (
+            weak
+            and world.is_a(children[0], lexicon.ON_HEAD)
+            and not world.flat(owner)
+            and not world.is_a(owner, lexicon.HOLLOW)
         ):
             world.place(children, "on", owners, weak=True)
         elif weak and world.on_floor(children[0]):
             around = len(children) >= 3 and world.is_a(children[0], ("chair", "stool", "armchair"))
             world.beside(children, "around" if around else "next_to", owners, weak=True)
-        elif not weak or world.is_a(owner, lexicon.HOLLOW) or world.flat(owner) or world.likely.on(
-            world.noun(children[0]), world.noun(owner)
-        ) < 0.6:
+        elif (
+            not weak
+            or world.is_a(owner, lexicon.HOLLOW)
+            or world.flat(owner)
+            or world.likely.on(world.noun(children[0]), world.noun(owner)) < 0.6
+        ):
             kind = world.containment(owner)
             world.place(children, kind, owners, weak=weak)
         else:
@@ -851,4 +879,3 @@ def _same_head(group: Group, phrase: Phrase) -> bool:
     names = (group.said, group.noun) if not group.proxy else (group.said,)
     heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
     return not group.cycle and bool(wanted & heads)
-

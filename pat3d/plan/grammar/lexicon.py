@@ -58,7 +58,7 @@ PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
     "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "nestled", "wedged", "stuck", "squeezed", "nestling", "planted", "served", "shown", "seen",
     "parked", "strewn", "lined", "sprawled", "tossed", "cast", "propped", "laid",
-    "floating", "sleeping", "scattered", "left", "hanging", "mounted", "lined", "spread", "kept", "stored", "tucked",
+    "floating", "sleeping", "scattered", "left", "hanging", "mounted", "spread", "kept", "stored", "tucked",
     "put", "facing", "crouching", "kneeling", "waiting", "posing", "dropped", "organised", "organized", "grouped",
 })  # fmt: skip
 NOT_VERBS = frozenset({
@@ -115,7 +115,7 @@ PARTS = frozenset({
     "texture", "finish", "design", "base", "eye", "ear", "tail", "nose", "spine", "trim", "accent", "print", "foot",
     "paw", "hand", "arm", "armrest", "shelf", "drawer", "mattress", "corner", "surface", "fur", "body", "beak",
     "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
-    "end", "half", "tip", "blade", "button", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
+    "end", "half", "tip", "blade", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
 })  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({
@@ -332,26 +332,96 @@ PACKED = {
 SENSES: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {
     "mouse": (
         ("mouse", frozenset({"cheese", "cat", "trap", "animal", "plush", "toy", "rabbit", "bird"})),
-        ("computer mouse", frozenset({
-            "laptop", "keyboard", "monitor", "computer", "desk", "pad", "pc", "screen", "office", "printer", "webcam",
-            "headset", "headphones", "workstation", "usb", "wireless", "speaker", "tablet"})),
+        (
+            "computer mouse",
+            frozenset(
+                {
+                    "laptop",
+                    "keyboard",
+                    "monitor",
+                    "computer",
+                    "desk",
+                    "pad",
+                    "pc",
+                    "screen",
+                    "office",
+                    "printer",
+                    "webcam",
+                    "headset",
+                    "headphones",
+                    "workstation",
+                    "usb",
+                    "wireless",
+                    "speaker",
+                    "tablet",
+                }
+            ),
+        ),
     ),
     "glasses": (
-        ("glass", frozenset({
-            "wine", "water", "bottle", "pitcher", "plate", "juice", "milk", "beer", "jug", "drink", "tray", "cup", "bar",
-            "kitchen", "dinner", "napkin", "bowl"})),
-        ("sunglasses", frozenset({"book", "newspaper", "magazine", "reading", "nightstand", "case", "pair", "wallet", "hat",
-                                  "beach", "phone", "key", "letter", "desk", "towel", "sunscreen"})),
+        (
+            "glass",
+            frozenset(
+                {
+                    "wine",
+                    "water",
+                    "bottle",
+                    "pitcher",
+                    "plate",
+                    "juice",
+                    "milk",
+                    "beer",
+                    "jug",
+                    "drink",
+                    "tray",
+                    "cup",
+                    "bar",
+                    "kitchen",
+                    "dinner",
+                    "napkin",
+                    "bowl",
+                }
+            ),
+        ),
+        (
+            "sunglasses",
+            frozenset(
+                {
+                    "book",
+                    "newspaper",
+                    "magazine",
+                    "reading",
+                    "nightstand",
+                    "case",
+                    "pair",
+                    "wallet",
+                    "hat",
+                    "beach",
+                    "phone",
+                    "key",
+                    "letter",
+                    "desk",
+                    "towel",
+                    "sunscreen",
+                }
+            ),
+        ),
     ),
     "tube": (
         ("toothpaste", frozenset({"toothbrush", "bathroom", "sink", "soap", "towel"})),
-        ("test tube", frozenset({"rack", "beaker", "flask", "pipette", "lab", "laboratory", "petri", "microscope", "syringe"})),
+        (
+            "test tube",
+            frozenset({"rack", "beaker", "flask", "pipette", "lab", "laboratory", "petri", "microscope", "syringe"}),
+        ),
     ),
     "rack": (
         ("shelf", frozenset({"box", "book", "storage", "tool"})),
         ("test tube rack", frozenset({"tube", "vial", "pipette", "beaker", "flask", "lab", "laboratory"})),
         ("wine rack", frozenset({"wine", "bottle"})),
-        ("dish rack", frozenset({"plate", "dish", "bowl", "sink", "kitchen", "mug", "cup", "counter", "spoon", "fork"})),
+        (
+            "dish rack",
+            frozenset({"plate", "dish", "bowl", "sink", "kitchen", "mug", "cup", "counter", "spoon", "fork"}),
+        ),
     ),
     "bar": (
         ("soap", frozenset({"bathroom", "sink", "towel", "dish", "shampoo"})),
@@ -359,8 +429,28 @@ SENSES: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {
     ),
     "board": (
         ("plank", frozenset({"hammer", "nail", "saw", "wood", "block"})),
-        ("cutting board", frozenset({"knife", "bread", "kitchen", "vegetable", "cheese", "tomato", "onion", "carrot", "jam",
-                                     "counter", "croissant", "meat", "cleaver", "lime", "garlic"})),
+        (
+            "cutting board",
+            frozenset(
+                {
+                    "knife",
+                    "bread",
+                    "kitchen",
+                    "vegetable",
+                    "cheese",
+                    "tomato",
+                    "onion",
+                    "carrot",
+                    "jam",
+                    "counter",
+                    "croissant",
+                    "meat",
+                    "cleaver",
+                    "lime",
+                    "garlic",
+                }
+            ),
+        ),
     ),
     "pot": (
         ("pot", frozenset({"stove", "kitchen", "pan", "lid", "soup", "ladle", "burner"})),

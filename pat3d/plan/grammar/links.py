@@ -111,7 +111,15 @@ def _table() -> dict[tuple[str, ...], Link]:
         "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
         "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
     )  # fmt: skip
-    add(Link(manner="gaze", finite=True, says="facing"), "gazes into", "gazes at", "looks at", "stares at", "watches", "faces")
+    add(
+        Link(manner="gaze", finite=True, says="facing"),
+        "gazes into",
+        "gazes at",
+        "looks at",
+        "stares at",
+        "watches",
+        "faces",
+    )
     add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
     add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",
         "displays", "showcases", "depicts")  # fmt: skip

@@ -81,7 +81,9 @@ class Maker:
             return PromptError(
                 f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
             )
-        functions = lexicon.VERBS | lexicon.PARTICIPLES | lexicon.ADVERBS | lexicon.DIRECTIONS | lexicon.POSITIONS.keys()
+        functions = (
+            lexicon.VERBS | lexicon.PARTICIPLES | lexicon.ADVERBS | lexicon.DIRECTIONS | lexicon.POSITIONS.keys()
+        )
         if word in functions | lexicon.COPULAS or len(word) == 1:
             return PromptError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing in a sentence: "A mug is on the '

@@ -8,10 +8,10 @@ from typing import Literal
 
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.shapes import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
+from pat3d.plan.grammar.shapes import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]

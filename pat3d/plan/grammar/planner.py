@@ -101,9 +101,7 @@ class GrammarPlanner:
         task, notes = task_of(world.steps, names, stacks, fixed)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
-    def _read(
-        self, text: str, clause: Clause, world: World, company: Collection[str]
-    ) -> tuple[World, World | None]:
+    def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
@@ -166,7 +164,7 @@ def _check_language(text: str) -> None:
     english = sum(word in lexicon.DETERMINERS or word in ("is", "are", "with", "and", "of") for word in words)
     letters = [letter for letter in text if letter.isalpha()]
     other = [letter for letter in letters if ord(letter) > 0x24F]
-    if len(foreign) >= 2 and len(foreign) > english or len(other) * 2 > len(letters):
+    if (len(foreign) >= 2 and len(foreign) > english) or len(other) * 2 > len(letters):
         said = " ".join(foreign[:3]) or "".join(other[:8])
         raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')
 

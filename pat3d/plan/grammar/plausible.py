@@ -55,7 +55,11 @@ class Plausible:
 
     def on(self, child: str, parent: str) -> float:
         """Of `child` resting on `parent`."""
-        if self.floor(child) and self.is_a(parent, lexicon.THIN) and not self.is_a(parent, ("rug", "mat", "carpet", "blanket")):
+        if (
+            self.floor(child)
+            and self.is_a(parent, lexicon.THIN)
+            and not self.is_a(parent, ("rug", "mat", "carpet", "blanket"))
+        ):
             return 2.5
         if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
             return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 1.2

@@ -62,7 +62,9 @@ class Grammar:
             ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front], ("CM", "CL"): [self._clause_front], ("S", "CM"): [self._late],
         }  # fmt: skip
         self._unary: dict[str, list[Callable[[Node], Node | None]]] = {
-            "A": [self._place], "F": [self._place], "EL": [lambda node: replace(node, cat="S")],
+            "A": [self._place],
+            "F": [self._place],
+            "EL": [lambda node: replace(node, cat="S")],
         }
 
     def readings(self, *, moving: bool = False) -> list[Node]:
@@ -81,18 +83,18 @@ class Grammar:
         return [node for node in made if node.cat == "IM"] or made
 
     def _goals(self, first: Node, second: Node) -> Node:
-        """"the forks in the drawer" + ", the plates on the rack"."""
+        """ "the forks in the drawer" + ", the plates on the rack"."""
         return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
 
     def _further(self, goal: Node, modifier: Node) -> Node | None:
-        """"it on the table" + "in front of the bowl": a second word on where it is to go."""
+        """ "it on the table" + "in front of the bowl": a second word on where it is to go."""
         if modifier.mod[0] != "link":  # type: ignore[index]
             return None
         extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
         return replace(goal, cost=goal.cost + modifier.cost + 0.3, facts=(*goal.facts, *modifier.facts, extra))
 
     def _goal(self, named: Node, modifier: Node) -> Node | None:
-        """"the mug" + "on the plate", where it is to go."""
+        """ "the mug" + "on the plate", where it is to go."""
         kind, at = modifier.mod  # type: ignore[misc]
         if kind != "link" or self._link(at).inverse or self._link(at).manner == "source":
             return None
@@ -125,7 +127,7 @@ class Grammar:
     # Modifiers
 
     def _relation(self, link: Node, objects: Node) -> Node:
-        """"on" + "a table": a modifier that waits for what it is said of."""
+        """ "on" + "a table": a modifier that waits for what it is said of."""
         assert link.mod
         at = link.mod[0]
         cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
@@ -156,7 +158,7 @@ class Grammar:
         return replace(modifier, start=verb.start, cost=verb.cost + modifier.cost, flags=modifier.flags | {"finite"})
 
     def _relative(self, which: Node, modifier: Node) -> Node:
-        """"which is on a table": said of what stands before, like any modifier."""
+        """ "which is on a table": said of what stands before, like any modifier."""
         return replace(modifier, start=which.start, flags=(modifier.flags - {"finite"}) | {"which"})
 
     def _joined_modifier(self, joint: Node, modifier: Node) -> Node | None:
@@ -167,7 +169,9 @@ class Grammar:
     def _modified(self, named: Node, modifier: Node) -> Node | None:
         """Say `modifier` of all that `named` names."""
         kind, at = modifier.mod  # type: ignore[misc]
-        cost = named.cost + modifier.cost + (0.12 if named.flags & {"modified"} and "finite" not in modifier.flags else 0)
+        cost = (
+            named.cost + modifier.cost + (0.12 if named.flags & {"modified"} and "finite" not in modifier.flags else 0)
+        )
         facts = (*named.facts, *modifier.facts)
         flags = named.flags | {"modified"} | (modifier.flags & {"finite"})
         if modifier.cat == "CM":
@@ -182,9 +186,11 @@ class Grammar:
             cost += 0.4
         if kind == "link" and not self._link(at).inverse and self._only_background(named.heads):
             cost += 0.6
-        if kind == "link" and (self._link(at).manner == "of" or self._link(at).filling) and not modifier.flags & {
-            "finite", "which"
-        }:
+        if (
+            kind == "link"
+            and (self._link(at).manner == "of" or self._link(at).filling)
+            and not modifier.flags & {"finite", "which"}
+        ):
             # "a bowl of oranges": of what stands directly before.
             if named.heads != (at - 1,):
                 return None
@@ -278,13 +284,17 @@ class Grammar:
             things = [head for head in left if head not in parts]
             if things and link.manner not in ("include", "of"):
                 cost += sum(
-                    self._likely.having(link, self._noun(owner), self._noun(head)) for head in things for owner in owners
+                    self._likely.having(link, self._noun(owner), self._noun(head))
+                    for head in things
+                    for owner in owners
                 ) / (len(things) * len(owners)) + 0.25 * sum(
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
         if link.manner == "of" and left:
             cost += 0.6 * (len(modifier.heads) > 1)
-            cost += 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
+            cost += (
+                0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
+            )
         return facts, cost
 
     def _said_of(self, named: Node, parent: int) -> bool:
@@ -298,7 +308,11 @@ class Grammar:
     def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
         """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
         phrase = self._phrase(head)
-        same = phrase.definite and not phrase.other and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
+        same = (
+            phrase.definite
+            and not phrase.other
+            and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
+        )
         return same or (phrase.head == "each" and len(heads) > 1)
 
     def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
@@ -336,7 +350,7 @@ class Grammar:
         return Node("CL", joint.start, named.cost, named.heads, named.facts, mark + named.joints, named.flags)
 
     def _list(self, first: Node, rest: Node) -> Node | None:
-        """"a mug" + ", a plate and a fork"."""
+        """ "a mug" + ", a plate and a fork"."""
         mark, later = rest.joints[0], rest.joints[1:]
         facts = (*first.facts, *rest.facts)
         cost = first.cost + rest.cost
@@ -348,14 +362,17 @@ class Grammar:
                 return Node("L", first.start, cost, first.heads, facts, "", first.flags | {"colon"})
             said = ("list", rest.start, first.heads, rest.heads)
             extra = sum(
-                self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head)) for head in rest.heads
+                self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head))
+                for head in rest.heads
             ) / len(rest.heads)
             return Node("L", first.start, cost + extra, first.heads, (*facts, said), "", first.flags | {"colon"})
         if first.joints and "modified" not in first.flags:
             return None
         cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
         coloured = any(self._phrase(head).modifiers.colours for head in first.heads)
-        headless = [self._phrase(head).kind in _HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads]
+        headless = [
+            self._phrase(head).kind in _HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads
+        ]
         if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
             flags = first.flags | (rest.flags & {"finite"}) | {"told"}
@@ -390,7 +407,7 @@ class Grammar:
         return replace(named, cat="VL", start=verb.start)
 
     def _equation(self, named: Node, what: Node) -> Node | None:
-        """"The items are a lamp and a mug"."""
+        """ "The items are a lamp and a mug"."""
         kinds = {self._phrase(head).kind for head in named.heads}
         if not kinds & {"items", "pieces", "pronoun", "background"}:
             return None
@@ -406,8 +423,8 @@ class Grammar:
         return replace(node, cat="CEL", start=joint.start)
 
     def _fronted(self, modifier: Node, named: Node) -> Node | None:
-        """"On the table there is" + "a mug"."""
-        if modifier.mod[0] == "quality" or "finite" in modifier.flags and named.cat != "CL":  # type: ignore[index]
+        """ "On the table there is" + "a mug"."""
+        if modifier.mod[0] == "quality" or ("finite" in modifier.flags and named.cat != "CL"):  # type: ignore[index]
             return None
         link = self._link(modifier.mod[1]) if modifier.mod[0] == "link" else None  # type: ignore[index]
         if link is not None and link.inverse and link.manner != "surround":
@@ -425,7 +442,7 @@ class Grammar:
         return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
 
     def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
-        """"On a table," + "from left to right: a mug and a bowl"."""
+        """ "On a table," + "from left to right: a mug and a bowl"."""
         if any(fact[0] == "front" for fact in clause.facts):
             return None
         return self._fronted(modifier, replace(clause, cat="CL"))
@@ -449,6 +466,6 @@ class Grammar:
         return Node("S", first.start, cost, heads, (*first.facts, *subject, *second.facts, *later), "", first.flags)
 
     def _late(self, clause: Node, modifier: Node) -> Node | None:
-        """"On a desk there is a lamp, with a mug beside it"."""
+        """ "On a desk there is a lamp, with a mug beside it"."""
         made = self._modified(replace(clause, cat="L"), modifier)
         return None if made is None else replace(made, cat="S", cost=made.cost + 0.1)
