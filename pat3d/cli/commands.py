@@ -9,7 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from pat3d.cli.console import console, show_mended, show_report, show_verification, watch
+from pat3d.cli.reading import AskingPlanner, Decided
 from pat3d.errors import SpecError
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.telling import tell
 
 
 def generate(options: argparse.Namespace) -> int:
@@ -25,9 +28,16 @@ def generate(options: argparse.Namespace) -> int:
         formats=tuple(options.formats),
         resume=options.resume,
     )
+    plan = (AskingPlanner if options.ask else GrammarPlanner)(options.allow_proxies).plan(options.prompt)
+    console(stderr=True).print(tell(plan), markup=False, soft_wrap=True)
     with watch(console(stderr=True)) as progress:
         outcome = run_prompt(
-            options.prompt, out=options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+            options.prompt,
+            out=options.out,
+            settings=settings,
+            allow_proxies=options.allow_proxies,
+            planner=Decided(plan),
+            progress=progress,
         )
     return _finished(outcome, options.out)
 

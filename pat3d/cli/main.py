@@ -16,6 +16,10 @@ EXAMPLES = {
   pat3d generate "a red mug on a wooden table" --out scenes/mug
   pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
 """,
+    "plan": """
+  pat3d plan "a laptop, a mouse and two glasses on a desk"
+  pat3d plan "put the soup in the basket"                        the scene before, and the task
+""",
     "build": """
   pat3d build scene.yaml --out scenes/mine
   pat3d build --schema > scene.schema.json
@@ -94,7 +98,12 @@ def parser() -> argparse.ArgumentParser:
     making = command("generate", "make a verified scene from a sentence")
     making.add_argument("prompt", metavar="PROMPT", help="what the scene shows, in English")
     making.add_argument("--allow-proxies", action="store_true", help="a plain box for what the catalogue lacks")
+    making.add_argument("--ask", action="store_true", help="on a terminal, ask where the sentence has two readings")
     _add_making(making, seed=0, friction=0.2)
+
+    reading = command("plan", "say how a sentence is read, and make nothing")
+    reading.add_argument("prompt", metavar="PROMPT", help="what the scene shows, or what a robot is to do, in English")
+    reading.add_argument("--allow-proxies", action="store_true", help="a plain box for what the catalogue lacks")
 
     building = command("build", "make a verified scene from a specification with your meshes, sizes and relations")
     building.add_argument("spec", metavar="SCENE.YAML", nargs="?", help="the specification")
@@ -217,6 +226,11 @@ def _interrupt(*_: Any) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.command == "plan":
+        # Reading a sentence needs nothing of what makes a scene.
+        from pat3d.cli.reading import plan
+
+        return plan(options)
     from pat3d.cli import commands
 
     return getattr(commands, options.command)(options)

@@ -481,8 +481,7 @@ class Cutter:
                 words.append(token.text)
             size += 1
         if {"as", "than", "like"} & set(words):
-            self._made.unread.append(" ".join(words))
-            self._made.chunks.pop()
-            self._at += size
+            last = max(at for at, word in enumerate(words) if word in ("as", "than", "like"))
+            self._add("rel", last + 1, link=Link(manner="than", said=" ".join(words[: last + 1])))
         elif words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
             self._add("quality", size, modifiers=read_modifiers(words))

@@ -238,6 +238,8 @@ def task_of(
         for at, step in enumerate(wanted)
         if not (step.manner == "pick" and any(set(step.items) & set(later.items) for later in wanted[at + 1 :]))
     ]
+    blocked = {item for step in steps if step.manner == "other" for item in step.items}
+    wanted = [step for step in wanted if not (step.manner == "pick" and set(step.items) & blocked)]
     specs: list[str] = []
     for step in wanted:
         made = _specs(step, names, stacks, fixed)

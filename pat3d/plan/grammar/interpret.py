@@ -467,10 +467,11 @@ class Interpreter:
                 self._not_understood((*child_heads, *parent_heads))
             return
         first = self._chunks[child_heads[0]].phrase
-        if first is not None and first.one_of and len(children) > 1:
-            children = children[:1]
-            tell(children[0], first.superlative)
         phrase = places[0]
+        if first is not None and first.one_of:
+            children = self._one_of(children, first)
+        if phrase is not None and phrase.superlative.adjectives:
+            parents = self._one_of(parents, phrase)
         several = any(head in self._each for head in (*child_heads, *parent_heads)) or any(
             each is not None and each.each for each in places
         )
@@ -479,6 +480,17 @@ class Interpreter:
         elif several and len(children) < len(parents) and not set(children) & set(parents):
             children = multiply(self._world, children, len(parents))
         self.relate(children, link, parents, one_of=phrase is not None and phrase.one_of)
+
+    @staticmethod
+    def _one_of(items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that "the smallest of", "the second of" means."""
+        where = phrase.superlative.adjectives[:1]
+        at = lexicon.POSITIONS.get(where[0], 0) if where else 0
+        if where and where[0] == "middle":
+            at = len(items) // 2
+        item = items[at] if -len(items) <= at < len(items) else items[-1]
+        tell(item, phrase.superlative)
+        return [item]
 
     def _not_understood(self, heads: Sequence[int]) -> None:
         for head in heads:
@@ -512,7 +524,9 @@ class Interpreter:
                 raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
             return
         children = [child for child in children if child not in parents] or children
-        if link.manner == "gaze":
+        if link.manner == "than":
+            world.note(f'not modelled: {said.format(link.said)}')
+        elif link.manner == "gaze":
             world.arrange("facing", children, parents, said.format("facing"))
         elif link.manner == "far":
             world.arrange("far_from", children, parents, said.format("far from"))
@@ -583,6 +597,10 @@ class Interpreter:
         tops = world.tops(parents)
         if len(world.bases(children)) < len(tops) and not one_of and parents[0].group.height == 1:
             exact = parents[0].group.exact or len({item.group for item in parents}) > 1
+            if exact and kind == "in":
+                raise PromptError(
+                    f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or name one.'
+                )
             if exact and len(world.bases(children)) == 1:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"

@@ -10,7 +10,7 @@ from pat3d.scene.model import RelationKind
 
 Manner = Literal[
     "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half", "edge",
-    "far", "source", "goal",
+    "far", "source", "goal", "than",
 ]  # fmt: skip
 
 Side = Literal["left", "right", "centre"]
@@ -30,6 +30,8 @@ class Link:
     """"filled with": a bare plural means many."""
     side: Side | None = None
     """For manner "half": which part of the parent."""
+    said: str = ""
+    """For manner "than": the comparison, as written."""
     says: ArrangementKind | None = None
     """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
 

@@ -15,7 +15,7 @@ from pat3d.plan.grammar.shapes import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
-_ORDINALS = frozenset({"first", "second", "third", "last"})
+_ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""
 
 
@@ -108,6 +108,9 @@ class PhraseReader:
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
             if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
                 told = Modifiers(adjectives=(run[0].text,))
+                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
+                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
+                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
                               determined=True, definite=True, modifiers=told), after  # fmt: skip
             if run[-1].text in lexicon.SUPERLATIVES and len(run) == 1 and flags.get("definite"):

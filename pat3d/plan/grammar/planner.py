@@ -147,12 +147,11 @@ class GrammarPlanner:
                 if chunk.kind not in ("joint", "verb", "there", "clause"):
                     world.note(f'not understood: "{chunk.text}"')
                 return readings, rest
-        for end in range(len(chunks) - 1, 0, -1):
-            if Grammar(chunks[:end], self._likely).readings():
-                break
-        at, before = chunks[end], chunks[end - 1]
+        read = (end for end in range(len(chunks) - 1, 0, -1) if Grammar(chunks[:end], self._likely).readings())
+        end = next(read, 0)
+        after = f' after "{chunks[end - 1].text}"' if end else ""
         raise PromptError(
-            f'cannot read "{at.text}" after "{before.text}". Say one thing in a sentence: "A mug is on the table. A spoon '
+            f'cannot read "{chunks[end].text}"{after}. Say one thing in a sentence: "A mug is on the table. A spoon '
             'is in the mug."'
         )
 

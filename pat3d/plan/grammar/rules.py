@@ -210,13 +210,16 @@ class Grammar:
             if self._chunks[at].text in ("one", "other"):
                 cost += 0.5
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
-                close = self._chunks[at].link is None and "," not in named.joints
+                close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
                 cost += 0.2 if close else 0.45
             said = (kind, at, named.heads, ()) if kind == "place" else (kind, at, named.heads)
             return Node("L", named.start, cost, named.heads, (*facts, said), named.joints, flags)
         link = self._link(at)
         if len(named.heads) > 1 and link.inverse:
             cost += 0.9
+        if len(named.heads) > 1 and "placed" in named.flags and "finite" not in modifier.flags:
+            # "A mug on a tray, a can behind a bowl"
+            cost += 0.2
         if link.manner == "include":
             listed = ("include", at, named.heads, modifier.heads)
             cost += 0.0 if len(named.heads) == 1 and self._several(named.heads[0]) else 1.5
