@@ -32,9 +32,12 @@ class _Teller:
         self._plan = plan
         self._base = {obj.name: _base(obj, plan) for obj in plan.objects}
         self._kinds: dict[str, list[str]] = {}
-        """Objects of one name but for the number."""
+        """Objects that one phrase named alike."""
+        self._like: dict[str, list[str]] = {}
         for obj in plan.objects:
-            self._kinds.setdefault(self._base[obj.name], []).append(obj.name)
+            like = self._kinds.setdefault(f"{self._base[obj.name]}/{obj.phrase}", [])
+            like.append(obj.name)
+            self._like[obj.name] = like
         self._named: set[str] = set()
         self._below = {rel.child: rel for rel in plan.relations if rel.supports}
 
@@ -81,7 +84,7 @@ class _Teller:
 
     def _same_parents(self, parent: str, own: list[str]) -> tuple[list[str], str]:
         """`own` and its like on the like of `parent`, where every one of these has its own."""
-        kind = self._kinds[self._base[parent]]
+        kind = self._like[parent]
         if len(kind) > 1 and len(own) == 1:
             pairs = [(other, self._children(other)) for other in kind]
             likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
@@ -93,7 +96,7 @@ class _Teller:
         """The tower of equal objects of which `name` is the lowest."""
         tower = [name]
         while True:
-            above = [other for other in self._kinds[self._base[name]]
+            above = [other for other in self._like[name]
                      if other in self._below and self._below[other].kind == "on"
                      and self._below[other].parent == tower[-1]]  # fmt: skip
             if len(above) != 1:
@@ -149,9 +152,9 @@ class _Teller:
                 parts.append(f"a stack of {_count(len(tower))} {plural(self._base[name])}")
                 self._named |= set(tower)
             else:
-                by_kind.setdefault(self._base[name], []).append(name)
-        for base, own in by_kind.items():
-            whole = self._kinds[base]
+                by_kind.setdefault(self._like[name][0], []).append(name)
+        for own in by_kind.values():
+            base, whole = self._base[own[0]], self._like[own[0]]
             fresh = not set(whole) & self._named
             if len(own) == len(whole) or (fresh and len(own) > 1):
                 parts.append(_some(base, len(own)))
@@ -166,10 +169,10 @@ class _Teller:
         """ "the mug and the two plates"."""
         by_kind: dict[str, list[str]] = {}
         for name in dict.fromkeys(names):
-            by_kind.setdefault(self._base[name], []).append(name)
+            by_kind.setdefault(self._like[name][0], []).append(name)
         parts: list[str] = []
-        for base, own in by_kind.items():
-            whole = self._kinds[base]
+        for own in by_kind.values():
+            base, whole = self._base[own[0]], self._like[own[0]]
             if len(own) > 1 and len(own) == len(whole):
                 parts.append(f"the {_count(len(own))} {plural(base)}")
             else:
@@ -177,7 +180,7 @@ class _Teller:
         return _joined(parts)
 
     def _the(self, name: str) -> str:
-        base, whole = self._base[name], self._kinds[self._base[name]]
+        base, whole = self._base[name], self._like[name]
         if len(whole) == 1:
             return f"the {base}"
         at = whole.index(name)
@@ -212,7 +215,7 @@ def plural(name: str) -> str:
         word = _PLURALS[word]
     elif word in _PLURAL_ONLY:
         pass
-    elif re.search(r"(s|x|z|ch|sh)$", word):
+    elif re.search(r"(s|x|z|ch|sh|tomato|potato)$", word):
         word += "es"
     elif re.search(r"[^aeiou]y$", word):
         word = f"{word[:-1]}ies"

@@ -141,8 +141,14 @@ class Boundaries:
 
     def _coordination(self, run: list[Token], at: int) -> int | None:
         """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
+        if not run:
             return None
+        if not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
+            # "a hefty, red-painted box": what is no noun and stands before a comma and a modifier describes.
+            known = self._nouns.longest([token.text for token in run]) or self._nouns.resembles_noun(run[-1].text)
+            after = self._tokens[at + 1].text
+            if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
+                return None
         colours = is_colour_word(run[-1].text)
         if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
             return None

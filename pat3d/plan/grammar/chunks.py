@@ -37,6 +37,7 @@ _EMPTY = frozenset({
     "a", "an", "the", "some", "them", "to", "it", "its", "do", "does", "did", "about", "all", "at",
 })  # fmt: skip
 """Words that mean nothing by themselves."""
+_ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by", "beneath",
                           "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
 """Relations that may stand without a landmark: "with two pens inside"."""
@@ -195,6 +196,12 @@ class Cutter:
 
     def _unsaid(self, word: str, follower: str) -> bool:
         """Name what no scene has and go on behind it: purposes, directions, the viewer."""
+        number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
+        if word == "at" and follower in ("least", "most") and number:
+            return self._leave(2)
+        if word in _ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
+            self._at += 1
+            return True
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
             return self._leave(read[1] - self._at)
         if word == "which" and follower in ("means", "ensures", "makes"):
@@ -444,8 +451,14 @@ class Cutter:
         """Read "without a lid", "no people": set aside with the phrase."""
         read = self._phrases.read(self._at + 1)
         end = read[1] if read else self._at + 1
-        while link_at(self._tokens, end) and (more := self._phrases.read(end + link_at(self._tokens, end))):
-            end = more[1]
+        while size := link_at(self._tokens, end):
+            more = self._phrases.read(end + size)
+            pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
+            if more is None and not pronoun:
+                break
+            end = more[1] if more is not None else end + size + 1
+        if self._last is not None and self._last.kind in ("have", "there"):
+            self._made.chunks.pop()
         self._aside(end - self._at)
 
     def _owned_part(self) -> None:

@@ -38,6 +38,8 @@ class Interpreter:
         self._refs: dict[int, list[Item]] = {}
         self._bound: dict[int, tuple[int, ...]] = {}
         self._each: set[int] = set()
+        self._handled: set[int] = set()
+        """Phrases for everything that were put somewhere."""
         self._earlier = list(world.groups)
         self._subjects: list[tuple[int, list[Item]]] = []
         """What the clauses are about, by where they begin."""
@@ -84,6 +86,11 @@ class Interpreter:
                 self._aimed(fact[1], fact[2], fact[3])
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
+        told = {at for fact in facts if fact[0] in ("have", "list", "include") for at in fact[3]}
+        for at, chunk in enumerate(self._chunks):
+            kind = chunk.phrase.kind if chunk.phrase is not None else ""
+            if kind in ("items", "pieces") and at not in self._bound and at not in self._handled | told:
+                self._not_understood([at])
         world = self._world
         subject = self._ref(reading.heads[0]) if reading.heads else []
         last = max(self._clauses)
@@ -204,6 +211,8 @@ class Interpreter:
             self._refs[at] = list(group.items)
             if _position(phrase) in ("left", "right") and len(group.items) == 1:
                 self._line_up(group.items[0])
+        elif phrase.kind == "pronoun" and phrase.head == "another":
+            self._refs[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
             self._refs[at] = self._members(at, phrase)
         elif phrase.kind == "items":
@@ -297,6 +306,9 @@ class Interpreter:
     def _members(self, at: int, phrase: Phrase) -> list[Item]:
         """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""
         world = self._world
+        if phrase.said == "stack":
+            towers = [group for group in world.groups if group.height > 1]
+            return list(towers[-1].items) if towers and phrase.definite else []
         words, where = phrase.modifiers, _position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
@@ -326,6 +338,15 @@ class Interpreter:
             return list(whole.items[len(whole.items) - count :])
         world.telling = whole.items[count:]
         return list(whole.items[:count])
+
+    def _another(self, at: int, phrase: Phrase) -> list[Item]:
+        """One more of what was named first in the sentence, else last."""
+        named = [self._refs[head] for heads in self._clauses.values() for head in heads if self._refs.get(head)]
+        groups = [named[0][0].group] if named else self._world.groups[-1:]
+        if not groups or groups[0].proxy:
+            return []
+        more = replace(groups[0].phrase, words=phrase.words, count=1, plural=False, height=None, definite=False)
+        return list(self._maker.make(self._world, more).items)
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
@@ -472,6 +493,12 @@ class Interpreter:
             children = self._one_of(children, first)
         if phrase is not None and phrase.superlative.adjectives:
             parents = self._one_of(parents, phrase)
+        group = children[0].group
+        loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
+        if loose and link.kind in SUPPORT_KINDS:
+            # "Two pots with plants in them": as many for each.
+            recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
+            children = list(group.items)
         several = any(head in self._each for head in (*child_heads, *parent_heads)) or any(
             each is not None and each.each for each in places
         )
@@ -507,6 +534,7 @@ class Interpreter:
         free = [item for item in world.items() if world.support(item) is None and item not in parents]
         free = [item for item in free if not world.on_floor(item)]
         if free:
+            self._handled |= set(heads)
             self.relate(free, link, parents)
         return bool(free)
 

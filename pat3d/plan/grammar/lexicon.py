@@ -150,7 +150,7 @@ PICTURES = frozenset({
 SUBSTANCES = frozenset({
     "water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt", "honey", "jam", "oil",
     "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade", "soda", "chocolate milk",
-    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper",
+    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper", "beverage", "greens",
 })  # fmt: skip
 """Contents too fine or too wet to be rigid bodies."""
 
@@ -181,7 +181,6 @@ GENERICS: dict[str, tuple[str, ...]] = {
     "tool": ("hammer", "screwdriver", "wrench", "pliers"),
     "snack": ("chip bag", "cookie", "granola bar", "pretzel"),
     "drink": ("soda can", "juice bottle", "bottle"),
-    "beverage": ("soda can", "juice bottle", "bottle"),
     "condiment": ("ketchup", "mustard", "salt shaker"),
     "sauce bottle": ("ketchup", "mustard", "hot sauce"),
     "spice": ("spice bottle", "salt shaker"),

@@ -206,7 +206,8 @@ class PhraseReader:
         if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
             # "the top dresser drawer", "the cabinet shelf"
             whole = self._simple(run[:-1], count)
-            if whole.kind == "object" and not whole.cycle:
+            inside = head not in lexicon.STORAGE_PARTS or self._nouns.of_class(whole.noun, lexicon.STORAGE)
+            if whole.kind == "object" and not whole.cycle and inside and not is_modifier(words[-2]):
                 return replace(whole, part=head)
         found = self._nouns.longest(words)
         if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):

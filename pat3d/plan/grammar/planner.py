@@ -108,7 +108,7 @@ class GrammarPlanner:
         chunks = completed(_trimmed(sentence.chunks), self._nouns)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
-        if not chunks:
+        if not any(chunk.kind == "noun" for chunk in chunks):
             if clause.manner is not None:
                 world.note(f'not modelled: "{clause.said}": it names no object.')
             return world, None

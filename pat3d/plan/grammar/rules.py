@@ -294,7 +294,7 @@ class Grammar:
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
         if link.manner == "of" and left:
-            cost += 0.6 * (len(modifier.heads) > 1)
+            cost += 0.6 * any(self._phrase(head).determined for head in modifier.heads[1:])
             cost += (
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )

@@ -76,8 +76,9 @@ class Nouns:
                 # A plural that is itself a synonym ("shelves" for a shelving unit) names one object.
                 whole = known is not None and spelled not in known.plurals
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not whole)
-        if known is None and spelled in lexicon.ALIASES:
-            return self.match(lexicon.ALIASES[spelled].split())
+        for name in (spelled, *self._singular(words)) if known is None else ():
+            if name in lexicon.ALIASES and (found := self.match(lexicon.ALIASES[name].split())):
+                return Match(noun=found.noun, said=name, plural=name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
         return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
