@@ -31,6 +31,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     if not world.items():
         aside = f" Set aside: {'; '.join(world.aside)}." if world.aside else ""
         raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
+    for item in world.items():
+        like = [other for other in world.items() if other.group.noun == item.group.noun]
+        if item.place and len(like) == 1:
+            world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
     gone = {item for group in world.groups if group.replaced for item in group.items}
     world.groups = [group for group in world.groups if not group.replaced]
     world.supports = {c: e for c, e in world.supports.items() if c not in gone and e.parent not in gone}

@@ -104,15 +104,19 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)
-    if verb is None:
-        return [Clause(tokens=tuple(tokens))]
-    starts.append((0, verb))
-    for at in range(verb + 1, len(tokens) - 1):
+    if verb is not None:
+        starts.append((0, verb))
+    for at in range(1 if verb is None else verb + 1, len(tokens) - 1):
         joint = tokens[at].text in (",", "and", "then", "-")
         doubled = tokens[at + 1].text in ("and", "then", ",")
-        if joint and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
+        told = verb is not None or tokens[at + 1].text in _CERTAIN
+        if joint and told and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
             starts.append((at, found))
+    if not starts:
+        return [Clause(tokens=tuple(tokens))]
     made: list[Clause] = []
+    if verb is None:
+        made.append(Clause(tokens=(*tokens[: starts[0][0]], tokens[-1])))
     ends = [start for start, _ in starts[1:]] + [len(tokens) - 1]
     for (start, verb), end in zip(starts, ends, strict=True):
         word = _base(tokens[verb].text)
@@ -184,7 +188,8 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     if base in _CERTAIN and not tokens[at + 1].mark:
         return at
     bare = base in ("stack", "open", "close", "sort", "pack", "push", "pull", "drop", "empty", "plate", "align", "add")
-    if bare and known and opening and tokens[at].number == 1:
+    goal = any(token.text in ("into", "in", "on", "onto", "to") for token in tokens[at + 2 : at + 6])
+    if bare and (known or (goal and base not in ("open", "close"))) and opening and tokens[at].number == 1:
         more = [token.text for token in tokens[at + 1 :]]
         # "Open box on a desk", "stack of books" describe.
         if base in ("open", "close", "empty") and nouns.match([follower]) and "the" not in more:

@@ -137,8 +137,11 @@ class Interpreter:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
         link = self._chunks[at].link
         assert link is not None
+        before = self._world.subject
         parents = self._refs_of(parent_heads, link, child_heads)
         children = self._refs_of(child_heads, link, parent_heads, child=True)
+        if not parent_heads:
+            parents = [item for item in before if item not in children]
         phrases = [self._chunks[head].phrase for head in child_heads]
         made_up = self._clause.manner in ("make", "stack") and all(
             phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
@@ -246,10 +249,17 @@ class Interpreter:
                 own = group.modifiers.colours or (group.items[0].colours or ())
                 if group in besides and (same is _same_head or phrase.modifiers.colours != own):
                     continue
+                if same is _same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
+                    continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
-        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1):
-            storage = [item for item in world.items() if world.is_a(item, lexicon.STORAGE)]
+        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not _position(phrase):
+            storage = [
+                item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
+            ]
+            storage = [
+                item for item in storage if phrase.head not in ("shelf", "shelves") or not world.is_a(item, ("desk",))
+            ]
             return storage[-1:] or None
         return None
 
@@ -356,6 +366,7 @@ class Interpreter:
                 size = item.told.size_word or item.group.modifiers.size_word
                 if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
                     return [item]
+            groups = [group for group in groups if len(group.items) > 1]
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in _colours(item)]
             if own and phrase.definite:
@@ -553,7 +564,7 @@ class Interpreter:
             return
         children = [child for child in children if child not in parents] or children
         if link.manner == "than":
-            world.note(f'not modelled: {said.format(link.said)}')
+            world.note(f"not modelled: {said.format(link.said)}")
         elif link.manner == "gaze":
             world.arrange("facing", children, parents, said.format("facing"))
         elif link.manner == "far":
@@ -749,7 +760,7 @@ class Interpreter:
             words = phrase.modifiers
             if words.colours or words.palette or words.material:
                 describe(group, words, part=phrase.said)
-            elif phrase.said not in lexicon.SILENT_PARTS:
+            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)

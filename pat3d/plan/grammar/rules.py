@@ -91,14 +91,19 @@ class Grammar:
         if modifier.mod[0] != "link":  # type: ignore[index]
             return None
         extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
-        return replace(goal, cost=goal.cost + modifier.cost + 0.3, facts=(*goal.facts, *modifier.facts, extra))
+        return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
 
     def _goal(self, named: Node, modifier: Node) -> Node | None:
         """ "the mug" + "on the plate", where it is to go."""
         kind, at = modifier.mod  # type: ignore[misc]
-        if kind != "link" or self._link(at).inverse or self._link(at).manner == "source":
+        if kind == "place" and self._chunks[at].link is not None:
+            facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, ()))
+            return Node("IM", named.start, named.cost + modifier.cost, named.heads, facts, named.joints, named.flags)
+        if kind != "link" or self._link(at).manner == "source":
             return None
         link = self._link(at)
+        if link.inverse and (link.manner != "with" or link.kind is not None):
+            return None
         cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
         cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
             "modified" in named.flags and self._is_pronoun(named.heads)
