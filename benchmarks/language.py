@@ -5,8 +5,8 @@
 The corpus is a table (text, kind, source, ...) that is not part of the repository; language_labels.tsv holds, by line
 and hash of the text, what a person reads: "objects; relations !task ~refuse". Objects are "2 red cup|mug" ("n" for any
 number above one, "*fruit" for anything of a kind, "?table" for what may be there or not); relations are "cup on table",
-"~" before one that a note may stand in for. A refusal is just where the label says so or names what the catalogue lacks.
-A difference is silent unless a note of the plan names what differs.
+"~" before one that a note may stand in for. A refusal is just where the label says so, or names what the catalogue
+lacks. A difference is silent unless a note of the plan names what differs.
 """
 
 from __future__ import annotations
@@ -169,7 +169,7 @@ def judge(label: Label, plan: ScenePlan) -> tuple[str, list[str]]:
         if sum(pairs[key] for key in keys) < needed and not told.said.startswith("?"):
             wrong.append(f"lacks: {told.said}")
     optional = {id(want) for want in label.objects if want.optional}
-    for (child, kind, parent), _ in pairs.items():
+    for child, kind, parent in pairs:
         supports = kind in ("on", "in", "hangs_from")
         if supports and (child, kind, parent) not in allowed and parent not in optional:
             names = {id(want): want.words for want in label.objects}

@@ -13,8 +13,10 @@ _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", 
 _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
             "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen"}  # fmt: skip
 _PLURAL_ONLY = frozenset({
-    "scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones", "jeans", "binoculars",
-    "goggles", "shears", "grapes", "dice", "fries", "chopsticks", "shelves", "crackers", "raisins", "noodles", "flowers",
+    "scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones", "jeans",
+    "binoculars",
+    "goggles", "shears", "grapes", "dice", "fries", "chopsticks", "shelves", "crackers", "raisins", "noodles",
+    "flowers",
 })  # fmt: skip
 _WORDS = {
     "on": "on", "in": "in", "hangs_from": "hanging from", "left_of": "to the left of", "right_of": "to the right of",
@@ -143,7 +145,7 @@ class _Teller:
     # Names
 
     def _listed(self, names: Sequence[str]) -> str:
-        """ "a mug and two plates", by kind, towers as one."""
+        """Read "a mug and two plates", by kind, towers as one."""
         parts: list[str] = []
         by_kind: dict[str, list[str]] = {}
         for name in names:
@@ -166,7 +168,7 @@ class _Teller:
         return _joined(parts)
 
     def _all(self, names: Sequence[str]) -> str:
-        """ "the mug and the two plates"."""
+        """Read "the mug and the two plates"."""
         by_kind: dict[str, list[str]] = {}
         for name in dict.fromkeys(names):
             by_kind.setdefault(self._like[name][0], []).append(name)

@@ -38,7 +38,8 @@ _EMPTY = frozenset({
 })  # fmt: skip
 """Words that mean nothing by themselves."""
 _ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
-_BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by", "beneath",
+_BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
+    "beneath",
                           "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
 """Relations that may stand without a landmark: "with two pens inside"."""
 
@@ -380,11 +381,13 @@ class Cutter:
             return False
         inverse = link.inverse
         follows = self._tokens[self._at + size]
+        after_noun = self._last is not None and self._last.kind == "noun"
         bare = " ".join(key) in _BARE_PLACES and (
-            follows.mark or follows.text in ("and", "while", "which", "that", "there", "but", "or")
-            or follows.text in lexicon.COPULAS or follows.text in lexicon.VERBS or (link_at(self._tokens, self._at + size) > 0 and self._last is not None
-                                                  and self._last.kind == "noun")
-        )  # fmt: skip
+            follows.mark
+            or follows.text in ("and", "while", "which", "that", "there", "but", "or")
+            or follows.text in lexicon.COPULAS | lexicon.VERBS
+            or (link_at(self._tokens, self._at + size) > 0 and after_noun)
+        )
         if bare:
             self._add("place", size, text=" ".join(key), link=link)
         else:

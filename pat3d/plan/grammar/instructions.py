@@ -32,7 +32,8 @@ _VERBS: dict[str, Manner] = {
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
-                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch", "tidy",
+                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch",
+                     "tidy",
                      "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble"), "other"),
 }  # fmt: skip
@@ -46,7 +47,8 @@ _FILLERS = frozenset({
 _ASKING = (
     ("could", "you"), ("can", "you"), ("would", "you"), ("will", "you"), ("you", "should"), ("you", "must"),
     ("you", "need", "to"), ("i", "want", "you", "to"), ("help", "me"), ("help", "me", "to"), ("let's",), ("let", "us"),
-    ("your", "task", "is", "to"), ("the", "task", "is", "to"), ("make", "sure", "to"), ("go", "and"), ("you", "have", "to"),
+    ("your", "task", "is", "to"), ("the", "task", "is", "to"), ("make", "sure", "to"), ("go", "and"), ("you", "have",
+    "to"),
     ("please", "help", "me"), ("go",),
 )  # fmt: skip
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})

@@ -537,7 +537,7 @@ class Interpreter:
                 self._world.note(f'not understood: "{phrase.words}"')
 
     def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
-        """ "Everything is on a table": all that is not yet carried."""
+        """Read "Everything is on a table": all that is not yet carried."""
         world = self._world
         kinds = {self._chunks[head].phrase.kind for head in heads if self._chunks[head].phrase}  # type: ignore[union-attr]
         if "items" not in kinds:
@@ -602,9 +602,9 @@ class Interpreter:
                 )
             self._settle(children, parents)
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
-            if link.kind == "next_to" and small and world.is_table(parents[0]) and world.on_floor(parents[0]):
-                if world.support(children[0]) is None:
-                    world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
+            table = world.is_table(parents[0]) and world.on_floor(parents[0])
+            if link.kind == "next_to" and small and table and world.support(children[0]) is None:
+                world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
             world.beside(children, link.kind, parents)  # type: ignore[arg-type]
 
     def _settle(self, children: list[Item], parents: list[Item]) -> None:
@@ -638,13 +638,14 @@ class Interpreter:
             exact = parents[0].group.exact or len({item.group for item in parents}) > 1
             if exact and kind == "in":
                 raise PromptError(
-                    f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or name one.'
+                    f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or '
+                    "name one."
                 )
             if exact and len(world.bases(children)) == 1:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
-                world.arrange("across", children, tops,
-                              f'"{children[0].group.words}" {what} {names} together; it is placed on the first')  # fmt: skip
+                note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
+                world.arrange("across", children, tops, note)
                 self.cost += 0.3
         assert kind in SUPPORT_KINDS
         world.place(children, kind, parents)
@@ -687,7 +688,7 @@ class Interpreter:
         if len(parents) < 2 and len(groups) < 2:
             world.note(f"{said}: the other neighbour is not said.")
         sides = (
-            list(parents) if len(groups) == 1 else [[item for item in parents if item.group is g][0] for g in groups]
+            list(parents) if len(groups) == 1 else [next(item for item in parents if item.group is g) for g in groups]
         )
         for child in children:
             world.forget_guess(child, parents[0])

@@ -49,14 +49,16 @@ PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "thems
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({
     "sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean", "perches",
-    "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
+    "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats", "goes",
+    "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
-    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "nestled", "wedged", "stuck", "squeezed", "nestling", "planted", "served", "shown", "seen",
+    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "nestled", "wedged",
+    "stuck", "squeezed", "nestling", "planted", "served", "shown", "seen",
     "parked", "strewn", "lined", "sprawled", "tossed", "cast", "propped", "laid",
     "floating", "sleeping", "scattered", "left", "hanging", "mounted", "spread", "kept", "stored", "tucked",
     "put", "facing", "crouching", "kneeling", "waiting", "posing", "dropped", "organised", "organized", "grouped",
@@ -115,7 +117,8 @@ PARTS = frozenset({
     "texture", "finish", "design", "base", "eye", "ear", "tail", "nose", "spine", "trim", "accent", "print", "foot",
     "paw", "hand", "arm", "armrest", "shelf", "drawer", "mattress", "corner", "surface", "fur", "body", "beak",
     "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
-    "end", "half", "tip", "blade", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
+    "end", "half", "tip", "blade", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder",
+    "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
 })  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({
@@ -150,7 +153,8 @@ PICTURES = frozenset({
 SUBSTANCES = frozenset({
     "water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt", "honey", "jam", "oil",
     "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade", "soda", "chocolate milk",
-    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper", "beverage", "greens",
+    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper", "beverage",
+    "greens",
 })  # fmt: skip
 """Contents too fine or too wet to be rigid bodies."""
 
@@ -303,7 +307,8 @@ ALIASES = {
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
 VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
-DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther", "clockwise",
+DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
+    "clockwise",
                         "counterclockwise", "sideways"})  # fmt: skip
 HONOURED = frozenset({
     "square", "cubic", "flat", "tall", "long", "rectangular", "striped", "high", "deep", "short", "shallow", "low",
@@ -314,8 +319,10 @@ HONOURED = frozenset({
 SAID_OTHERWISE = frozenset({
     "other", "same", "different", "another", "single", "own", "more", "left", "right", "middle", "first", "second",
     "third", "fourth", "fifth", "last", "leftmost", "rightmost", "front", "back", "alternating", "stacked", "of",
-    "smallest", "largest", "biggest", "smaller", "larger", "bigger", "center", "centre", "normal", "regular", "standard",
-    "ordinary", "typical", "real", "whole", "colored", "coloured", "matching", "identical", "potted", "plush", "stuffed",
+    "smallest", "largest", "biggest", "smaller", "larger", "bigger", "center", "centre", "normal", "regular",
+    "standard",
+    "ordinary", "typical", "real", "whole", "colored", "coloured", "matching", "identical", "potted", "plush",
+    "stuffed",
 })  # fmt: skip
 """Adjectives that tell which, or say nothing."""
 PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine", "newspaper", "pancake", "notebook",
@@ -461,13 +468,17 @@ SENSES: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {
     ),
 }
 """What a word of several meanings names, and the company that tells it; the first where none does."""
-MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "food", "foods", "stuff", "clutter", "mess", "brunch",
+MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "food", "foods", "stuff", "clutter", "mess",
+    "brunch",
                    "picnic", "dessert", "feast", "salad", "groceries", "ingredients", "supplies"})  # fmt: skip
 """Words that name no single thing."""
 FOREIGN = frozenset({
-    "una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das", "auf", "dem", "ein",
-    "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur", "avec", "et", "dans", "il",
-    "uno", "della", "sul", "tavolo", "een", "op", "het", "naast", "um", "uma", "em", "com", "na", "och", "ett", "przy", "jest",
+    "una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das", "auf", "dem",
+    "ein",
+    "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur", "avec", "et", "dans",
+    "il",
+    "uno", "della", "sul", "tavolo", "een", "op", "het", "naast", "um", "uma", "em", "com", "na", "och", "ett",
+    "przy", "jest",
 })  # fmt: skip
 """Function words of other languages."""
 SUPERLATIVES = {

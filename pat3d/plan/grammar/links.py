@@ -27,7 +27,7 @@ class Link:
     finite: bool = False
     """A verb of the clause: its subject is the clause's."""
     filling: bool = False
-    """"filled with": a bare plural means many."""
+    """Read "filled with": a bare plural means many."""
     side: Side | None = None
     """For manner "half": which part of the parent."""
     said: str = ""
@@ -56,7 +56,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(kind="in"), "in", "inside", "within", "amid", "in the inside of")
     add(
         Link(kind="next_to"),
-        "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to", "alongside",
+        "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to",
+        "alongside",
         "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
         "off to the side of", "close by", "with its side to", "across from", "along",
         "opposite", "opposite to", "among", "amongst", "touching", "amidst",
@@ -91,7 +92,8 @@ def _table() -> dict[tuple[str, ...], Link]:
         add(half, f"to the {side} side of", f"on {side} of")
     centre = Link(manner="half", side="centre", kind="on", says="in_middle")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
-    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "to the front of", "in the front of",
+    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "to the front of",
+    "in the front of",
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
@@ -109,7 +111,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
     add(
         Link(manner="gaze", says="facing"),
-        "gazing into", "facing", "gazing at", "looking at", "looking into", "looking toward", "looking towards", "watching",
+        "gazing into", "facing", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
+        "watching",
         "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
         "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
     )  # fmt: skip
@@ -131,7 +134,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
-    add(Link(manner="hold", finite=True), "holds", "hold", "held", "contained", "contains", "contain", "carries", "carry", "supports",
+    add(Link(manner="hold", finite=True), "holds", "hold", "held", "contained", "contains", "contain", "carries",
+    "carry", "supports",
         "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
         "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",

@@ -86,8 +86,8 @@ class Maker:
         )
         if word in functions | lexicon.COPULAS or len(word) == 1:
             return PromptError(
-                f'"{word}" (word {number}) is not understood where it stands. Say one thing in a sentence: "A mug is on the '
-                'table. A spoon is to the left of the mug."'
+                f'"{word}" (word {number}) is not understood where it stands. Say one thing in a sentence: "A mug is on '
+                'the table. A spoon is to the left of the mug."'
             )
         near = self._nouns.nearest(word)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."

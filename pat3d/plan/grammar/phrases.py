@@ -42,10 +42,10 @@ class Phrase:
     superlative: Modifiers = NO_MODIFIERS
     """What tells one of them: "the smallest of three boxes"."""
     one_of: bool = False
-    """"one of two boxes"."""
+    """Read "one of two boxes"."""
     possessive: bool = False
     other: bool = False
-    """"the other mug": not the one named before."""
+    """Read "the other mug": not the one named before."""
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
     modifiers: Modifiers = NO_MODIFIERS

@@ -22,7 +22,8 @@ _SUPPORTING = (
 """Flat enough to carry one thing, besides furniture and dishes."""
 
 
-LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone", "barrel",
+LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
+    "barrel",
           "tv", "dog", "rabbit", "robot", "globe", "drum", "broom", "toy truck", "ladder")  # fmt: skip
 """What may stand on the floor as well as on a table."""
 

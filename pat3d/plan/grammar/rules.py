@@ -59,7 +59,8 @@ class Grammar:
             ("C", "S"): [self._clause], ("X", "S"): [self._clause],
             ("X", "L"): [self._clause], ("C", "W"): [lambda a, b: replace(b, start=a.start)],
             ("S", "CS"): [self._clauses], ("L", "CS"): [self._clauses], ("S", "CL"): [self._clauses],
-            ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front], ("CM", "CL"): [self._clause_front], ("S", "CM"): [self._late],
+            ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front],
+            ("CM", "CL"): [self._clause_front], ("S", "CM"): [self._late],
         }  # fmt: skip
         self._unary: dict[str, list[Callable[[Node], Node | None]]] = {
             "A": [self._place],
@@ -83,18 +84,18 @@ class Grammar:
         return [node for node in made if node.cat == "IM"] or made
 
     def _goals(self, first: Node, second: Node) -> Node:
-        """ "the forks in the drawer" + ", the plates on the rack"."""
+        """Read "the forks in the drawer" + ", the plates on the rack"."""
         return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
 
     def _further(self, goal: Node, modifier: Node) -> Node | None:
-        """ "it on the table" + "in front of the bowl": a second word on where it is to go."""
+        """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
         if modifier.mod[0] != "link":  # type: ignore[index]
             return None
         extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
         return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
 
     def _goal(self, named: Node, modifier: Node) -> Node | None:
-        """ "the mug" + "on the plate", where it is to go."""
+        """Read "the mug" + "on the plate", where it is to go."""
         kind, at = modifier.mod  # type: ignore[misc]
         if kind == "place" and self._chunks[at].link is not None:
             facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, ()))
@@ -132,7 +133,7 @@ class Grammar:
     # Modifiers
 
     def _relation(self, link: Node, objects: Node) -> Node:
-        """ "on" + "a table": a modifier that waits for what it is said of."""
+        """Read "on" + "a table": a modifier that waits for what it is said of."""
         assert link.mod
         at = link.mod[0]
         cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
@@ -163,7 +164,7 @@ class Grammar:
         return replace(modifier, start=verb.start, cost=verb.cost + modifier.cost, flags=modifier.flags | {"finite"})
 
     def _relative(self, which: Node, modifier: Node) -> Node:
-        """ "which is on a table": said of what stands before, like any modifier."""
+        """Read "which is on a table": said of what stands before, like any modifier."""
         return replace(modifier, start=which.start, flags=(modifier.flags - {"finite"}) | {"which"})
 
     def _joined_modifier(self, joint: Node, modifier: Node) -> Node | None:
@@ -195,10 +196,10 @@ class Grammar:
             kind == "link"
             and (self._link(at).manner == "of" or self._link(at).filling)
             and not modifier.flags & {"finite", "which"}
+            and named.heads != (at - 1,)
         ):
             # "a bowl of oranges": of what stands directly before.
-            if named.heads != (at - 1,):
-                return None
+            return None
         inner = inner and self._chunks[at].text not in ("one", "other")
         if inner and "having" in named.flags and modifier.cat == "M" and "finite" not in modifier.flags:
             # "a crate with a dog on top": what stands behind the dog is said of the dog.
@@ -326,9 +327,12 @@ class Grammar:
     def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
         """What "with a lamp on two books" has: the books."""
         for fact in facts:
-            if fact[0] == "rel" and head in fact[2] and self._link(fact[1]).kind in SUPPORT_KINDS:
-                if self._link(fact[1]).manner == "place" and self._phrase(fact[3][0]).kind in ("object", "unknown"):
-                    return fact[3][0] if fact[3][0] != head else head
+            if fact[0] != "rel" or head not in fact[2]:
+                continue
+            link, parent = self._link(fact[1]), fact[3][0]
+            carried = link.kind in SUPPORT_KINDS and link.manner == "place"
+            if carried and self._phrase(parent).kind in ("object", "unknown"):
+                return parent
         return head
 
     def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
@@ -358,7 +362,7 @@ class Grammar:
         return Node("CL", joint.start, named.cost, named.heads, named.facts, mark + named.joints, named.flags)
 
     def _list(self, first: Node, rest: Node) -> Node | None:
-        """ "a mug" + ", a plate and a fork"."""
+        """Read "a mug" + ", a plate and a fork"."""
         mark, later = rest.joints[0], rest.joints[1:]
         facts = (*first.facts, *rest.facts)
         cost = first.cost + rest.cost
@@ -415,7 +419,7 @@ class Grammar:
         return replace(named, cat="VL", start=verb.start)
 
     def _equation(self, named: Node, what: Node) -> Node | None:
-        """ "The items are a lamp and a mug"."""
+        """Read "The items are a lamp and a mug"."""
         kinds = {self._phrase(head).kind for head in named.heads}
         if not kinds & {"items", "pieces", "pronoun", "background"}:
             return None
@@ -431,7 +435,7 @@ class Grammar:
         return replace(node, cat="CEL", start=joint.start)
 
     def _fronted(self, modifier: Node, named: Node) -> Node | None:
-        """ "On the table there is" + "a mug"."""
+        """Read "On the table there is" + "a mug"."""
         if modifier.mod[0] == "quality" or ("finite" in modifier.flags and named.cat != "CL"):  # type: ignore[index]
             return None
         link = self._link(modifier.mod[1]) if modifier.mod[0] == "link" else None  # type: ignore[index]
@@ -450,7 +454,7 @@ class Grammar:
         return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
 
     def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
-        """ "On a table," + "from left to right: a mug and a bowl"."""
+        """Read "On a table," + "from left to right: a mug and a bowl"."""
         if any(fact[0] == "front" for fact in clause.facts):
             return None
         return self._fronted(modifier, replace(clause, cat="CL"))
@@ -465,15 +469,18 @@ class Grammar:
         return None if made is None else replace(made, cat="CS", cost=made.cost + 0.2 + comma)
 
     def _clauses(self, first: Node, second: Node) -> Node:
-        subject = () if any(fact[0] == "subject" and fact[1] == first.heads for fact in first.facts) else (
-            ("subject", first.heads, first.start),)  # fmt: skip
-        later = () if second.cat == "CS" and any(f[0] == "subject" and f[1] == second.heads for f in second.facts) else (
-            ("subject", second.heads, second.start),)  # fmt: skip
+        subject, later = self._subject(first), self._subject(second)
         cost = first.cost + second.cost + (0.3 if second.cat == "CL" else 0.0)
         heads = (*first.heads, *second.heads) if second.cat == "CL" else first.heads
         return Node("S", first.start, cost, heads, (*first.facts, *subject, *second.facts, *later), "", first.flags)
 
+    @staticmethod
+    def _subject(clause: Node) -> tuple[tuple, ...]:
+        """What `clause` is about, where it does not say so yet."""
+        known = any(fact[0] == "subject" and fact[1] == clause.heads for fact in clause.facts)
+        return () if known else (("subject", clause.heads, clause.start),)
+
     def _late(self, clause: Node, modifier: Node) -> Node | None:
-        """ "On a desk there is a lamp, with a mug beside it"."""
+        """Read "On a desk there is a lamp, with a mug beside it"."""
         made = self._modified(replace(clause, cat="L"), modifier)
         return None if made is None else replace(made, cat="S", cost=made.cost + 0.1)
