@@ -86,7 +86,7 @@ class Maker:
         )
         if word in functions | lexicon.COPULAS or len(word) == 1:
             return PromptError(
-                f'"{word}" (word {number}) is not understood where it stands. Say one thing in a sentence: "A mug is on '
+                f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
                 'the table. A spoon is to the left of the mug."'
             )
         near = self._nouns.nearest(word)

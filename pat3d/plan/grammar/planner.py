@@ -151,7 +151,7 @@ class GrammarPlanner:
         end = next(read, 0)
         after = f' after "{chunks[end - 1].text}"' if end else ""
         raise PromptError(
-            f'cannot read "{chunks[end].text}"{after}. Say one thing in a sentence: "A mug is on the table. A spoon '
+            f'cannot read "{chunks[end].text}"{after}. Say one thing a sentence: "A mug is on the table. A spoon '
             'is in the mug."'
         )
 
