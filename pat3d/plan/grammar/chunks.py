@@ -308,7 +308,7 @@ class Cutter:
         """Leave out the next word, and say so where it has a meaning."""
         word = self._word(0)
         empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word not in empty and not (word.endswith("ly") and len(word) > 4):
+        if word not in empty:
             self._made.unread.append(word)
         self._at += 1
 

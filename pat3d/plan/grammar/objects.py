@@ -43,7 +43,7 @@ class Maker:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:
             world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
-        self._note_adjectives(world, phrase)
+        self.note_adjectives(world, phrase)
         if kind is not None:
             self._take_after(world, group, kind)
         share_colours(group)
@@ -51,7 +51,7 @@ class Maker:
         check_total(world)
         return group
 
-    def _note_adjectives(self, world: World, phrase: Phrase) -> None:
+    def note_adjectives(self, world: World, phrase: Phrase) -> None:
         """Say which words describe the object and make no difference to it."""
         said = f'"{phrase.words}"'
         idle: list[str] = []

@@ -109,6 +109,9 @@ class GrammarPlanner:
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):
+            for chunk in chunks:
+                if chunk.kind in ("rel", "have", "place", "quality", "form"):
+                    world.note(f'not understood: "{chunk.text}"')
             if clause.manner is not None:
                 world.note(f'not modelled: "{clause.said}": it names no object.')
             return world, None

@@ -56,6 +56,8 @@ class References:
         if phrase.kind in ("object", "unknown"):
             if (found := self._refer(at, phrase)) is not None:
                 self.known[at] = found
+                if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
+                    self._maker.note_adjectives(world, phrase)
                 return
             generic = self.known.get(kind) if kind is not None else None
             owner = generic[0].group if generic and generic[0].group.cycle else None
