@@ -27,6 +27,7 @@ class Interpreter:
         self._world = world
         self._chunks = chunks
         self._clause = clause
+        self._maker = maker
         self._relating = Relating(world)
         self._said = References(world, chunks, maker, self._relating)
         self._sides: dict[int, str] = {}
@@ -176,6 +177,7 @@ class Interpreter:
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
         for group in dict.fromkeys(item.group for item in items):
+            self._maker.note_adjectives(self._world, group.phrase, told)
             if all(item in items for item in group.items):
                 describe(group, told)
             else:

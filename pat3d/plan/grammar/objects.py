@@ -51,11 +51,11 @@ class Maker:
         check_total(world)
         return group
 
-    def note_adjectives(self, world: World, phrase: Phrase) -> None:
-        """Say which words describe the object and make no difference to it."""
+    def note_adjectives(self, world: World, phrase: Phrase, told: Modifiers | None = None) -> None:
+        """Say which words (those of `told`, if given) describe what `phrase` names and make no difference to it."""
         said = f'"{phrase.words}"'
         idle: list[str] = []
-        for word in phrase.modifiers.adjectives:
+        for word in (told or phrase.modifiers).adjectives:
             if word in lexicon.HONOURED | lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
                 continue
             kind = self._nouns.match([word]) is not None or word in lexicon.SUBSTANCES
@@ -81,10 +81,15 @@ class Maker:
             return PromptError(
                 f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
             )
-        functions = (
-            lexicon.VERBS | lexicon.PARTICIPLES | lexicon.ADVERBS | lexicon.DIRECTIONS | lexicon.POSITIONS.keys()
+        tables = (
+            lexicon.VERBS,
+            lexicon.PARTICIPLES,
+            lexicon.ADVERBS,
+            lexicon.DIRECTIONS,
+            lexicon.POSITIONS,
+            lexicon.COPULAS,
         )
-        if word in functions | lexicon.COPULAS or len(word) == 1:
+        if any(word in table for table in tables) or word in lexicon.SAID_OTHERWISE or len(word) == 1:
             return PromptError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
                 'the table. A spoon is to the left of the mug."'

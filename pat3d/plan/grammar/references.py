@@ -72,6 +72,7 @@ class References:
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
+            self._maker.note_adjectives(world, phrase)
             self.known[at] = self._members(at, phrase)
         elif phrase.kind == "items":
             self.known[at] = []
