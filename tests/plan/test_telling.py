@@ -14,8 +14,8 @@ PLANNER = GrammarPlanner()
     ("prompt", "told"),
     [
         ("A mug on a tray, a can behind the second of four mugs in a row",
-         "A tray, a can and four mugs stand on the ground. A mug is on the tray. The four mugs are in a row from left to "
-         "right. The can is behind the second of the four mugs."),
+         "A tray, a can and four mugs stand on the ground. A mug is on the tray. The four mugs are in a row from left "
+         "to right. The can is behind the second of the four mugs."),
         ("a stack of three plates on a table",
          "A table stands on the ground. A stack of three plates is on the table."),
         ("an apple and two pears in a bowl",

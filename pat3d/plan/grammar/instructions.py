@@ -6,7 +6,7 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pat3d.errors import PromptError
@@ -15,7 +15,7 @@ from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
-from pat3d.plan.grammar.world import Item, Manner, Step
+from pat3d.plan.grammar.world import Item, Manner, Step, World
 from pat3d.scene.model import SUPPORT_KINDS
 
 _VERBS: dict[str, Manner] = {
@@ -226,59 +226,57 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
     return 0
 
 
-def task_of(
-    steps: Sequence[Step], names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]
-) -> tuple[str | None, list[str]]:
-    """The one task that `steps` are, None where no kind of task is, and notes on what is not in it.
+def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[str]]:
+    """The one task that the steps of `world` are, None where no kind of task is, and notes on what is not in it.
 
     Args:
-        steps: what to do, in order.
+        world: with what is to be done, in order.
         names: of the objects of the plan.
-        stacks: whether something is stacked on an object rather than put into it.
-        fixed: what no robot moves: furniture.
     """
+    steps = world.steps
     notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
+    blocked = {item for step in steps if step.manner == "other" for item in step.items}
     wanted = [step for step in steps if step.manner != "other" and step.items]
     # To pick what is placed afterwards is the beginning of placing it.
+    begun = [{item for later in wanted[at + 1 :] for item in later.items} | blocked for at in range(len(wanted))]
     wanted = [
         step
-        for at, step in enumerate(wanted)
-        if not (step.manner == "pick" and any(set(step.items) & set(later.items) for later in wanted[at + 1 :]))
+        for step, later in zip(wanted, begun, strict=True)
+        if not (step.manner == "pick" and set(step.items) & later)
     ]
-    blocked = {item for step in steps if step.manner == "other" for item in step.items}
-    wanted = [step for step in wanted if not (step.manner == "pick" and set(step.items) & blocked)]
     specs: list[str] = []
     for step in wanted:
-        made = _specs(step, names, stacks, fixed)
+        made = _specs(step, world, names)
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
     if len(specs) > 1:
-        notes.append(
-            f"the instruction is several tasks, of which the environment has one at a time: {', '.join(specs)}."
-        )
+        listed = ", ".join(specs)
+        notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
         return None, notes
     return (specs[0] if specs else None), notes
 
 
-def _specs(step: Step, names: Mapping[Item, str], stacks: Mapping[Item, bool], fixed: Collection[Item]) -> list[str]:
-    items = [names[item] for item in step.items if item in names]
-    if step.manner not in ("unload", "sort"):
-        items = [names[item] for item in step.items if item in names and item not in fixed]
+def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "unload":
-        return [f"unload:{items[0]}"] if items else []
+        return [f"unload:{names[item]}" for item in step.items[:1] if item in names]
     if step.manner == "sort":
         return ["sort"] if len(step.goal) > 1 else []
+    # No robot moves furniture.
+    items = [item for item in step.items if item in names and not world.on_floor(item)]
     if step.manner == "pick":
-        return [f"pick:{items[0]}"] if len(items) == 1 else []
+        return [f"pick:{names[items[0]]}"] if len(items) == 1 else []
     goal = next((item for item in step.goal if item in names), None)
     if step.manner == "stack" and goal is None and len(items) == 2:
-        return [f"stack:{items[0]}:{items[1]}"]
+        return [f"stack:{names[items[0]]}:{names[items[1]]}"]
     if goal is None or step.link is None:
         return []
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
-    lateral = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
-    if not lateral or step.link.kind == "hangs_from":
+    fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
+    if not fits or step.link.kind == "hangs_from":
         return []
-    kind = "stack" if stacks.get(goal) and (step.manner == "stack" or step.link.kind == "on") else "place"
-    return [f"{kind}:{item}:{names[goal]}" for item in items if item != names[goal]]
+    noun = world.noun(goal)
+    stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
+    kind = "stack" if stacked else "place"
+    moved = [item for item in items if item is not goal and world.support(item) is not goal]
+    return [f"{kind}:{names[item]}:{names[goal]}" for item in moved]

@@ -25,7 +25,7 @@ COLOURFUL_COUNT = 4
 COMES_IN_TWOS = frozenset({"bedside table", "nightstand", "shoe", "slipper", "boot", "sock", "candlestick"})
 
 SIZES: dict[str, float] = {
-    "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75, "compact": 0.8,
+    "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75,
     "medium": 1.0, "medium-sized": 1.0, "large": 1.3, "big": 1.3, "oversized": 1.5, "huge": 1.6, "giant": 1.8,
     "enormous": 1.8, "massive": 1.8, "bigger": 1.3, "larger": 1.3, "smaller": 0.75,
 }  # fmt: skip

@@ -20,7 +20,7 @@ from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
-from pat3d.plan.grammar.world import Item, World
+from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.plan.telling import tell
 from pat3d.scene.model import Relation
@@ -96,9 +96,7 @@ class GrammarPlanner:
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
         plan, names = finish(prompt, world, self._nouns)
-        stacks = {item: not self._likely.hollow(noun) and not self._likely.level(noun) for item, noun in _nouns(world)}
-        fixed = {item for item in world.items() if world.on_floor(item)}
-        task, notes = task_of(world.steps, names, stacks, fixed)
+        task, notes = task_of(world, names)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
@@ -177,10 +175,6 @@ def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:
 
 def _copied(world: World) -> World:
     return copy.deepcopy(world, {id(world.likely): world.likely})
-
-
-def _nouns(world: World) -> list[tuple[Item, str]]:
-    return [(item, world.noun(item)) for item in world.items()]
 
 
 def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:
