@@ -185,7 +185,7 @@ class Cutter:
         phrase, after = read
         if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
             return self._aside(after + 1 - self._at)
-        if phrase.kind == "object" and {phrase.said, phrase.head} & lexicon.SENSES.keys():
+        if phrase.kind == "object":
             phrase = self._sense(phrase)
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
@@ -237,14 +237,17 @@ class Cutter:
         return False
 
     def _sense(self, phrase: Phrase) -> Phrase:
-        senses = [(found.noun, about) for name, about in lexicon.SENSES.get(phrase.head) or lexicon.SENSES[phrase.said]
-                  if (found := self._nouns.match(name.split()))]  # fmt: skip
-        if not any(phrase.noun == noun for noun, _ in senses) and phrase.said not in lexicon.SENSES:
+        """`phrase` as what its company tells it to be, where its word alone has several meanings."""
+        bare = phrase.said == phrase.head or phrase.said in singulars(phrase.head)
+        meanings = lexicon.SENSES.get(phrase.head) or lexicon.SENSES.get(phrase.said)
+        if not bare or meanings is None:
             return phrase
+        senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]
         noun = sense(phrase.noun, self._company, senses)
-        count = 1 if noun == "sunglasses" and phrase.count is None else phrase.count
         said = phrase.head if noun == "sunglasses" else noun if noun != phrase.noun else phrase.said
-        return replace(phrase, noun=noun, said=said, count=count)
+        return replace(
+            phrase, noun=noun, said=said, count=1 if noun == "sunglasses" and phrase.count is None else phrase.count
+        )
 
     def _names(self, word: str, follower: str) -> bool:
         return self._nouns.match([word, follower]) is not None

@@ -237,7 +237,9 @@ class Grammar:
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
         extra = self._arcs(link, named.heads, modifier.heads)
         if link.kind in SUPPORT_KINDS and link.manner == "place":
-            extra += sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
+            twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
+            # What is on a book that is on a table is on the book; nothing is on two small things.
+            extra += twice * (1.0 if self._likely.level(self._noun(modifier.heads[0])) else 3.0)
         if link.manner == "under" and modifier.heads[:1] != (self._carrier(modifier.heads[0], modifier.facts),):
             # "A book under a lamp on a table": the book is on the table.
             cost += 0.6
