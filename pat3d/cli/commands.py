@@ -10,6 +10,7 @@ from importlib import import_module
 from pat3d.cli.options import Command
 
 COMMANDS = {
+    "plan": ("reading", "say how a sentence is read, and make nothing"),
     "generate": ("making", "make a verified scene from a sentence, or one from every line of a file"),
     "build": ("making", "make a verified scene from a specification with your meshes, sizes and relations"),
     "settle": ("mending", "bring a scene whose poses were edited back to rest, and verify it"),

@@ -277,7 +277,12 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
 def _said_back(understood: Mapping[str, Any]) -> tuple[str, ...]:
     """What the planner assumed or left out, and what it took for scenery."""
     aside = "; ".join(understood.get("set_aside", ()))
-    return (*understood.get("notes", ()), *((f"set aside: {aside}",) if aside else ()))
+    other = understood.get("otherwise")
+    return (
+        *understood.get("notes", ()),
+        *((f"set aside: {aside}",) if aside else ()),
+        *((f"it may also be read so: {other}",) if other else ()),
+    )
 
 
 def show_optimized(target: Console, outcome: Outcome) -> None:

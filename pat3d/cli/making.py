@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.options import command, fields, option, values
+from pat3d.cli.reading import PROXIES, AskingPlanner, Decided
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS
 from pat3d.generation.settings import DEVICES, Settings
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.telling import tell
 
 if TYPE_CHECKING:
     from pat3d.generation.pipeline import Outcome
@@ -35,7 +38,8 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
         "a scene for every line of FILE, each in its own folder of --out; those that are there are kept",
         metavar="FILE",
     ),
-    option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true"),
+    PROXIES,
+    option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
     examples="""
@@ -55,9 +59,16 @@ def generate(options: argparse.Namespace) -> int:
         return _generate_many(options, settings)
     from pat3d.generation.pipeline import run_prompt
 
+    plan = (AskingPlanner if options.ask else GrammarPlanner)(options.allow_proxies).plan(options.prompt)
+    console(stderr=True).print(tell(plan), markup=False, soft_wrap=True)
     with watch(console(stderr=True)) as progress:
         outcome = run_prompt(
-            options.prompt, out=options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+            options.prompt,
+            out=options.out,
+            settings=settings,
+            allow_proxies=options.allow_proxies,
+            planner=Decided(plan),
+            progress=progress,
         )
     return _finished(outcome, options.out)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from pat3d.geometry.pose import Pose
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.plan.telling import tell
 from pat3d.progress import Event, Progress
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
@@ -73,6 +74,11 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
             "objects": objects,
             "notes": list(plan.notes),
             "set_aside": list(plan.set_aside),
+            "told": tell(plan),
+            "otherwise": plan.otherwise,
+            "task": plan.task,
+            "arrangements": [asdict(each) for each in plan.arrangements],
+            "postures": [asdict(each) for each in plan.postures],
             "proxies": [obj.name for obj in plan.objects if obj.proxy],
         },
     )

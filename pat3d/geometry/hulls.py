@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.errors import AssetError
 from pat3d.geometry.normals import area_vectors
@@ -38,6 +37,9 @@ def convex_part(points: NDArray[np.float64]) -> ConvexPart:
         AssetError: the points are flat or fewer than four.
     """
     points = np.asarray(points, dtype=np.float64)
+    # Imported where it is used: reading a prompt needs the scene's types and no hulls.
+    from scipy.spatial import ConvexHull, QhullError
+
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError) as error:

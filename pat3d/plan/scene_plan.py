@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 from pat3d.errors import PromptError
 from pat3d.scene.model import Relation, check_tree, parent_of
@@ -51,6 +51,40 @@ class PlannedObject:
     """Whether the noun was unknown and a plain box stands in for it."""
 
 
+ArrangementKind = Literal[
+    "above", "across", "at_edge", "between", "circle", "facing", "far_from", "in_corner", "in_middle",
+    "leaning_against", "row", "under",
+]  # fmt: skip
+"""What people say about places beyond the relations of the scene tree; "across": carried by all of `of`."""
+
+PostureKind = Literal["upright", "upside_down", "on_its_side", "tilted", "turned", "open", "closed"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arrangement:
+    """How `objects` stand among each other or to `of`, in words that no single relation has."""
+
+    kind: ArrangementKind
+    objects: tuple[str, ...]
+    """In order, for rows and circles."""
+    of: tuple[str, ...] = ()
+    """The landmarks: both neighbours of what is between, every carrier of what lies across."""
+    arranged: bool = False
+    """Whether the plan's relations bring it about; where not, a note says so."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Posture:
+    """How an object is turned, or whether it is open."""
+
+    object: str
+    kind: PostureKind
+    said: str
+    """As the prompt has it: "rotated by 45 degrees"."""
+    arranged: bool = False
+    """Whether the object is so anyway; where not, a note says so."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class ScenePlan:
     """Objects, relations and the scene tree of a prompt (paper, Algorithm 1)."""
@@ -61,7 +95,13 @@ class ScenePlan:
     set_aside: tuple[str, ...] = ()
     """Phrases recognised as background, camera or mood, which place nothing."""
     notes: tuple[str, ...] = field(default=())
-    """What the planner decided where the prompt was silent ("stack of books: 3 assumed")."""
+    """What the planner decided where the prompt was silent ("stack of books: 3 assumed"), and what it left out."""
+    arrangements: tuple[Arrangement, ...] = ()
+    postures: tuple[Posture, ...] = ()
+    task: str | None = None
+    """The task that an instruction asks for, of which this is the scene before: "place:green apple:bowl"."""
+    otherwise: str = ""
+    """The next likely reading, told back, where it has other objects or supports and is nearly as likely."""
 
     def __post_init__(self) -> None:
         names = [obj.name for obj in self.objects]
@@ -71,6 +111,12 @@ class ScenePlan:
         if repeated:
             raise PromptError(f"object names must be unique; repeated: {', '.join(repeated)}.")
         check_tree(names, self.relations)
+        for each in self.arrangements:
+            if each.kind not in get_args(ArrangementKind) or not {*each.objects, *each.of} <= set(names):
+                raise PromptError(f'no arrangement "{each.kind}" of {", ".join((*each.objects, *each.of))}.')
+        for each in self.postures:
+            if each.kind not in get_args(PostureKind) or each.object not in names:
+                raise PromptError(f'no posture "{each.kind}" of "{each.object}".')
 
     def parent(self, name: str) -> str:
         """Name of what supports object `name`: another object or the ground."""

@@ -137,7 +137,7 @@ TABLETOP_PROMPTS = (
         same("plate", "bowl", "cup", "tray"),
         "plate on tray", "bowl on plate", "cup on bowl",
     ),
-    expect("Stack the red block on the blue block.", coloured("block", "red", "blue"), "red block on blue block"),
+    expect("Stack the red block on the blue block.", coloured("block", "red", "blue")),
     expect(
         "A tower of a red, a green and a blue block.",
         coloured("block", "red", "green", "blue"),
@@ -297,7 +297,7 @@ TABLETOP_PROMPTS = (
     expect(
         "Three mugs in a row; the middle one is red.",
         {"red mug": "mug", **same("mug 1", "mug 2")},
-        "mug 1 left_of red mug", "red mug left_of mug 2", "mug 1 left_of mug 2",
+        "mug 1 left_of red mug", "red mug left_of mug 2",
     ),
     expect(
         "Two bowls, the smaller one inside the larger one.",
@@ -330,8 +330,8 @@ TABLETOP_PROMPTS = (
         same("plate", "table", "bowl", "egg"),
         "plate on table", "bowl on plate", "egg in bowl",
     ),
-    expect("Move the mug to the left of the plate.", same("mug", "plate"), "mug left_of plate"),
-    expect("Hang the hat on the tree.", same("hat", "tree"), "hat hangs_from tree"),
+    expect("Move the mug to the left of the plate.", same("mug", "plate")),
+    expect("Hang the hat on the tree.", same("hat", "tree")),
     expect("The mug should be on the plate.", same("mug", "plate"), "mug on plate"),
     expect(
         "A tray was placed on a table and two mugs were set on it.",

@@ -72,14 +72,19 @@ class Boundaries:
             return False
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
+        if word in lexicon.VERBS and link_at(self._tokens, at + 1):
+            return True
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
+        if word in lexicon.DIRECTIONS:
+            return True
         posture = word in lexicon.VERBS and not self._names_a_stand(words, at)
         verb = is_marked(word) or multi or posture or word in lexicon.PARTICIPLES or word in lexicon.COPULAS
         verb = verb or word in lexicon.ADVERBS or word in lexicon.MOOD_VERBS
         if not verb and not self._nouns.match([word]) and word not in lexicon.NOT_VERBS and len(word) > 4:
             follower = self._tokens[at + 1]
             runs_on = not follower.mark and follower.text not in ("and", "or", "of")
+            runs_on = runs_on or follower.text in ("out", "up", "down", "off", "away")
             verb = word.endswith("ly") or (word.endswith(("ing", "ed")) and runs_on and not self.goes_on(at + 1))
         return bool(verb) and not self._extends(words, word)
 
@@ -122,7 +127,7 @@ class Boundaries:
             for ahead in (1, 2):
                 if back <= len(run) and at + ahead < len(tokens):
                     words = [token.text for token in (*run[-back:], *tokens[at : at + ahead + 1])]
-                    if self._nouns.match(words):
+                    if not lexicon.DETERMINERS & set(words) and self._nouns.match(words):
                         return True
         return False
 
@@ -136,8 +141,14 @@ class Boundaries:
 
     def _coordination(self, run: list[Token], at: int) -> int | None:
         """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run or (not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text)):
+        if not run:
             return None
+        if not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
+            # "a hefty, red-painted box": what is no noun and stands before a comma and a modifier describes.
+            known = self._nouns.longest([token.text for token in run]) or self._nouns.resembles_noun(run[-1].text)
+            after = self._tokens[at + 1].text
+            if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
+                return None
         colours = is_colour_word(run[-1].text)
         if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
             return None

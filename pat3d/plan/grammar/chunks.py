@@ -1,243 +1,332 @@
-"""A prompt as a row of noun phrases and the relation words between them."""
+"""A sentence as a row of chunks: noun phrases, relation words, joints. No word is dropped unsaid."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.arrangements import PLACES, RINGS, refuse, shape_said
 from pat3d.plan.grammar.boundaries import Boundaries, link_at
-from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase, PhraseReader
+from pat3d.plan.grammar.plausible import sense
+from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
-from pat3d.plan.grammar.wording import plainer
 
-ChunkKind = Literal[
-    "phrase", "link", "verb", "there", "comma", "and", "dash", "stop", "clause", "side", "arrange", "each", "quality",
-    "aside",
-]  # fmt: skip
+ChunkKind = Literal["noun", "rel", "have", "place", "form", "quality", "joint", "clause", "verb", "there", "which"]
 
+MAX_CHUNKS = 64
+"""Chunks of one sentence; the chart grows with their cube."""
+
+_JOINED = (
+    ("along", "with"), ("together", "with"), ("as", "well", "as"), ("accompanied", "by"), ("next", "comes"),
+    ("coupled", "with"), ("in", "addition", "to"), ("and", "also"), ("and", "then"),
+)  # fmt: skip
 _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
-_EMPTY = frozenset(
-    {"for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "from", "per", "than"}
-)
+_MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
+_EMPTY = frozenset({
+    "for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "than", "both", "either", "of",
+    "a", "an", "the", "some", "them", "to", "it", "its", "do", "does", "did", "about", "all", "at",
+})  # fmt: skip
 """Words that mean nothing by themselves."""
+_ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
+_BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
+    "beneath",
+                          "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
+"""Relations that may stand without a landmark: "with two pens inside"."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Chunk:
-    """One piece of the prompt."""
+    """One piece of a sentence."""
 
     kind: ChunkKind
     text: str = ""
+    """As written; for a place its side, for a form its kind, for a joint "," or "and" or ":"."""
     phrase: Phrase | None = None
     link: Link | None = None
     modifiers: Modifiers = NO_MODIFIERS
     """For kind "quality": what "is red" says."""
     size: int = 0
-    """For kind "arrange": how many stacks or rows, or how many phrases are one tower."""
+    """For forms: how many rows or stacks."""
     each: int = 0
-    """For kind "arrange": objects in each stack or row; 0 where that is not said."""
+    """For forms: objects in each row or stack; 0 where that is not said."""
 
 
-def chunk(prompt: str, nouns: Nouns, unread: list[str]) -> list[Chunk]:
-    """The chunks of `prompt`, ending in a stop; words that are in none and mean something are added to `unread`."""
-    return _Chunker(normalise(prompt), nouns, unread).run()
+@dataclass(kw_only=True)
+class Sentence:
+    """What one sentence is cut into."""
+
+    chunks: list[Chunk] = field(default_factory=list)
+    aside: list[str] = field(default_factory=list)
+    """Remarks on light, mood or camera."""
+    unread: list[str] = field(default_factory=list)
+    """Content words that are in no chunk."""
 
 
-class _Chunker:
-    def __init__(self, text: str, nouns: Nouns, unread: list[str]) -> None:
-        self._unread = unread
+class Cutter:
+    """Cuts the tokens of one sentence, which end in a stop, into chunks."""
+
+    def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns, company: Collection[str] = ()) -> None:
+        """Cut `tokens` of `text`; `company` are the words of the whole prompt, which tell senses."""
+        self._company = company
         self._text = text
-        self._tokens = self._repaired(tokenise(text), nouns)
-        self._phrases = PhraseReader(text, self._tokens, nouns)
+        # Looking ahead never runs over the end: stops follow the stop.
+        self._tokens = [*tokens, *[tokens[-1]] * (LONGEST_LINK + 4)]
+        self._end = len(tokens) - 1
         self._nouns = nouns
+        self._phrases = PhraseReader(text, self._tokens, nouns)
         self._bounds = Boundaries(self._tokens, nouns)
-        self._chunks: list[Chunk] = []
+        self._made = Sentence()
         self._at = 0
         self._ahead = NO_MODIFIERS
         """Measures and postures that wait for the phrase they are said of."""
 
-    @staticmethod
-    def _repaired(tokens: list[Token], nouns: Nouns) -> list[Token]:
-        """The tokens without misleading ones.
-
-        A bare "beside table" is a bedside table: with a relation there would be a determiner. The owner in "a child's
-        desk" is no object.
-        """
-        plain = ("there", "here", "that", *lexicon.PRONOUNS)
-        tokens = [
-            token
-            for owner, token in zip([tokens[0], *tokens], tokens, strict=False)
-            if token.text != "'s" or owner.text in plain or nouns.match([owner.text])
-        ]
-        tokens = plainer(tokens, nouns)
-        if nouns.match(["bedside", "table"]) is None:
-            return tokens
-        return [
-            Token(text="bedside", start=token.start, end=token.end, number=token.number)
-            if token.text == "beside"
-            and follower.text in ("table", "tables", "lamp", "lamps")
-            and before in (",", "and", "a")
-            else token
-            for before, token, follower in zip(
-                [".", *(t.text for t in tokens)], tokens, [*tokens[1:], tokens[-1]], strict=False
-            )
-        ]
-
-    def run(self) -> list[Chunk]:
-        while self._at < len(self._tokens):
+    def cut(self) -> Sentence:
+        """The sentence in chunks."""
+        while self._at < self._end:
             before = self._at
             self._step()
-            if self._at == before:
-                self._at += 1
-        return self._chunks
+            self._at += self._at == before
+        if len(self._made.chunks) > MAX_CHUNKS:
+            raise PromptError(
+                f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "
+                "read. Say it in several sentences."
+            )
+        return self._made
 
-    def _add(self, kind: ChunkKind, size: int = 1, **fields: object) -> None:
-        tokens = self._tokens[self._at : self._at + size]
-        text = self._text[tokens[0].start : tokens[-1].end] if tokens else ""
-        self._chunks.append(Chunk(kind=kind, text=text, **fields))  # type: ignore[arg-type]
-        self._at += size
+    @property
+    def _last(self) -> Chunk | None:
+        return self._made.chunks[-1] if self._made.chunks else None
+
+    @property
+    def _opens(self) -> bool:
+        """Whether a clause begins here."""
+        return self._last is None or self._last.kind in ("joint", "clause")
+
+    def _add(self, kind: ChunkKind, taken: int = 1, text: str | None = None, **fields: object) -> None:
+        words = self._text[self._tokens[self._at].start : self._tokens[self._at + taken - 1].end]
+        chunk = Chunk(kind=kind, text=words if text is None else text, **fields)  # type: ignore[arg-type]
+        self._made.chunks.append(chunk)
+        self._at += taken
 
     def _words(self, count: int) -> tuple[str, ...]:
         return tuple(token.text for token in self._tokens[self._at : self._at + count])
 
-    @property
-    def _opens_clause(self) -> bool:
-        return not self._chunks or self._chunks[-1].kind in ("stop", "clause", "comma", "and", "dash")
-
-    @property
-    def _opens_sentence(self) -> bool:
-        return not self._chunks or self._chunks[-1].kind in ("stop", "clause")
-
-    def _finite_at(self, at: int) -> bool:
-        keys = (tuple(token.text for token in self._tokens[at : at + size]) for size in range(1, LONGEST_LINK + 1))
-        return any(key in LINKS and LINKS[key].finite for key in keys)
+    def _word(self, ahead: int) -> str:
+        at = self._at + ahead
+        return self._tokens[at].text if 0 <= at < len(self._tokens) else ""
 
     def _step(self) -> None:
         token = self._tokens[self._at]
-        word, follower = token.text, self._words(2)[-1]
-        if word == ":":
-            return self._add("link", link=LINKS[("with",)])
+        word, follower = token.text, self._word(1)
+        if word in (",", ":", "-", "and", "or", "plus"):
+            return self._joint()
         if token.mark:
-            return self._add({",": "comma", ".": "stop", "-": "dash"}[word])  # type: ignore[arg-type]
+            self._at += 1
+            return None
+        if self._unsaid(word, follower):
+            return None
         if is_marked(word):
             return self._mark()
-        if word in lexicon.MOOD_VERBS and self._chunks and self._chunks[-1].kind != "stop":
+        if word in lexicon.MOOD_VERBS and self._made.chunks and not (word == "lit" and follower != "by"):
             return self._remark()
-        if word in ("there", "there's", "here") or (word == "'s" and self._previous_word() in ("there", "here")):
-            skip = 1
-            while (verb := self._tokens[self._at + skip].text) in lexicon.COPULAS | lexicon.VERBS | {
-                "also",
-                "stand",
-                "sit",
-            }:
-                skip += 1
-                if verb == ".":
-                    break
-            return self._add("there", skip)
-        if word in ("without", "no"):
+        if word in ("there", "there's", "here") and not (word == "here" and follower not in lexicon.COPULAS | {"'s"}):
+            return self._there()
+        if word in ("without", "no", "zero") and self._nouns.match([word]) is None:
             return self._absence()
         if word in ("while", "whereas", "meanwhile", "but"):
             return self._add("clause")
-        for key in (
-            ("along", "with"),
-            ("together", "with"),
-            ("as", "well", "as"),
-            ("accompanied", "by"),
-            ("next", "comes"),
-        ):
+        for key in _JOINED:
             if self._words(len(key)) == key:
-                return self._add("and", len(key))
-        if word in ("and", "plus", "or"):
-            if word == "or":
-                self._unread.append("or")
-            return self._add("and")
+                return self._add("joint", len(key), text="and")
+        if word in _MODALS and follower == "be":
+            self._at += 1
+            return None
         if self._relation():
             return None
-        of_each = follower == "of" and bool(self._chunks) and self._chunks[-1].kind == "link"
-        alone = follower in (*lexicon.COPULAS, "of") or link_at(self._tokens, self._at + 1) > 0
-        if word == "each" and not of_each and (alone or self._tokens[self._at + 1].mark):
-            return self._add("each")
-        relative = word in ("which", "that", "who") and not self._opens_sentence
+        of_each = follower == "of" and self._last is not None and self._last.kind == "rel"
+        alone = (
+            follower in (*lexicon.COPULAS, "of", "and", "or")
+            or link_at(self._tokens, self._at + 1) > 0
+            or self._tokens[self._at + 1].mark
+        )
+        if word == "each" and not of_each and alone and self._last is not None:
+            return self._add("noun", phrase=Phrase(kind="pieces", head="each", words=word, number=token.number))
+        relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
-            return self._add("phrase", phrase=Phrase(kind="pronoun", head="which", words=word, number=token.number))
-        owned = word == "'s" and not (self._previous_word() in lexicon.PRONOUNS or link_at(self._tokens, self._at + 1))
+            return self._add("which")
+        owned = word == "'s" and not link_at(self._tokens, self._at + 1)
         if owned and follower not in lexicon.DETERMINERS:
             return self._owned_part()
         if word in lexicon.COPULAS:
             self._add("verb")
             return self._quality()
-        if word in lexicon.VERBS and not (self._opens_clause and follower == "of"):
+        if word in lexicon.VERBS and not (self._opens and follower == "of") and not self._names(word, follower):
             return self._add("verb")
         if self._meaningless(word, follower):
             return self._drop()
+        if word == "both" and follower in ("a", "an", "the") and self._correlative():
+            self._at += 1
+            return None
         if word == "both" and (follower in ("a", "an") or self._tokens[self._at + 1].mark):
-            return self._add("phrase", phrase=Phrase(kind="pronoun", head="them", words=word, number=token.number))
+            return self._pronoun("them")
         read = self._phrases.read(self._at)
         if read is None:
-            if word in lexicon.PRONOUNS:
-                return self._add("phrase", phrase=Phrase(kind="pronoun", head=word, words=word, number=token.number))
-            return self._drop()
+            return self._pronoun(word) if word in lexicon.PRONOUNS else self._drop()
         phrase, after = read
+        if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
+            return self._aside(after + 1 - self._at)
+        if phrase.kind == "object":
+            phrase = self._sense(phrase)
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
-        return self._add("phrase", after - self._at, phrase=phrase)
+        self._add("noun", after - self._at, phrase=phrase)
+        while phrase.substance and self._word(0) in ("and", ",") and self._word(1) in lexicon.SUBSTANCES:
+            # "a bowl of cereal and milk"
+            self._made.unread.append(self._word(1))
+            self._at += 2
+
+    def _unsaid(self, word: str, follower: str) -> bool:
+        """Name what no scene has and go on behind it: purposes, directions, the viewer."""
+        number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
+        if word == "at" and follower in ("least", "most") and number:
+            return self._leave(2)
+        if word in _ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
+            self._at += 1
+            return True
+        if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            return self._leave(read[1] - self._at)
+        if word == "which" and follower in ("means", "ensures", "makes"):
+            self._remark()
+            return True
+        if word in lexicon.DIRECTIONS:
+            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
+            return self._leave(3 if to else 1)
+        size = link_at(self._tokens, self._at)
+        if (
+            size
+            and self._word(size) in lexicon.VIEWERS
+            and (self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or"))
+        ):
+            return self._leave(size + 1)
+        return False
+
+    def _leave(self, size: int) -> bool:
+        words = self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end]
+        self._made.unread.append(words)
+        self._at += size
+        return True
+
+    def _correlative(self) -> bool:
+        """Whether "both the soup and the sauce" begins here, and not "both the mugs"."""
+        for ahead in range(2, 8):
+            word = self._word(ahead)
+            if word == "and":
+                return self._word(ahead + 1) in (*lexicon.DETERMINERS, *lexicon.NUMBERS)
+            if self._tokens[self._at + ahead].mark or link_at(self._tokens, self._at + ahead):
+                return False
+        return False
+
+    def _sense(self, phrase: Phrase) -> Phrase:
+        """`phrase` as what its company tells it to be, where its word alone has several meanings."""
+        bare = phrase.said == phrase.head or phrase.said in singulars(phrase.head)
+        meanings = lexicon.SENSES.get(phrase.head) or lexicon.SENSES.get(phrase.said)
+        if not bare or meanings is None:
+            return phrase
+        senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]
+        noun = sense(phrase.noun, self._company, senses)
+        said = phrase.head if noun == "sunglasses" else noun if noun != phrase.noun else phrase.said
+        return replace(
+            phrase, noun=noun, said=said, count=1 if noun == "sunglasses" and phrase.count is None else phrase.count
+        )
+
+    def _names(self, word: str, follower: str) -> bool:
+        return self._nouns.match([word, follower]) is not None
+
+    def _pronoun(self, head: str) -> None:
+        number = self._tokens[self._at].number
+        self._add("noun", phrase=Phrase(kind="pronoun", head=head, words=self._word(0), number=number))
+
+    def _joint(self) -> None:
+        word = self._word(0)
+        if word == "or":
+            self._made.unread.append("or")
+        text = {"-": ":", "or": "and", "plus": "and"}.get(word, word)
+        last = self._last
+        if last is not None and last.kind == "joint":
+            self._made.chunks[-1] = replace(last, text="and" if "and" in (text, last.text) else last.text)
+            if text == "and" and last.text == ",":
+                self._made.chunks[-1] = replace(last, text=", and")
+            self._at += 1
+        elif last is None:
+            self._at += 1
+        else:
+            self._add("joint", text=text)
+
+    def _there(self) -> None:
+        skip = 1
+        while self._word(skip) in lexicon.COPULAS | lexicon.VERBS | {"also", "stand", "sit"}:
+            skip += 1
+        self._add("there", skip)
+
+    def _finite_at(self, at: int) -> bool:
+        keys = (tuple(token.text for token in self._tokens[at : at + size]) for size in range(1, LONGEST_LINK + 1))
+        return any(key in LINKS and LINKS[key].finite for key in keys)
 
     def _mark(self) -> None:
-        """Read a measure or a posture that stands outside a noun phrase: "a vase 20 cm tall", "is upside down"."""
-        word, after = self._tokens[self._at].text, self._at + 1
+        """Read a measure or a posture outside a noun phrase: "a vase 20 cm tall", "is upside down"."""
+        word, after = self._word(0), self._at + 1
         said = read_modifiers([word])
         away = self._tokens[after].text in _AWAY or link_at(self._tokens, after) > 0
         if away and is_measure(word) and said.measures[0].axis is None:
             # A distance is no size.
             said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
-        elif self._chunks and self._chunks[-1].kind == "verb":
+        elif self._last is not None and self._last.kind == "verb":
             return self._add("quality", modifiers=said)
         self._at += 2 if self._tokens[after].text == "apart" else 1
-        for index in range(len(self._chunks) - 1, -1, -1):
-            piece = self._chunks[index]
-            if piece.kind in ("stop", "clause"):
+        chunks = self._made.chunks
+        for index in range(len(chunks) - 1, -1, -1):
+            piece = chunks[index]
+            if piece.kind == "clause":
                 break
-            nearest = index == len(self._chunks) - 1
+            nearest = index == len(chunks) - 1
             told = nearest and piece.phrase is not None and piece.phrase.kind == "pieces"
             if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or told):
                 whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
-                self._chunks[index] = replace(piece, phrase=whole)
+                chunks[index] = replace(piece, phrase=whole)
                 return None
         self._ahead = self._ahead.marked_as(said)
         return None
 
     def _drop(self) -> None:
-        """Leave out the next word."""
-        word = self._tokens[self._at].text
+        """Leave out the next word, and say so where it has a meaning."""
+        word = self._word(0)
         empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word not in empty and not word.endswith("ly"):
-            self._unread.append(word)
+        if word not in empty:
+            self._made.unread.append(word)
         self._at += 1
-
-    def _previous_word(self) -> str:
-        return self._tokens[self._at - 1].text if self._at else ""
 
     def _meaningless(self, word: str, follower: str) -> bool:
         """Whether the word may be dropped: a posture before its preposition, an adverb, a command."""
-        if follower == "of" or self._nouns.match([word]) or self._nouns.match([word, follower]):
+        if follower == "of" or self._nouns.match([word]) or self._names(word, follower):
             return False
-        if self._opens_clause and word in lexicon.COMMANDS:
+        if self._opens and word in lexicon.COMMANDS:
             return True
-        after_phrase = bool(self._chunks) and self._chunks[-1].kind not in ("stop", "and", "link")
-        moving = self._at + 1 < len(self._tokens) and bool(
+        after_phrase = self._last is not None and self._last.kind not in ("joint", "rel", "have")
+        moving = bool(
             link_at(self._tokens, self._at + 1)
             or self._tokens[self._at + 1].mark
             or follower in lexicon.ADVERBS
+            or follower in ("out", "off", "away")
             or follower.endswith("ly")
         )
         if word in lexicon.PARTICIPLES or (word in lexicon.COMMANDS and after_phrase and moving):
@@ -248,49 +337,68 @@ class _Chunker:
         return after_phrase and participle and moving
 
     def _relation(self) -> bool:
-        """Read the longest relation, side or arrangement that begins here, if one does."""
+        """Read the longest relation, side or form that begins here, if one does."""
         if self._shape() or self._several():
             return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
-            if key in EACH_OTHER:
-                last = self._chunks[-1] if self._chunks else None
-                fronted = EACH_OTHER[key] in ("order", "reverse")
-                after = last is not None and last.kind in ("phrase", "comma", "link", "verb", "arrange")
-                if fronted or (after and not self._stacked_noun(size)):
-                    self._add("arrange", size)
-                    self._chunks[-1] = Chunk(kind="arrange", text=EACH_OTHER[key])
-                    return True
-            if key in LINKS:
-                link = LINKS[key]
-                if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
-                    # No plan relates the members of a group in another way than by what EACH_OTHER lists.
-                    self._unread.append(" ".join(self._words(size + 2)))
-                    self._add("arrange", size + 2)
-                    self._chunks[-1] = Chunk(kind="arrange", text="beside")
-                    return True
-                if key == ("on",) and self._words(2) == ("on", "each") and self._tokens[self._at + 2].text == "other":
-                    continue
-                # Verbs that are also nouns ("bears", "houses") open no clause.
-                if (
-                    link.finite
-                    and len(key) == 1
-                    and (self._opens_clause and key[0] not in ("has", "have", "contains", "holds"))
-                ):
-                    continue
-                self._add("link", size, link=link)
+            if len(key) < size:
+                continue
+            if key in EACH_OTHER and self._forms(key, size):
                 return True
-            follower = self._tokens[min(self._at + size, len(self._tokens) - 1)]
-            whole = key[-1] == "side" or follower.mark or not self._bounds.goes_on(self._at + size)
-            if key in SIDES and whole and follower.text != "of":
-                side = SIDES[key]
-                self._add("side", size)
-                self._chunks[-1] = Chunk(kind="side", text=side)
+            if key in LINKS and self._link(key, size):
+                return True
+            whole = key[-1] == "side" or self._tokens[self._at + size].mark or not self._bounds.goes_on(self._at + size)
+            if key in SIDES and whole and self._word(size) != "of":
+                self._add("place", size, text=SIDES[key])
                 return True
         return False
 
+    def _forms(self, key: tuple[str, ...], size: int) -> bool:
+        fronted = EACH_OTHER[key] in ("order", "reverse")
+        last = self._last
+        after = last is not None and last.kind in ("noun", "joint", "rel", "verb", "form", "place")
+        noun_follows = size == 1 and last is not None and last.kind in ("joint", "rel", "have") and not (
+            link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
+        )  # fmt: skip
+        if fronted or (after and not noun_follows):
+            self._add("form", size, text=EACH_OTHER[key])
+            return True
+        return False
+
+    def _link(self, key: tuple[str, ...], size: int) -> bool:
+        link = LINKS[key]
+        if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
+            apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
+            if link.kind != "next_to" and not apart:
+                self._made.unread.append(" ".join(self._words(size + 2)))
+            self._add("form", size + 2, text=apart or "beside", link=link)
+            return True
+        if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
+            return False
+        # Verbs that are also nouns ("bears", "houses") open no clause.
+        plain = ("has", "have", "contains", "holds")
+        if link.finite and len(key) == 1 and self._opens and key[0] not in plain:
+            return False
+        if self._names(key[-1], self._word(size)) and size == 1 and link.finite:
+            return False
+        inverse = link.inverse
+        follows = self._tokens[self._at + size]
+        after_noun = self._last is not None and self._last.kind == "noun"
+        bare = " ".join(key) in _BARE_PLACES and (
+            follows.mark
+            or follows.text in ("and", "while", "which", "that", "there", "but", "or")
+            or follows.text in lexicon.COPULAS | lexicon.VERBS
+            or (link_at(self._tokens, self._at + size) > 0 and after_noun)
+        )
+        if bare:
+            self._add("place", size, text=" ".join(key), link=link)
+        else:
+            self._add("have" if inverse else "rel", size, link=link)
+        return True
+
     def _shape(self) -> bool:
-        """Read "in a circle" before "around" or after "surrounded by", where it says nothing more.
+        """Read "in a circle".
 
         Raises:
             PromptError: objects stand in a shape that no plan expresses.
@@ -299,57 +407,65 @@ class _Chunker:
         shape = shape_said(words[-1])
         if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
             return False
-        if shape in PLACES and self._previous_word() not in _FORMED:
+        previous = self._word(-1)
+        if shape in PLACES and previous not in _FORMED:
             return False
         after = self._at + 3
         if self._bounds.goes_on(after) and not self._tokens[after].mark:
             return False
-        related = [piece.link for piece in self._chunks if piece.link is not None][-1:]
-        around = self._tokens[after].text in ("around", "surrounding") or any(
-            link.manner == "surround" for link in related
-        )
-        if words[-1] not in RINGS or not around:
+        if words[-1] not in RINGS:
             raise refuse(words[-1], self._tokens[after - 1].number)
-        self._at = after
+        around = self._tokens[after].text in ("around", "surrounding")
+        surrounded = any(piece.link is not None and piece.link.manner == "surround" for piece in self._made.chunks)
+        if around or surrounded:
+            self._at = after
+        else:
+            self._add("form", 3, text="circle")
         return True
 
     def _several(self) -> bool:
         """Read "in two rows", "in three stacks of four"."""
         preposition, number, what = (*self._words(3), "", "")[:3]
-        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
+        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
         kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
         kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
         if preposition not in ("in", "into") or count < 1 or kind is None:
             return False
-        tail = self._tokens[self._at + 3 : self._at + 5]
-        of_each = (
-            len(tail) == 2 and tail[0].text == "of" and (tail[1].text in lexicon.NUMBERS or tail[1].text.isdecimal())
-        )
-        self._add("arrange", 5 if of_each else 3)
-        each = lexicon.NUMBERS.get(tail[1].text) or int(tail[1].text[:3]) if of_each else 0
-        self._chunks[-1] = Chunk(kind="arrange", text=kind, size=count, each=each)
+        tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
+        of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())
+        each = (lexicon.NUMBERS.get(tail[1]) or int(tail[1][:3])) if of_each else 0
+        self._add("form", 5 if of_each else 3, text=kind, size=count, each=each)
         return True
 
-    def _stacked_noun(self, size: int) -> bool:
-        """Whether "stacked" describes the noun after it ("and stacked cups")."""
-        return size == 1 and self._chunks[-1].kind in ("comma", "link") and not (
-            link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
-        )  # fmt: skip
-
     def _remark(self) -> None:
+        """Set aside the rest of the sentence, which tells of light or mood."""
         size = 0
-        while not (token := self._tokens[self._at + size]).mark or token.text != ".":
-            size += 1
-            after = self._tokens[self._at + size]
-            if shape_said(token.text) and self._tokens[self._at + size - 2].text in ("a", "an") and after.mark:
+        while self._at + size < self._end:
+            token, after = self._tokens[self._at + size], self._tokens[self._at + size + 1]
+            if shape_said(token.text) and self._word(size - 1) in ("a", "an") and after.mark:
                 raise refuse(token.text, token.number)
-        self._add("aside", size)
+            size += 1
+        self._aside(size)
+
+    def _aside(self, size: int) -> None:
+        self._made.aside.append(self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end])
+        self._at += size
+        while self._made.chunks and self._made.chunks[-1].kind == "joint" and self._at >= self._end:
+            self._made.chunks.pop()
 
     def _absence(self) -> None:
         """Read "without a lid", "no people": set aside with the phrase."""
-        start = self._at
         read = self._phrases.read(self._at + 1)
-        self._add("aside", (read[1] if read else self._at + 1) - start)
+        end = read[1] if read else self._at + 1
+        while size := link_at(self._tokens, end):
+            more = self._phrases.read(end + size)
+            pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
+            if more is None and not pronoun:
+                break
+            end = more[1] if more is not None else end + size + 1
+        if self._last is not None and self._last.kind in ("have", "there"):
+            self._made.chunks.pop()
+        self._aside(end - self._at)
 
     def _owned_part(self) -> None:
         """Read "the dog's head": the part places nothing, its owner has been read."""
@@ -357,30 +473,26 @@ class _Chunker:
         self._at += 1
         if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
-                self._unread.append(read[0].words)
+                self._made.unread.append(read[0].words)
             self._at = read[1]
 
     def _quality(self) -> None:
         """Read "(is) plain white": modifiers without a noun."""
         start = self._at
-        while self._tokens[self._at].text in lexicon.ADVERBS:
+        while self._word(0) in lexicon.ADVERBS:
             self._at += 1
-        word = self._tokens[self._at].text
-        if (
-            word in lexicon.DETERMINERS
-            or word in lexicon.NUMBERS
-            or link_at(self._tokens, self._at)
-            or word in lexicon.PARTICIPLES
-        ):
+        word = self._word(0)
+        leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.PARTICIPLES
+        if word in leads or link_at(self._tokens, self._at):
             self._at = start
             return
-        if word in lexicon.VERBS or self._tokens[self._at].mark:
+        if word in lexicon.VERBS or self._tokens[self._at].mark or is_marked(word):
             return
         words: list[str] = []
         size = 0
         while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
             if token.text in ("and", "or"):
-                if not is_modifier(self._tokens[self._at + size + 1].text):
+                if not is_modifier(self._word(size + 1)):
                     break
             elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
                 break
@@ -388,12 +500,7 @@ class _Chunker:
                 words.append(token.text)
             size += 1
         if {"as", "than", "like"} & set(words):
-            self._unread.append(" ".join(words))
-            self._at += size
+            last = max(at for at, word in enumerate(words) if word in ("as", "than", "like"))
+            self._add("rel", last + 1, link=Link(manner="than", said=" ".join(words[: last + 1])))
         elif words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
             self._add("quality", size, modifiers=read_modifiers(words))
-
-
-def summary(chunks: Sequence[Chunk]) -> str:
-    """The chunks on one line, for a look at how a prompt was cut."""
-    return " | ".join(f"{piece.kind}:{piece.text}" for piece in chunks)

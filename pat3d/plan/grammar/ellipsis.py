@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexicon import SIZES
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
-_JOINTS = ("comma", "and")
-TOWER = "tower"
+_LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
@@ -25,21 +24,20 @@ def _from_below(chunks: list[Chunk]) -> list[Chunk]:
     made: list[Chunk] = []
     at = 0
     while at < len(chunks):
-        levels: list[tuple[int, Chunk]] = []
+        levels: list[tuple[int, Phrase]] = []
         after = at
-        while (phrase := chunks[after].phrase) is not None and _colour_alone(phrase):
+        while after < len(chunks) and (phrase := chunks[after].phrase) is not None and _colour_alone(phrase):
             level, size = _level(chunks, after + 1)
             if not size:
                 break
-            levels.append((level, chunks[after]))
+            levels.append((level, phrase))
             after += 1 + size
-            while chunks[after].kind in _JOINTS:
-                after += 1
+            after += after < len(chunks) and chunks[after].kind == "joint"
         if len(levels) > 1:
-            ordered = [piece.phrase for _, piece in sorted(levels, key=lambda each: each[0]) if piece.phrase]
+            ordered = [phrase for _, phrase in sorted(levels, key=lambda each: each[0])]
             colours = tuple(colour for phrase in ordered for colour in phrase.modifiers.colours)
             whole = replace(ordered[0], modifiers=replace(ordered[0].modifiers, colours=colours))
-            made.append(Chunk(kind="phrase", text=whole.words, phrase=whole))
+            made.append(Chunk(kind="noun", text=whole.words, phrase=whole))
             at = after
         else:
             made.append(chunks[at])
@@ -49,14 +47,13 @@ def _from_below(chunks: list[Chunk]) -> list[Chunk]:
 
 def _level(chunks: Sequence[Chunk], at: int) -> tuple[int, int]:
     """How high the place told at chunk `at` is (0, 1 or 2), and its chunks; no chunks where none is told."""
-    piece = chunks[at]
-    if piece.kind == "side" and piece.text == "centre":
-        return 1, 1
-    part = chunks[at + 1].phrase if piece.kind == "link" and at + 1 < len(chunks) else None
-    if part is not None and part.kind == "part" and part.said in ("bottom", "top", "middle"):
-        return {"bottom": 0, "middle": 1, "top": 2}[part.said], 2
-    top = piece.link is not None and piece.link.kind == "on" and piece.text.lower().endswith("top")
-    return (2, 1) if top else (0, 0)
+    piece = chunks[at] if at < len(chunks) else Chunk(kind="joint")
+    if piece.kind == "place" and piece.text in ("centre", "on top"):
+        return (1 if piece.text == "centre" else 2), 1
+    part = chunks[at + 1].phrase if piece.kind == "rel" and at + 1 < len(chunks) else None
+    if part is not None and part.kind == "part" and part.said in _LEVELS:
+        return _LEVELS[part.said], 2
+    return 0, 0
 
 
 def _described(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -86,10 +83,10 @@ def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
         phrase = chunks[at].phrase
         if phrase is None or not _headless(phrase):
             continue
-        follower = _next_of_list(chunks, at)
+        follower = _neighbour(chunks, at, 1)
         if follower is not None and _lends(follower, phrase) and not _tells_apart(chunks, at):
             chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, follower, nouns))
-        elif (owner := _before_in_list(chunks, at)) is not None and phrase.modifiers.colours:
+        elif (owner := _owner(chunks, at)) is not None and phrase.modifiers.colours:
             chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, owner, nouns))
     return chunks
 
@@ -100,11 +97,11 @@ def _headless(phrase: Phrase) -> bool:
     return phrase.kind == "pieces" and phrase.said == "" and phrase.determined and bool(described)
 
 
-def _next_of_list(chunks: Sequence[Chunk], at: int) -> Phrase | None:
-    after = at + 1
-    while chunks[after].kind in _JOINTS:
-        after += 1
-    return chunks[after].phrase if after > at + 1 else None
+def _neighbour(chunks: Sequence[Chunk], at: int, step: int) -> Phrase | None:
+    """The next phrase of the list that chunk `at` belongs to."""
+    if not 0 <= at + step < len(chunks) or chunks[at + step].kind != "joint" or not 0 <= at + 2 * step < len(chunks):
+        return None
+    return chunks[at + 2 * step].phrase
 
 
 def _lends(follower: Phrase, phrase: Phrase) -> bool:
@@ -112,15 +109,15 @@ def _lends(follower: Phrase, phrase: Phrase) -> bool:
     ours, theirs = phrase.modifiers, follower.modifiers
     alike = (
         bool(ours.colours) == bool(theirs.colours)
-        and bool(ours.size_word) == bool(theirs.size_word or set(follower.said.split()) & lexicon.SIZES.keys())
+        and bool(ours.size_word) == bool(theirs.size_word or set(follower.said.split()) & SIZES.keys())
         and (bool(ours.material) == bool(theirs.material) or bool(ours.colours))
     )
     return follower.kind in ("object", "unknown") and follower.determined and alike
 
 
 def _tells_apart(chunks: Sequence[Chunk], at: int) -> bool:
-    """Whether the phrase at `at` describes members of a group named before it ("two bars - one white, one beige")."""
-    while at > 0 and (chunks[at - 1].kind in (*_JOINTS, "dash") or _is_list(chunks[at - 1])):
+    """Whether the phrase at `at` describes members of a group named before it ("two bars: one white, one beige")."""
+    while at > 0 and (chunks[at - 1].kind == "joint" or chunks[at - 1].phrase is not None or _includes(chunks[at - 1])):
         at -= 1
         phrase = chunks[at].phrase
         if phrase is not None and not _headless(phrase):
@@ -128,19 +125,15 @@ def _tells_apart(chunks: Sequence[Chunk], at: int) -> bool:
     return False
 
 
-def _is_list(piece: Chunk) -> bool:
-    manner = piece.link.manner if piece.link else ""
-    return piece.phrase is not None or manner == "include" or (manner == "with" and piece.text == ":")
+def _includes(piece: Chunk) -> bool:
+    return piece.link is not None and piece.link.manner == "include"
 
 
-def _before_in_list(chunks: Sequence[Chunk], at: int) -> Phrase | None:
+def _owner(chunks: Sequence[Chunk], at: int) -> Phrase | None:
     """The object of "a red mug and a blue one": named directly before, and single."""
-    before = at - 1
-    while before >= 0 and chunks[before].kind in _JOINTS:
-        before -= 1
-    phrase = chunks[before].phrase if 0 <= before < at - 1 else None
-    phrase_ends_in_one = chunks[at].text.lower().split()[-1] in ("one", "ones")
-    if phrase is None or phrase.kind != "object" or phrase.plural or not phrase_ends_in_one:
+    phrase = _neighbour(chunks, at, -1)
+    ends_in_one = chunks[at].text.lower().split()[-1] in ("one", "ones")
+    if phrase is None or phrase.kind != "object" or phrase.plural or not ends_in_one:
         return None
     return phrase if phrase.modifiers.colours else None
 
@@ -160,10 +153,10 @@ def _towers(chunks: list[Chunk]) -> list[Chunk]:
     made: list[Chunk] = []
     at = 0
     while at < len(chunks):
-        listed = _list_of_stack(chunks, at)
-        if listed > 1:
-            end = _end_of_list(chunks, at + 2, listed)
-            made += [*chunks[at + 2 : end], Chunk(kind="arrange", text=TOWER, size=listed)]
+        end = _end_of_stack(chunks, at)
+        if end:
+            listed = chunks[at + 2 : end]
+            made += [*listed, Chunk(kind="form", text="tower", size=sum(piece.kind == "noun" for piece in listed))]
             at = end
         else:
             made.append(chunks[at])
@@ -171,36 +164,20 @@ def _towers(chunks: list[Chunk]) -> list[Chunk]:
     return made
 
 
-def _list_of_stack(chunks: Sequence[Chunk], at: int) -> int:
-    """Number of phrases in the list after "a stack of" at chunk `at`; 0 where no such list begins there."""
+def _end_of_stack(chunks: Sequence[Chunk], at: int) -> int:
+    """The chunk after the list that "a stack of" at chunk `at` is a stack of; 0 where no such list begins there."""
     stack = chunks[at].phrase
     joint = chunks[at + 1].link if at + 1 < len(chunks) else None
     if stack is None or stack.kind != "pieces" or stack.said != "stack" or joint is None or joint.manner != "of":
         return 0
-    return _count(chunks, at + 2)
-
-
-def _count(chunks: Sequence[Chunk], at: int) -> int:
-    count = 0
-    while (phrase := chunks[at].phrase) is not None and phrase.kind in ("object", "unknown") and phrase.determined:
+    count, after = 0, at + 2
+    while after < len(chunks):
+        phrase = chunks[after].phrase
+        if phrase is None or phrase.kind not in ("object", "unknown"):
+            return 0
         count += 1
-        joint = at + 1
-        while chunks[joint].kind in _JOINTS:
-            joint += 1
-        closed = any(piece.kind == "and" for piece in chunks[at + 1 : joint])
-        if joint == at + 1:
+        more = after + 1 < len(chunks) and chunks[after + 1].kind == "joint" and "and" not in chunks[after - 1].text
+        if not more:
             break
-        at = joint
-        if closed:
-            following = chunks[at].phrase
-            return count + (following is not None and following.kind in ("object", "unknown"))
-    return count
-
-
-def _end_of_list(chunks: Sequence[Chunk], at: int, listed: int) -> int:
-    """The chunk after the `listed`-th phrase from chunk `at` on."""
-    seen = 0
-    while seen < listed:
-        seen += chunks[at].phrase is not None
-        at += 1
-    return at
+        after += 2
+    return after + 1 if count > 1 else 0

@@ -25,7 +25,7 @@ COLOURFUL_COUNT = 4
 COMES_IN_TWOS = frozenset({"bedside table", "nightstand", "shoe", "slipper", "boot", "sock", "candlestick"})
 
 SIZES: dict[str, float] = {
-    "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75, "compact": 0.8,
+    "tiny": 0.5, "miniature": 0.6, "mini": 0.6, "baby": 0.7, "small": 0.75, "little": 0.75,
     "medium": 1.0, "medium-sized": 1.0, "large": 1.3, "big": 1.3, "oversized": 1.5, "huge": 1.6, "giant": 1.8,
     "enormous": 1.8, "massive": 1.8, "bigger": 1.3, "larger": 1.3, "smaller": 0.75,
 }  # fmt: skip
@@ -40,7 +40,7 @@ SHADE_WORDS = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "war
 DETERMINERS = frozenset({
     "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "any", "all",
 })  # fmt: skip
-DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both"})
+DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both", "all", "any"})
 DEMONSTRATIVES = frozenset({"that", "this"})
 """Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their"})
@@ -49,15 +49,18 @@ PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "thems
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({
     "sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean", "perches",
-    "sleeps", "floats", "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
+    "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats", "goes",
+    "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays",
 })  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
 PARTICIPLES = frozenset({
     "sitting", "standing", "resting", "lying", "laying", "leaning", "perched", "perching", "placed", "balanced",
-    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "propped", "laid",
-    "floating", "sleeping", "scattered", "left", "hanging", "mounted", "lined", "spread", "kept", "stored", "tucked",
+    "balancing", "positioned", "located", "arranged", "displayed", "set", "seated", "situated", "nestled", "wedged",
+    "stuck", "squeezed", "nestling", "planted", "served", "shown", "seen",
+    "parked", "strewn", "lined", "sprawled", "tossed", "cast", "propped", "laid",
+    "floating", "sleeping", "scattered", "left", "hanging", "mounted", "spread", "kept", "stored", "tucked",
     "put", "facing", "crouching", "kneeling", "waiting", "posing", "dropped", "organised", "organized", "grouped",
 })  # fmt: skip
 NOT_VERBS = frozenset({
@@ -114,7 +117,8 @@ PARTS = frozenset({
     "texture", "finish", "design", "base", "eye", "ear", "tail", "nose", "spine", "trim", "accent", "print", "foot",
     "paw", "hand", "arm", "armrest", "shelf", "drawer", "mattress", "corner", "surface", "fur", "body", "beak",
     "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
-    "end", "half", "tip", "shoulder", "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
+    "end", "half", "tip", "blade", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder",
+    "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile",
 })  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({
@@ -149,7 +153,8 @@ PICTURES = frozenset({
 SUBSTANCES = frozenset({
     "water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt", "honey", "jam", "oil",
     "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade", "soda", "chocolate milk",
-    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper",
+    "steam", "liquid", "ice", "gel", "lotion", "shampoo", "cocoa", "syrup", "butter", "tissues", "paper", "beverage",
+    "greens",
 })  # fmt: skip
 """Contents too fine or too wet to be rigid bodies."""
 
@@ -177,9 +182,22 @@ GENERICS: dict[str, tuple[str, ...]] = {
     "stationery": ("pencil", "pen", "ruler"),
     "toiletry": ("toothbrush", "soap", "toothpaste"),
     "furniture": ("chair", "table", "sofa"),
+    "tool": ("hammer", "screwdriver", "wrench", "pliers"),
+    "snack": ("chip bag", "cookie", "granola bar", "pretzel"),
+    "drink": ("soda can", "juice bottle", "bottle"),
+    "condiment": ("ketchup", "mustard", "salt shaker"),
+    "sauce bottle": ("ketchup", "mustard", "hot sauce"),
+    "spice": ("spice bottle", "salt shaker"),
+    "electronics": ("phone", "tablet", "camera"),
+    "canned good": ("can", "tuna can", "tomato soup can"),
+    "canned food": ("can", "tuna can", "tomato soup can"),
+    "veggie": ("carrot", "tomato", "pepper", "potato", "onion"),
+    "baked good": ("bread", "croissant", "bagel"),
+    "office supply": ("pencil", "pen", "ruler"),
+    "ball toy": ("ball",),
 }  # fmt: skip
 """Nouns for a kind of thing, and the things that stand for it in turn."""
-MASS_GENERICS = frozenset({"fruit", "cutlery", "silverware", "stationery", "furniture"})
+MASS_GENERICS = frozenset({"electronics", "fruit", "cutlery", "silverware", "stationery", "furniture"})
 
 FLOOR = (
     "bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee table", "table", "desk", "rug", "chair",
@@ -274,3 +292,201 @@ STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""
+
+CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "dishwasher", "dryer", "filing cabinet",
+          "toolbox", "treasure chest", "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
+          "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
+"""What things go into through a door, a drawer or a lid."""
+SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture", "color", "colour"})
+"""Parts that every object has: to name them says nothing."""
+DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob", "drawers", "doors", "shelf", "button"})
+"""Parts with a name that is a thing's too: "the lid of the box" is the box."""
+ALIASES = {
+    "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
+    "desktop computer": "monitor", "pc": "laptop", "computer screen": "monitor",
+}  # fmt: skip
+"""Words for what the catalogue knows by another name."""
+VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
+DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
+    "clockwise",
+                        "counterclockwise", "sideways"})  # fmt: skip
+HONOURED = frozenset({
+    "square", "cubic", "flat", "tall", "long", "rectangular", "striped", "high", "deep", "short", "shallow", "low",
+    "wide", "narrow", "baby", "young", "newborn", "lit", "burning", "flickering", "thin", "slim", "thick", "heavy",
+    "round", "landscape", "kitten",
+})  # fmt: skip
+"""Adjectives that recipes of the catalogue make something of."""
+SAID_OTHERWISE = frozenset({
+    "other", "same", "different", "another", "single", "own", "more", "left", "right", "middle", "first", "second",
+    "third", "fourth", "fifth", "last", "leftmost", "rightmost", "front", "back", "alternating", "stacked", "of",
+    "smallest", "largest", "biggest", "smaller", "larger", "bigger", "center", "centre", "normal", "regular",
+    "standard",
+    "ordinary", "typical", "real", "whole", "colored", "coloured", "matching", "identical", "potted", "plush",
+    "stuffed",
+})  # fmt: skip
+"""Adjectives that tell which, or say nothing."""
+PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine", "newspaper", "pancake", "notebook",
+         "envelope", "cardboard sheet", "plank", "cushion", "pillow", "tray", "blanket", "cutting board", "bowl",
+         "cup", "crate", "t-shirt", "jeans", "waffle", "stack of paper", "placemat", "napkin")  # fmt: skip
+"""What a pile of is a stack."""
+PACKED = {
+    "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
+    "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
+    "jam": "cookie jar", "shampoo": "shampoo",
+}  # fmt: skip
+"""What "the soup" is, where it can be put somewhere."""
+SENSES: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {
+    "mouse": (
+        ("mouse", frozenset({"cheese", "cat", "trap", "animal", "plush", "toy", "rabbit", "bird"})),
+        (
+            "computer mouse",
+            frozenset(
+                {
+                    "laptop",
+                    "keyboard",
+                    "monitor",
+                    "computer",
+                    "desk",
+                    "pad",
+                    "pc",
+                    "screen",
+                    "office",
+                    "printer",
+                    "webcam",
+                    "headset",
+                    "headphones",
+                    "workstation",
+                    "usb",
+                    "wireless",
+                    "speaker",
+                    "tablet",
+                }
+            ),
+        ),
+    ),
+    "glasses": (
+        (
+            "glass",
+            frozenset(
+                {
+                    "wine",
+                    "water",
+                    "bottle",
+                    "pitcher",
+                    "plate",
+                    "juice",
+                    "milk",
+                    "beer",
+                    "jug",
+                    "drink",
+                    "tray",
+                    "cup",
+                    "bar",
+                    "kitchen",
+                    "dinner",
+                    "napkin",
+                    "bowl",
+                }
+            ),
+        ),
+        (
+            "sunglasses",
+            frozenset(
+                {
+                    "book",
+                    "newspaper",
+                    "magazine",
+                    "reading",
+                    "nightstand",
+                    "case",
+                    "pair",
+                    "wallet",
+                    "hat",
+                    "beach",
+                    "phone",
+                    "key",
+                    "letter",
+                    "desk",
+                    "towel",
+                    "sunscreen",
+                }
+            ),
+        ),
+    ),
+    "tube": (
+        ("toothpaste", frozenset({"toothbrush", "bathroom", "sink", "soap", "towel"})),
+        (
+            "test tube",
+            frozenset({"rack", "beaker", "flask", "pipette", "lab", "laboratory", "petri", "microscope", "syringe"}),
+        ),
+    ),
+    "rack": (
+        ("shelf", frozenset({"box", "book", "storage", "tool"})),
+        ("test tube rack", frozenset({"tube", "vial", "pipette", "beaker", "flask", "lab", "laboratory"})),
+        ("wine rack", frozenset({"wine", "bottle"})),
+        (
+            "dish rack",
+            frozenset({"plate", "dish", "bowl", "sink", "kitchen", "mug", "cup", "counter", "spoon", "fork"}),
+        ),
+    ),
+    "bar": (
+        ("soap", frozenset({"bathroom", "sink", "towel", "dish", "shampoo"})),
+        ("granola bar", frozenset({"bowl", "plate", "apple", "banana", "drawer", "snack", "lunch", "kitchen"})),
+    ),
+    "board": (
+        ("plank", frozenset({"hammer", "nail", "saw", "wood", "block"})),
+        (
+            "cutting board",
+            frozenset(
+                {
+                    "knife",
+                    "bread",
+                    "kitchen",
+                    "vegetable",
+                    "cheese",
+                    "tomato",
+                    "onion",
+                    "carrot",
+                    "jam",
+                    "counter",
+                    "croissant",
+                    "meat",
+                    "cleaver",
+                    "lime",
+                    "garlic",
+                }
+            ),
+        ),
+    ),
+    "pot": (
+        ("pot", frozenset({"stove", "kitchen", "pan", "lid", "soup", "ladle", "burner"})),
+        ("flower pot", frozenset({"plant", "flower", "soil", "garden", "trowel", "cactus", "seed", "watering"})),
+    ),
+    "nut": (
+        ("nut", frozenset({"bolt", "screw", "wrench"})),
+        ("walnut", frozenset({"bowl", "fruit", "cracker", "walnut"})),
+    ),
+}
+"""What a word of several meanings names, and the company that tells it; the first where none does."""
+MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "food", "foods", "stuff", "clutter", "mess",
+    "brunch",
+                   "picnic", "dessert", "feast", "salad", "groceries", "ingredients", "supplies"})  # fmt: skip
+"""Words that name no single thing."""
+FOREIGN = frozenset({
+    "una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das", "auf", "dem",
+    "ein",
+    "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur", "avec", "et", "dans",
+    "il",
+    "uno", "della", "sul", "tavolo", "een", "op", "het", "naast", "um", "uma", "em", "com", "na", "och", "ett",
+    "przy", "jest",
+})  # fmt: skip
+"""Function words of other languages."""
+SUPERLATIVES = {
+    "smallest": ("small", 0.75), "largest": ("large", 1.3), "biggest": ("big", 1.3), "tallest": ("tall", 1.0),
+    "shortest": ("short", 1.0), "littlest": ("little", 0.75),
+}  # fmt: skip
+POSITIONS: dict[str, int] = {
+    "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
+    "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,
+}  # fmt: skip
+"""Words for one of several by its place, and its index."""

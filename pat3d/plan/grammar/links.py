@@ -5,23 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from pat3d.plan.scene_plan import ArrangementKind
 from pat3d.scene.model import RelationKind
 
 Manner = Literal[
-    "place",
-    "with",
-    "hold",
-    "flank",
-    "surround",
-    "between",
-    "sides",
-    "gaze",
-    "include",
-    "under",
-    "of",
-    "half",
-    "edge",
-]
+    "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half", "edge",
+    "far", "source", "goal", "than",
+]  # fmt: skip
 
 Side = Literal["left", "right", "centre"]
 
@@ -37,11 +27,13 @@ class Link:
     finite: bool = False
     """A verb of the clause: its subject is the clause's."""
     filling: bool = False
-    """"filled with": a bare plural means many."""
+    """Read "filled with": a bare plural means many."""
     side: Side | None = None
     """For manner "half": which part of the parent."""
-    instead: str = ""
-    """What the words say and no relation does ("leaning against"): `kind` stands in, and a note says so."""
+    said: str = ""
+    """For manner "than": the comparison, as written."""
+    says: ArrangementKind | None = None
+    """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
 
     @property
     def inverse(self) -> bool:
@@ -58,25 +50,31 @@ def _table() -> dict[tuple[str, ...], Link]:
 
     add(
         Link(kind="on"),
-        "on", "atop", "atop of", "on top of", "on top", "upon", "onto", "over", "on the top of", "up on",
+        "on", "atop", "atop of", "on top of", "on top", "upon", "over", "on to", "on the top of", "up on",
     )  # fmt: skip
-    add(Link(kind="on", instead="above"), "above")
-    add(Link(kind="in"), "in", "inside", "inside of", "into", "within", "amid")
+    add(Link(kind="on", says="above"), "above")
+    add(Link(kind="in"), "in", "inside", "within", "amid", "in the inside of")
     add(
         Link(kind="next_to"),
-        "beside", "besides", "next to", "near", "near to", "nearby", "nearby to", "by", "close to", "alongside",
+        "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to",
+        "alongside",
         "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
         "off to the side of", "close by", "with its side to", "across from", "along",
-        "opposite", "opposite to", "among", "amongst",
+        "opposite", "opposite to", "among", "amongst", "touching", "amidst",
     )  # fmt: skip
+    add(Link(manner="far"), "far from", "far away from", "away from")
+    add(Link(manner="source", kind="on"), "from", "off", "off of", "out of", "from inside", "from the top of")
+    add(Link(manner="goal", kind="on"), "to", "onto", "into", "back to", "back onto", "back into", "to the top of",
+        "up to", "inside of", "over to")  # fmt: skip
+    add(Link(kind="next_to", manner="goal"), "towards", "toward")
     leaning = ("leaning", "leaned", "leant", "propped", "propped up", "resting", "standing")
-    add(Link(kind="next_to", instead="leaning against"), *(f"{word} against" for word in leaning), "leaning on",
+    add(Link(kind="next_to", says="leaning_against"), *(f"{word} against" for word in leaning), "leaning on",
         "leaning up against")  # fmt: skip
-    add(Link(kind="next_to", instead="leaning against", finite=True), "leans against", "lean against", "leans on",
+    add(Link(kind="next_to", says="leaning_against", finite=True), "leans against", "lean against", "leans on",
         "lean on", "rests against", "rest against")  # fmt: skip
-    add(Link(kind="on", instead="bridging"), "across", "bridging", "spanning", "straddling", "laid across",
+    add(Link(kind="on", says="across"), "across", "bridging", "spanning", "straddling", "laid across",
         "lying across", "placed across", "resting across")  # fmt: skip
-    add(Link(kind="on", instead="bridging", finite=True), "bridges", "spans", "straddles", "lies across",
+    add(Link(kind="on", says="across", finite=True), "bridges", "spans", "straddles", "lies across",
         "rests across")  # fmt: skip
     sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
     for side, kind in sides:
@@ -92,16 +90,17 @@ def _table() -> dict[tuple[str, ...], Link]:
             ),
         )
         add(half, f"to the {side} side of", f"on {side} of")
-    centre = Link(manner="half", side="centre", kind="on")
+    centre = Link(manner="half", side="centre", kind="on", says="in_middle")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
-    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "facing", "in the front of",
+    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "to the front of",
+    "in the front of",
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     for near in ("at", "on", "near", "in", "by"):
         for part in ("edge", "corner", "end"):
             place = f"{near} the {part} of"
-            add(Link(manner="edge", kind="on", instead=place), place)
+            add(Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge"), place)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
@@ -109,14 +108,23 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
-    add(Link(manner="under"), "under", "beneath", "below", "underneath")
+    add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
     add(
-        Link(manner="gaze"),
-        "gazing into", "gazing at", "looking at", "looking into", "looking toward", "looking towards", "watching",
+        Link(manner="gaze", says="facing"),
+        "gazing into", "facing", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
+        "watching",
         "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
         "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
     )  # fmt: skip
-    add(Link(manner="gaze", finite=True), "gazes into", "gazes at", "looks at", "stares at", "watches", "faces")
+    add(
+        Link(manner="gaze", finite=True, says="facing"),
+        "gazes into",
+        "gazes at",
+        "looks at",
+        "stares at",
+        "watches",
+        "faces",
+    )
     add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
     add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",
         "displays", "showcases", "depicts")  # fmt: skip
@@ -126,7 +134,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
-    add(Link(manner="hold", finite=True), "holds", "hold", "contains", "contain", "carries", "carry", "supports",
+    add(Link(manner="hold", finite=True), "holds", "hold", "held", "contained", "contains", "contain", "carries",
+    "carry", "supports",
         "bears", "houses", "support", "hosts")  # fmt: skip
     add(Link(manner="hold", filling=True), "filled with", "full of", "filled up with", "brimming with", "packed with",
         "half full of", "half filled with", "half-full of", "half-filled with", "stuffed with",

@@ -55,6 +55,7 @@ class Modifiers:
             palette_word=self.palette_word or outer.palette_word,
             material=self.material or outer.material,
             material_word=self.material_word or outer.material_word,
+            adjectives=(*self.adjectives, *outer.adjectives, *((outer.size_word,) if outer.size_word else ())),
             measures=(*self.measures, *outer.measures),
             postures=(*self.postures, *outer.postures),
         )

@@ -8,14 +8,14 @@ from typing import Literal
 
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.arrangements import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier, read_modifiers
+from pat3d.plan.grammar.shapes import RINGS, grid_size, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
-_ORDINALS = frozenset({"first", "second", "third", "last"})
+_ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""
 
 
@@ -39,9 +39,13 @@ class Phrase:
     """Opens with a determiner or a number."""
     definite: bool = False
     each: bool = False
+    superlative: Modifiers = NO_MODIFIERS
+    """What tells one of them: "the smallest of three boxes"."""
     one_of: bool = False
-    """"one of two boxes"."""
+    """Read "one of two boxes"."""
     possessive: bool = False
+    other: bool = False
+    """Read "the other mug": not the one named before."""
     cycle: tuple[str, ...] = ()
     """Nouns standing in turn for a generic ("fruit")."""
     modifiers: Modifiers = NO_MODIFIERS
@@ -69,10 +73,12 @@ class PhraseReader:
         self._tokens = tokens
         self._nouns = nouns
         self._bounds = Boundaries(tokens, nouns)
+        self._definite = False
 
     def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
         at, count, flags = self._opening(start)
+        self._definite = flags.get("definite", False)
         run, after = self._bounds.run(at)
         tokens = self._tokens
         if not run:
@@ -102,6 +108,17 @@ class PhraseReader:
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
             if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
                 told = Modifiers(adjectives=(run[0].text,))
+                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
+                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
+                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
+                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
+                              determined=True, definite=True, modifiers=told), after  # fmt: skip
+            if run[-1].text in lexicon.SUPERLATIVES and len(run) == 1 and flags.get("definite"):
+                size, scale = lexicon.SUPERLATIVES[run[0].text]
+                told = Modifiers(size_word=size, scale=scale)
+                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
+                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
+                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
                               determined=True, definite=True, modifiers=told), after  # fmt: skip
             if run[-1].text == "one" and flags.get("determined"):
@@ -155,7 +172,7 @@ class PhraseReader:
                 if word in ("each", "every"):
                     flags["each"] = True
             elif word in ("other", "same", "single") and flags.get("determined"):
-                pass
+                flags["other"] = word == "other"
             else:
                 break
             at += 1
@@ -165,6 +182,11 @@ class PhraseReader:
         """The phrase of a run without "of"."""
         words = [token.text for token in run]
         head, number = words[-1], run[-1].number
+        if head in lexicon.PACKED and self._definite and self._nouns.match([head]) is None:
+            packed = self._nouns.match(lexicon.PACKED[head].split())
+            if packed is not None:
+                return Phrase(kind="object", head=head, number=number, count=count, noun=packed.noun, said=packed.said,
+                              modifiers=read_modifiers(words[:-1]))  # fmt: skip
         base = Phrase(kind="unknown", head=head, number=number, count=count, modifiers=read_modifiers(words[:-1]))
         singular = (head, *singulars(head))
         for size in (2, 1):
@@ -181,6 +203,12 @@ class PhraseReader:
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
+        if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
+            # "the top dresser drawer", "the cabinet shelf"
+            whole = self._simple(run[:-1], count)
+            inside = head not in lexicon.STORAGE_PARTS or self._nouns.of_class(whole.noun, lexicon.STORAGE)
+            if whole.kind == "object" and not whole.cycle and inside and not is_modifier(words[-2]):
+                return replace(whole, part=head)
         found = self._nouns.longest(words)
         if found is not None and not (head in lexicon.ITEMS and len(found[1]) == 1):
             match, used = found
@@ -227,7 +255,8 @@ class PhraseReader:
             stated = inner.count if inner.count is not None and not (inner.count == 1 and not inner.plural) else 0
             own = read_modifiers(words[:-1])
             rolls = inner.cycle or self._nouns.of_class(inner.noun, lexicon.ROUND)
-            if lexicon.HEAPS & set(singular) or ("pile" in singular and rolls):
+            flat = self._nouns.of_class(inner.noun, lexicon.PILES) or not inner.noun
+            if lexicon.HEAPS & set(singular) or ("pile" in singular and (rolls or not flat)):
                 amount = inner.count or lexicon.STACK_HEIGHT
                 return replace(inner, count=amount * chains, vague=inner.count is None, heap=True,
                                modifiers=inner.modifiers.under(own)), after  # fmt: skip
@@ -261,6 +290,8 @@ class PhraseReader:
         part = any(word in lexicon.PARTS for word in singular)
         if known is None:
             part = part and (inner.definite or not plural)
+        elif head in lexicon.DETACHED and inner.definite:
+            part = True
         else:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
@@ -270,9 +301,8 @@ class PhraseReader:
             whole = self._simple(run, count)
             compound = self._nouns.match([inner.head, singular[-1]])
             if compound:
-                return replace(
-                    whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count
-                ), after
+                return replace(whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
+                               substance=inner.head), after  # fmt: skip
             return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
         holds = known is not None and any(
             self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)

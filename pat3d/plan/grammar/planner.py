@@ -1,24 +1,41 @@
-"""The offline planner: a grammar over English prompts."""
+"""The offline planner: a grammar over English, ranked by what is likely, that accounts for every word."""
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
 from pat3d.errors import PromptError
-from pat3d.plan.grammar.build import build
-from pat3d.plan.grammar.chunks import chunk
-from pat3d.plan.grammar.draft import Draft
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.chunks import Chunk, Cutter
 from pat3d.plan.grammar.ellipsis import completed
-from pat3d.plan.grammar.groups import GroupMaker
-from pat3d.plan.grammar.reader import Reader
+from pat3d.plan.grammar.finish import finish
+from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
+from pat3d.plan.grammar.interpret import Interpreter
+from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.names import catalogue_names
+from pat3d.plan.grammar.objects import Maker
+from pat3d.plan.grammar.plausible import Plausible
+from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
+from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
+from pat3d.plan.telling import tell
+from pat3d.scene.model import Relation
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
+TRIED = 6
+"""Readings of a sentence of which references and supports are worked out."""
+CLOSE = 0.15
+"""Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
 class GrammarPlanner:
-    """Plans a prompt with word tables and a shallow grammar: no model, no network, the same plan every time.
+    """Plans a prompt with word tables and a grammar: no model, no network, the same plan every time.
 
     With `allow_proxies` an unknown noun becomes a plain box, said so in the plan's notes, instead of an error.
     """
@@ -26,11 +43,10 @@ class GrammarPlanner:
     def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
         """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`."""
         if vocabulary is None:
-            from pat3d.assets.catalogue import lookup
-
-            vocabulary = lookup
+            vocabulary = catalogue_names()
         self._nouns = Nouns(vocabulary)
-        self._allow_proxies = allow_proxies
+        self._likely = Plausible(self._nouns)
+        self._maker = Maker(self._nouns, allow_proxies=allow_proxies)
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt`.
@@ -39,13 +55,147 @@ class GrammarPlanner:
             PromptError: the prompt is empty or too long, names something that cannot be made, asks for too many
                 objects, or has an object rest on itself.
         """
+        first, *others = self.readings(prompt)
+        return replace(first, otherwise=tell(others[0])) if others else first
+
+    def readings(self, prompt: str) -> tuple[ScenePlan, ...]:
+        """The likeliest plan, and the next where it has other objects or supports and is nearly as likely.
+
+        Raises:
+            PromptError: see `plan`.
+        """
         if not prompt.strip():
             raise PromptError('the prompt is empty. Describe a scene: "a red mug on a wooden table".')
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
-        draft = Draft(self._nouns)
-        maker = GroupMaker(draft, allow_proxies=self._allow_proxies)
-        unread: list[str] = []
-        Reader(draft, maker).read(completed(chunk(prompt, self._nouns, unread), self._nouns))
-        draft.notes += [_CHOICE if word == "or" else f'"{word}" is left out.' for word in unread]
-        return build(prompt, draft)
+        text = normalise(prompt)
+        _check_language(text)
+        tokens = tokenise(text)
+        company = {word for token in tokens for word in (token.text, *singulars(token.text))}
+        told = [
+            clause
+            for sentence in _sentences(tokens)
+            for clause in clauses(text, plainer(sentence, self._nouns), self._nouns)
+        ]
+        world, others = World(self._likely), list[tuple[int, World]]()
+        for at, clause in enumerate(told):
+            world, other = self._read(text, clause, world, company)
+            if other is not None:
+                others.append((at + 1, other))
+        plans = [self._finished(prompt, world)]
+        for at, other in others[:1]:
+            try:
+                for clause in told[at:]:
+                    other, _ = self._read(text, clause, other, company)
+                second = self._finished(prompt, other)
+            except PromptError:
+                continue
+            if _supports(second) != _supports(plans[0]):
+                plans.append(second)
+        return tuple(plans)
+
+    def _finished(self, prompt: str, world: World) -> ScenePlan:
+        plan, names = finish(prompt, world, self._nouns)
+        task, notes = task_of(world, names)
+        return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
+
+    def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
+        """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
+        sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
+        world.aside += [aside for aside in sentence.aside if aside not in world.aside]
+        chunks = completed(_trimmed(sentence.chunks), self._nouns)
+        for word in sentence.unread:
+            world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
+        if not any(chunk.kind == "noun" for chunk in chunks):
+            for chunk in chunks:
+                if chunk.kind in ("rel", "have", "place", "quality", "form"):
+                    world.note(f'not understood: "{chunk.text}"')
+            if clause.manner is not None:
+                world.note(f'not modelled: "{clause.said}": it names no object.')
+            return world, None
+        readings, chunks = self._readings(chunks, world, moving=clause.manner in ("make", "move", "stack", "sort"))
+        tried: list[tuple[float, World]] = []
+        error: PromptError | None = None
+        for reading in readings[:TRIED]:
+            trial = _copied(world)
+            try:
+                cost = reading.cost + Interpreter(trial, chunks, self._maker, clause).add(reading)
+            except PromptError as caught:
+                error = error or caught
+                continue
+            tried.append((cost, trial))
+        if not tried:
+            assert error is not None
+            raise error
+        tried.sort(key=lambda each: each[0])
+        best, first = tried[0]
+        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.signature() != first.signature())
+        return first, next(close, None)
+
+    def _readings(self, chunks: list[Chunk], world: World, *, moving: bool) -> tuple[list[Node], list[Chunk]]:
+        """Readings of `chunks`, or of all but one of them, which a note then names.
+
+        Raises:
+            PromptError: there is none.
+        """
+        if readings := Grammar(chunks, self._likely).readings(moving=moving):
+            return readings, chunks
+        for at, chunk in enumerate(chunks):
+            if chunk.kind == "noun" and chunk.phrase and chunk.phrase.kind not in ("part", "pieces", "background"):
+                continue
+            rest = _trimmed([*chunks[:at], *chunks[at + 1 :]])
+            if rest and (readings := Grammar(rest, self._likely).readings(moving=moving)):
+                if chunk.kind not in ("joint", "verb", "there", "clause"):
+                    world.note(f'not understood: "{chunk.text}"')
+                return readings, rest
+        read = (end for end in range(len(chunks) - 1, 0, -1) if Grammar(chunks[:end], self._likely).readings())
+        end = next(read, 0)
+        after = f' after "{chunks[end - 1].text}"' if end else ""
+        raise PromptError(
+            f'cannot read "{chunks[end].text}"{after}. Say one thing a sentence: "A mug is on the table. A spoon '
+            'is in the mug."'
+        )
+
+
+def _check_language(text: str) -> None:
+    """Raises: PromptError: `text` is in another language than English."""
+    words = [word.strip(".,;:!?").lower() for word in text.split()]
+    foreign = [word for word in words if word in lexicon.FOREIGN]
+    english = sum(word in lexicon.DETERMINERS or word in ("is", "are", "with", "and", "of") for word in words)
+    letters = [letter for letter in text if letter.isalpha()]
+    other = [letter for letter in letters if ord(letter) > 0x24F]
+    if (len(foreign) >= 2 and len(foreign) > english) or len(other) * 2 > len(letters):
+        said = " ".join(foreign[:3]) or "".join(other[:8])
+        raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')
+
+
+def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:
+    return {obj.name for obj in plan.objects}, {relation for relation in plan.relations if relation.supports}
+
+
+def _copied(world: World) -> World:
+    return copy.deepcopy(world, {id(world.likely): world.likely})
+
+
+def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:
+    """`tokens` cut after every stop."""
+    made: list[list[Token]] = [[]]
+    for token in tokens:
+        made[-1].append(token)
+        if token.text == ".":
+            made.append([])
+    return [sentence for sentence in made if len(sentence) > 1]
+
+
+def _trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` without joints at either end or in a row."""
+    made: list[Chunk] = []
+    for chunk in chunks:
+        if chunk.kind in ("joint", "clause") and (not made or made[-1].kind in ("joint", "clause")):
+            if made and chunk.kind == "joint" and made[-1].kind == "joint" and "and" in chunk.text:
+                made[-1] = replace(made[-1], text=", and")
+            continue
+        made.append(chunk)
+    while made and made[-1].kind in ("joint", "clause"):
+        made.pop()
+    return made

@@ -5,6 +5,10 @@ A posture becomes one token whose text begins with "_", which no word of a promp
 
 from __future__ import annotations
 
+import re
+
+from pat3d.plan.scene_plan import PostureKind
+
 POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
@@ -36,3 +40,17 @@ def read_posture(word: str) -> str:
 def is_natural(posture: str, *, lies: bool) -> bool:
     """Whether an object that by nature lies, or else stands, has `posture` anyway."""
     return posture == _UPRIGHT and not lies
+
+
+def kind_of(posture: str) -> PostureKind:
+    """What kind of posture `posture` is."""
+    words = posture.lower()
+    if "upright" in words or words == "on end":
+        return "upright"
+    if re.search(r"upside|bottom|face[ -]?down|inverted|overturned|flipped|turned over|head", words):
+        return "upside_down"
+    if re.search(r"side|lying|laid|lies|lie |toppled|tipped|knocked", words):
+        return "on_its_side"
+    if words in ("open", "closed"):
+        return "open" if words == "open" else "closed"
+    return "tilted" if re.search(r"tilt|slant|inclin|lean", words) else "turned"

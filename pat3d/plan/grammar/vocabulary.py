@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.modifiers import is_modifier
 
@@ -75,6 +76,9 @@ class Nouns:
                 # A plural that is itself a synonym ("shelves" for a shelving unit) names one object.
                 whole = known is not None and spelled not in known.plurals
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not whole)
+        for name in (spelled, *self._singular(words)) if known is None else ():
+            if name in lexicon.ALIASES and (found := self.match(lexicon.ALIASES[name].split())):
+                return Match(noun=found.noun, said=name, plural=name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
         return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)

@@ -1,0 +1,280 @@
+"""From what was read to a plan: sides are paired, supports shared, objects named."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.measures import LARGEST, SMALLEST
+from pat3d.plan.grammar.modifiers import Modifiers
+from pat3d.plan.grammar.postures import is_natural, kind_of
+from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
+from pat3d.scene.model import GROUND, LateralKind, Relation
+
+_ORDER = {
+    "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
+}  # fmt: skip
+_KINDS: dict[tuple[int, int], LateralKind] = {
+    (0, 0): "left_of", (0, 2): "right_of", (1, 0): "in_front_of", (1, 2): "behind",
+}  # fmt: skip
+
+
+def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Item, str]]:
+    """The plan that `world` comes to, and the name of every object.
+
+    Raises:
+        PromptError: nothing is left to place.
+    """
+    if not world.items():
+        aside = f" Set aside: {'; '.join(world.aside)}." if world.aside else ""
+        raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
+    for item in world.items():
+        like = [other for other in world.items() if other.group.noun == item.group.noun]
+        if item.place and len(like) == 1:
+            world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
+    gone = {item for group in world.groups if group.replaced for item in group.items}
+    world.groups = [group for group in world.groups if not group.replaced]
+    world.supports = {c: e for c, e in world.supports.items() if c not in gone and e.parent not in gone}
+    world.laterals = [edge for edge in world.laterals if edge.child not in gone and edge.parent not in gone]
+    _open_boxes(world, nouns)
+    _widen_bowls(world, nouns)
+    _pair_sides(world)
+    _share_supports(world)
+    objects = _objects(world, nouns)
+    names = {item: obj.name for item, obj in objects.items()}
+    relations = [*_supports(world, names), *_laterals(world, names)]
+    postures = _postures(world, names)
+    arrangements = [
+        Arrangement(kind=each.kind, objects=tuple(names[i] for i in each.items if i in names),
+                    of=tuple(names[i] for i in each.of if i in names), arranged=each.arranged)
+        for each in world.arranged
+    ]  # fmt: skip
+    plan = ScenePlan(
+        prompt=prompt,
+        objects=tuple(objects.values()),
+        relations=tuple(dict.fromkeys(relations)),
+        set_aside=tuple(dict.fromkeys(world.aside)),
+        notes=tuple(dict.fromkeys(world.notes)),
+        arrangements=tuple(dict.fromkeys(each for each in arrangements if each.objects)),
+        postures=tuple(postures),
+    )
+    return plan, names
+
+
+def _open_boxes(world: World, nouns: Nouns) -> None:
+    """Make what holds something an open thing: a carton with balls in it is an open box."""
+    for edge in world.supports.values():
+        for closed, opened in lexicon.OPENED.items():
+            noun = nouns.resolve(opened)
+            if edge.kind == "in" and noun and edge.parent.group.noun == nouns.resolve(closed):
+                edge.parent.group.noun = noun
+
+
+def _widen_bowls(world: World, nouns: Nouns) -> None:
+    """Make a bowl that holds fruit or more than two things a wide one."""
+    for narrow, wide in lexicon.WIDER.items():
+        noun = nouns.resolve(wide)
+        for group in world.groups:
+            if noun is None or group.noun != nouns.resolve(narrow):
+                continue
+            held = [e.child for e in world.supports.values() if e.kind == "in" and e.parent.group is group]
+            fruit = any(world.is_a(item, lexicon.FRUIT) for item in held)
+            if fruit or len(held) > 2 * len(group.items):
+                group.noun = noun
+
+
+def _pair_sides(world: World) -> None:
+    """Objects on the left are left of what is on the right or in the middle, on the same support."""
+    told: set[int] = set()
+    order = {item: at for at, item in enumerate(world.items())}
+    world.sided.sort(key=lambda each: order.get(each.items[0], 0))
+    for each in world.sided:
+        item, owner = each.items[0], each.owner
+        if owner and item not in owner:
+            level = world.is_a(owner[0], lexicon.LEVEL, lexicon.SEATS) and world.support(item) is owner[0]
+            if not level and each.side != "centre":
+                told.add(id(each))
+                world.beside(each.items, _KINDS[_ORDER[each.side]], owner)
+    for index, each in enumerate(world.sided):
+        for other in world.sided[index + 1 :]:
+            one, two = each.items[0], other.items[0]
+            (axis, place), (other_axis, other_place) = _ORDER[each.side], _ORDER[other.side]
+            apart = world.support(one) is not world.support(two)
+            if (one.group is two.group and one is two) or apart or axis != other_axis or place == other_place:
+                continue
+            if any(side.owner and world.support(side.items[0]) is None for side in (each, other)):
+                continue
+            told |= {id(each), id(other)}
+            world.beside(each.items, _KINDS[axis, 0 if place < other_place else 2], other.items)
+    for each in world.sided:
+        above = world.ancestors(each.items[0])
+        inside = any(one.items[0] in above for one in world.sided)
+        beside = each.begun and all(other.items != each.implied for other in world.sided)
+        if each.side == "centre":
+            if id(each) not in told:
+                world.arrange("in_middle", each.items, each.owner, f'"{each.items[0].group.words}" in the middle')
+        elif not inside and (beside or id(each) not in told):
+            _side_alone(world, each)
+
+
+def _side_alone(world: World, told: Sided) -> None:
+    """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
+    kind = _KINDS[_ORDER[told.side]]
+    implied = [item for item in told.implied if item not in told.items]
+    if implied:
+        world.beside(told.items, kind, implied[:1])
+    elif all(edge.parent not in told.items and edge.child not in told.items for edge in world.laterals):
+        where = kind.removesuffix("_of").replace("_", " ")
+        world.note(f'"{told.items[0].group.words}" ({where}): there is nothing beside it that it could be {where} of.')
+
+
+def _share_supports(world: World) -> None:
+    """What stands beside something on a table stands on that table, unless it belongs on the floor."""
+    pairs = [(edge.child, edge.parent) for edge in world.laterals]
+    for _ in range(len(pairs)):
+        known = len(world.supports)
+        for pair in pairs:
+            for one, other in (pair, pair[::-1]):
+                lowest = [other, *world.ancestors(other)][-1]
+                surface = _surface_below(world, one)
+                taken = (one, surface, *world.ancestors(one))
+                if surface is None or world.on_floor(lowest) or lowest in taken:
+                    continue
+                if world.is_a(surface, lexicon.LEVEL) or not world.is_a(lowest, lexicon.BY_A_SEAT):
+                    world.place([lowest], "on", [surface])
+        if len(world.supports) == known:
+            break
+
+
+def _surface_below(world: World, item: Item) -> Item | None:
+    """The table, shelf or seat that `item` stands on, directly or in a vessel; None where there is none."""
+    for carrier in (item, *world.ancestors(item)):
+        edge = world.supports.get(carrier)
+        if edge is None:
+            continue
+        if edge.kind == "hangs_from":
+            return None
+        wide = world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(edge.parent, lexicon.DISHES)
+        if edge.kind == "on" and wide and edge.parent.group.height == 1:
+            return edge.parent
+    return None
+
+
+def _objects(world: World, nouns: Nouns) -> dict[Item, PlannedObject]:
+    """The objects with unique names."""
+    made: list[tuple[Item, str, PlannedObject]] = []
+    for group in world.groups:
+        words = group.modifiers
+        extent = _extent(world, group, words)
+        for index, item in enumerate(group.items):
+            noun, said = group.noun, group.said
+            if group.cycle:
+                said = group.cycle[index % len(group.cycle)]
+                noun = nouns.resolve(said) or said
+            colours = item.colours if item.colours is not None else words.colours
+            size = item.told.size_word or words.size_word
+            shown = [colour for colour in colours[:3] if colour not in said.split()]
+            material = words.material_word
+            material = "" if material in said.split() or material == size else material
+            name = " ".join(filter(None, (size, " and ".join(shown), material, said)))
+            soft = group.said.split()[0] in ("plush", "stuffed", "soft", "plushie")
+            planned = PlannedObject(
+                name=name, noun=noun, phrase=group.words, colours=colours,
+                material=words.material or ("plush" if group.cycle and soft else None),
+                scale=words.scale * item.told.scale, extent=extent,
+                adjectives=tuple(dict.fromkeys((*words.adjectives, *item.told.adjectives))), proxy=group.proxy,
+            )  # fmt: skip
+            made.append((item, name, planned))
+    total = Counter(name for _, name, _ in made)
+    seen: Counter[str] = Counter()
+    taken = set(total)
+    named: dict[Item, PlannedObject] = {}
+    for item, name, planned in made:
+        if total[name] > 1 or name == GROUND:
+            seen[name] += 1
+            while f"{name} {seen[name]}" in taken:
+                seen[name] += 1
+            name = f"{name} {seen[name]}"
+        named[item] = PlannedObject(**{**planned.__dict__, "name": name})
+    return named
+
+
+def _extent(world: World, group: Group, words: Modifiers) -> Extent | None:
+    """The size that the prompt gives the objects of `group`; notes on what it gives and the scene does not have.
+
+    Raises:
+        PromptError: no object has that size.
+    """
+    said, extent = group.words, None
+    for measure in words.measures:
+        if measure.distance:
+            world.note(f'"{measure.said}" is left out: distances between objects are not planned.')
+        elif not measure.metres:
+            world.note(f'"{measure.said}" is left out: of "{said}" only a size in metres or inches can be set.')
+        elif extent is not None:
+            world.note(f'"{measure.said}" is left out: "{said}" has a size already and keeps its proportions.')
+        elif not all(SMALLEST <= metres <= LARGEST for metres in measure.metres):
+            raise PromptError(f'"{measure.said}": an object may measure {SMALLEST * 1000:g} mm to {LARGEST:g} m.')
+        else:
+            extent = Extent(metres=max(measure.metres), axis=measure.axis)
+            if len(set(measure.metres)) > 1:
+                world.note(f'"{measure.said}": the longest side is {extent.metres:g} m, the others follow.')
+    return extent
+
+
+def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
+    """How the prompt wants the objects turned; notes on what the layout cannot do."""
+    made: list[Posture] = []
+    for item, name in names.items():
+        group = item.group
+        for said in dict.fromkeys((*group.modifiers.postures, *item.told.postures)):
+            natural = is_natural(said, lies=world.is_a(item, lexicon.LYING))
+            made.append(Posture(object=name, kind=kind_of(said), said=said, arranged=natural))
+            if not natural:
+                note = f'not arranged: "{said}"; "{group.words}" is placed the way the catalogue makes it'
+                world.note(note)
+    return made
+
+
+def _supports(world: World, names: dict[Item, str]) -> list[Relation]:
+    relations: list[Relation] = []
+    for item, name in names.items():
+        if (edge := world.supports.get(item)) is not None:
+            relations.append(Relation(child=name, kind=edge.kind, parent=names[edge.parent]))
+        elif (below := world.support(item)) is not None:
+            relations.append(Relation(child=name, kind="on", parent=names[below]))
+    return relations
+
+
+def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
+    relations: list[Relation] = []
+    for edge in world.laterals:
+        pair = world.siblings(edge.child, edge.parent)
+        if pair is None:
+            if edge.parent not in world.ancestors(edge.child):
+                world.note(
+                    f'"{edge.child.group.words}" {edge.kind} "{edge.parent.group.words}" is left out: '
+                    "one carries the other."
+                )
+            continue
+        relations.append(Relation(child=names[pair[0]], kind=edge.kind, parent=names[pair[1]]))
+    for group in world.groups:
+        first = world.supports.get(group.items[0])
+        if group.heap and (first is None or first.kind != "in"):
+            beside = zip(group.items, group.items[1:], strict=False)
+            relations += [Relation(child=names[b], kind="next_to", parent=names[a]) for a, b in beside]
+            world.note(f'"{group.words}": its objects lie side by side, since as a stack they would not stay.')
+        if group.rows:
+            own = world.bases(group.items)
+            length = -(-len(own) // group.rows)
+            lines = [own[at : at + length] for at in range(0, len(own), length)]
+            for line in lines:
+                pairs = zip(line, line[1:], strict=False)
+                relations += [Relation(child=names[a], kind="left_of", parent=names[b]) for a, b in pairs]
+            for front, back in zip(lines, lines[1:], strict=False):
+                pairs = zip(back, front, strict=False)
+                relations += [Relation(child=names[a], kind="behind", parent=names[b]) for a, b in pairs]
+    return relations

@@ -1,0 +1,408 @@
+"""What one reading of a sentence adds to the scene: references are resolved, relations recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.instructions import Clause
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.modifiers import Modifiers
+from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import LARGE
+from pat3d.plan.grammar.references import LATERAL_SIDES, References
+from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.world import Group, Item, Sided, Step, World
+from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
+
+
+class Interpreter:
+    """Adds one reading of a sentence to a world."""
+
+    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, clause: Clause) -> None:
+        self._world = world
+        self._chunks = chunks
+        self._clause = clause
+        self._maker = maker
+        self._relating = Relating(world)
+        self._said = References(world, chunks, maker, self._relating)
+        self._sides: dict[int, str] = {}
+        """On which side of what they flank things are, by chunk."""
+        self._handled: set[int] = set()
+        """Phrases for everything that were put somewhere."""
+
+    def add(self, reading: Node) -> float:
+        """Add `reading`; what its references cost.
+
+        Raises:
+            PromptError: it cannot be a scene.
+        """
+        facts = reading.facts
+        for fact in facts:
+            if fact[0] == "extra":
+                where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
+                self._world.note(f'not modelled: "{where}"')
+                self._clause = replace(self._clause, manner="other")
+        self._said.bound = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
+        clauses = {fact[2]: fact[1] for fact in facts if fact[0] == "subject"}
+        self._said.clauses = {**clauses} or {0: reading.heads}
+        fillings, kinds = self._fillings(facts)
+        self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._said.related = [(set(fact[2]), set(fact[3])) for fact in facts
+                               if fact[0] in ("rel", "have", "list", "goal")]  # fmt: skip
+        for at, chunk in enumerate(self._chunks):
+            if chunk.phrase is not None:
+                self._said.create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
+        for fact in facts:
+            if fact[0] == "form" and self._chunks[fact[1]].text in ("rows", "stacks", "stack", "tower"):
+                self._formed(fact[1], fact[2])
+        for fact in facts:
+            handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
+            if handler is not None:
+                handler(fact[1], fact[2], fact[3])
+        for fact in facts:
+            if fact[0] == "place":
+                self._placed(fact[1], fact[2], fact[3])
+            elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
+                self._formed(fact[1], fact[2])
+            elif fact[0] == "quality":
+                self._qualified(fact[2], self._chunks[fact[1]].modifiers)
+            elif fact[0] == "goal":
+                self._aimed(fact[1], fact[2], fact[3])
+        if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
+            self._done(reading.heads)
+        told = {at for fact in facts if fact[0] in ("have", "list", "include") for at in fact[3]}
+        for at, chunk in enumerate(self._chunks):
+            kind = chunk.phrase.kind if chunk.phrase is not None else ""
+            if kind in ("items", "pieces") and at not in self._said.bound and at not in self._handled | told:
+                self._said.not_understood([at])
+        world = self._world
+        subject = self._said.ref(reading.heads[0]) if reading.heads else []
+        last = max(self._said.clauses)
+        world.subject = self._said.ref(self._said.clauses[last][0]) or subject or world.subject
+        if self._clause.manner is not None:
+            world.subject = subject or world.subject
+        world.landmark = self._relating.landmark
+        if self._clause.manner is None:
+            self._relating.cost += self._loose()
+        return self._relating.cost + self._said.cost
+
+    def _loose(self) -> float:
+        """What it costs that small things are nowhere, where something is there to carry them."""
+        world = self._world
+        items = world.items()
+        carried = any(world.support(item) is not None for item in items)
+        if not carried or not any(world.is_table(item) for item in items):
+            return 0.0
+        related = {each for edge in world.laterals for each in (edge.child, edge.parent)}
+        told = {item for each in world.sided for item in each.items}
+        loose = [
+            item for item in items
+            if world.support(item) is None and not world.on_floor(item) and item not in related and item not in told
+            and not world.is_a(item, lexicon.BY_A_SEAT, LARGE)
+            and not (world.is_a(item, lexicon.THIN) and any(world.support(other) is item for other in items))
+        ]  # fmt: skip
+        return 0.5 * len({id(item.group) for item in loose})
+
+    def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
+        """Phrases of which a bare plural means many, and the generics that list others."""
+        fillings: set[int] = set()
+        kinds: dict[int, int] = {}
+        for fact in facts:
+            link = self._chunks[fact[1]].link if fact[0] == "have" else None
+            if link is not None and link.filling and len(fact[3]) == 1:
+                fillings |= set(fact[3])
+            if fact[0] == "include":
+                kinds |= dict.fromkeys(fact[3], fact[2][0])
+        return fillings, kinds
+
+    def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
+        """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
+        link = self._chunks[at].link
+        assert link is not None
+        before = self._world.subject
+        parents = self._said.refs_of(parent_heads, link, child_heads)
+        children = self._said.refs_of(child_heads, link, parent_heads, child=True)
+        if not parent_heads:
+            parents = [item for item in before if item not in children]
+        phrases = [self._chunks[head].phrase for head in child_heads]
+        made_up = self._clause.manner in ("make", "stack") and all(
+            phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
+            for phrase in phrases
+        )
+        if made_up:
+            if self._clause.manner == "stack" and len(children) > 1:
+                self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
+            if children and parents:
+                several = any(head in self._said.each for head in parent_heads) or any(
+                    each is not None and each.each for each in (self._chunks[head].phrase for head in parent_heads)
+                )
+                if several:
+                    children = multiply(self._world, children, len(parents))
+                if self._clause.verb == "hang" and link.kind == "on":
+                    link = Link(kind="hangs_from")
+                if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
+                    link = Link(kind="next_to", says="leaning_against")
+                self._relating.relate(children, link, parents)
+                self._world.note(
+                    f'"{self._clause.said}" is read as the scene to make; with "the" before what is moved it is a task.'
+                )
+            return
+        for head in parent_heads:
+            self._note_part(head)
+        self._said.not_understood((*child_heads, *parent_heads))
+        self._step(children, link, parents)
+
+    def _done(self, heads: Sequence[int]) -> None:
+        children = self._said.refs_of(heads)
+        self._said.not_understood(heads)
+        phrases = [self._chunks[head].phrase for head in heads]
+        made_up = all(phrase is not None and phrase.determined and not phrase.definite for phrase in phrases)
+        if self._clause.manner == "stack" and made_up:
+            self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
+        elif self._clause.manner != "make" or not made_up:
+            self._step(children, None, [])
+
+    def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
+        manner = self._clause.manner
+        assert manner is not None
+        self._world.steps.append(
+            Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
+        )
+
+    def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
+        items = [item for head in heads for item in self._said.ref(head)]
+        for group in dict.fromkeys(item.group for item in items):
+            self._maker.note_adjectives(self._world, group.phrase, told)
+            if all(item in items for item in group.items):
+                describe(group, told)
+            else:
+                for item in items:
+                    tell(item, told)
+
+    def _related(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
+        link = self._chunks[at].link
+        assert link is not None
+        parents: list[Item] = []
+        if not any(self._said.is_open(head) for head in child_heads):
+            parents = self._said.refs_of(parent_heads, link, child_heads)
+        children = self._said.refs_of(child_heads, link, parent_heads, child=True)
+        parents = parents or self._said.refs_of(parent_heads, link, child_heads)
+        places = [self._chunks[head].phrase for head in parent_heads]
+        for head in parent_heads:
+            self._note_part(head)
+        if not children or not parents:
+            if not (parents and not children and self._of_everything(child_heads, link, parents)):
+                self._said.not_understood((*child_heads, *parent_heads))
+            return
+        first = self._chunks[child_heads[0]].phrase
+        phrase = places[0]
+        if first is not None and first.one_of:
+            children = self._said.one_of(children, first)
+        if phrase is not None and phrase.superlative.adjectives:
+            parents = self._said.one_of(parents, phrase)
+        group = children[0].group
+        loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
+        if loose and link.kind in SUPPORT_KINDS:
+            # "Two pots with plants in them": as many for each.
+            recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
+            children = list(group.items)
+        several = any(head in self._said.each for head in (*child_heads, *parent_heads)) or any(
+            each is not None and each.each for each in places
+        )
+        if any(head in self._said.each for head in child_heads) and phrase is not None and len(parents) < len(children):
+            parents = multiply(self._world, parents, len(children) // len(parents))
+        elif several and len(children) < len(parents) and not set(children) & set(parents):
+            children = multiply(self._world, children, len(parents))
+        self._relating.relate(children, link, parents, one_of=phrase is not None and phrase.one_of)
+
+    def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
+        """Read "Everything is on a table": all that is not yet carried."""
+        world = self._world
+        kinds = {self._chunks[head].phrase.kind for head in heads if self._chunks[head].phrase}  # type: ignore[union-attr]
+        if "items" not in kinds:
+            return False
+        free = [item for item in world.items() if world.support(item) is None and item not in parents]
+        free = [item for item in free if not world.on_floor(item)]
+        if free:
+            self._handled |= set(heads)
+            self._relating.relate(free, link, parents)
+        return bool(free)
+
+    def _note_part(self, head: int) -> None:
+        phrase = self._chunks[head].phrase
+        if phrase is not None and phrase.part in lexicon.DRAWERS | lexicon.DETACHED and phrase.kind == "object":
+            self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
+
+    def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
+        link = self._chunks[at].link
+        assert link is not None
+        self._have(link, owner_heads, child_heads)
+
+    def _listed(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
+        self._have(Link(manner="with"), owner_heads, child_heads)
+
+    def _have(self, link: Link, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
+        world = self._world
+        owners = self._said.refs_of(owner_heads)
+        each = any(head in self._said.each for head in owner_heads)
+        ordered = [(head, self._chunks[head].phrase) for head in child_heads]
+        things = [head for head, phrase in ordered if phrase and phrase.kind not in ("part", "pieces", "background")]
+        for head, phrase in ordered:
+            if phrase is not None and phrase.kind == "part":
+                self._own_part(owners, phrase)
+            elif phrase is not None and phrase.kind == "background" and phrase.substance:
+                # What fills a vessel is named in a note when the phrase is made.
+                continue
+            elif phrase is not None and phrase.kind == "pieces" and link.manner not in ("include", "with") and owners:
+                things.append(head)
+        if not owners or link.manner == "include":
+            return
+        children = self._said.refs_of(sorted(things))
+        if not children:
+            return
+        if link.manner == "flank":
+            sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]
+            self._relating.flanked(children, owners, sides)
+            return
+        if each and len(children) < len(owners):
+            multiply(world, children, len(owners))
+            for head in things:
+                self._said.known[head] = [
+                    item for group in dict.fromkeys(i.group for i in self._said.ref(head)) for item in group.items
+                ]
+        for head in things:
+            items = [item for item in self._said.ref(head) if item not in owners]
+            if items:
+                self._relating.hold(link, owners, items)
+
+    def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
+        for group in dict.fromkeys(item.group for item in owners):
+            words = phrase.modifiers
+            if words.colours or words.palette or words.material:
+                describe(group, words, part=phrase.said)
+            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
+                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
+        if not owners and phrase.words not in self._world.aside:
+            self._world.aside.append(phrase.words)
+
+    def _placed(self, at: int, heads: Sequence[int], owner_heads: Sequence[int]) -> None:
+        """Read "a plate with a fork on the left", "a mug, and a bowl nearby"."""
+        world = self._world
+        chunk = self._chunks[at]
+        children = self._said.refs_of(heads)
+        owners = self._said.refs_of(owner_heads)
+        if not children:
+            return
+        begun = self._begun(at, heads)
+        implied = begun or self._previous(at)
+        if chunk.link is not None:
+            depth = chunk.link.kind in ("in_front_of", "behind") and not set(self._relating.landmark[0]) & set(children)
+            parents = owners or (self._relating.landmark[0] if depth else []) or implied
+            lateral = chunk.link.kind in LATERAL_KINDS
+            if owners and lateral and world.is_table(owners[0]) and not world.on_floor(children[0]):
+                others = [item for item in self._on(owners[0]) if item not in children]
+                world.place(children, "on", owners, weak=True)
+                parents = others[:1] or owners
+            if not parents and chunk.link.kind in ("in_front_of", "behind"):
+                side = "front" if chunk.link.kind == "in_front_of" else "back"
+                world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
+            elif not parents:
+                world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
+            else:
+                self._relating.relate(children, chunk.link, parents)
+            return
+        side = chunk.text
+        if side == "both":
+            parents = owners or [item for item in implied if item not in children]
+            if parents:
+                self._relating.both_sides(children, parents[:1])
+            return
+        if owners:
+            world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
+            level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
+            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
+                world.place(children, world.containment(owners[0]), owners, weak=True)
+            return
+        landmark, surface = (
+            self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
+        )
+        if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
+            half = surface or side == "centre"
+            link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
+            self._relating.relate(children, link, landmark)
+            return
+        world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _on(self, parent: Item) -> list[Item]:
+        return [item for item in self._world.items() if self._world.support(item) is parent]
+
+    def _begun(self, at: int, heads: Sequence[int]) -> list[Item]:
+        """What the clause begins with, besides what the place is said of."""
+        start = max((start for start in self._said.clauses if start <= at), default=0)
+        first = next((head for head in self._said.clauses[start] if head not in heads), None)
+        if first is None or first > min(heads, default=at):
+            return []
+        return self._said.ref(first)
+
+    def _previous(self, at: int) -> list[Item]:
+        starts = [start for start in sorted(self._said.clauses) if start <= at]
+        for start in reversed(starts[:-1]):
+            if items := self._said.ref(self._said.clauses[start][0]):
+                return items
+        return self._world.subject
+
+    def _formed(self, at: int, heads: Sequence[int]) -> None:
+        chunk = self._chunks[at]
+        world = self._world
+        groups = list(dict.fromkeys(item.group for item in self._said.refs_of(heads)))
+        if not groups:
+            world.note(f'"{chunk.text}": of what is not said.')
+            return
+        whole = groups[0] if len(groups) == 1 and len(groups[0].items) > 1 else None
+        items = [item for group in groups for item in group.items]
+        if chunk.text in ("rows", "stacks"):
+            plural = next((group for group in groups if len(group.items) > 1), None)
+            if plural is None:
+                world.note(f'"{chunk.size} {chunk.text}": of what is not said.')
+                return
+            before = set(plural.items)
+            recount(world, plural, chunk.size * chunk.each)
+            for head, items in self._said.known.items():
+                if set(items) == before:
+                    self._said.known[head] = list(plural.items)
+            if chunk.text == "rows":
+                plural.rows = chunk.size
+            else:
+                plural.height = -(-len(plural.items) // chunk.size)
+        elif chunk.text in ("stack", "tower"):
+            self._stacked(groups, tall=whole is not None or chunk.text == "tower")
+        elif chunk.link is not None and chunk.text != "beside":
+            kind = chunk.link.says or "far_from"
+            world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
+        elif chunk.text == "circle":
+            world.arrange("circle", items, (), f'"{groups[0].words}" in a circle')
+        elif whole is not None:
+            whole.rows = 1
+            world.arrange("row", items)
+        else:
+            ordered = items[::-1] if chunk.text == "reverse" else items
+            world.arrange("row", ordered)
+            for left, right in zip(ordered, ordered[1:], strict=False):
+                if chunk.text == "beside":
+                    world.beside([right], "next_to", [left])
+                else:
+                    world.beside([left], "left_of", [right])
+
+    def _stacked(self, groups: list[Group], *, tall: bool) -> None:
+        """Put each of `groups` on the one before, or where they are several objects each on one another."""
+        for group in groups:
+            if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
+                group.height = len(group.items)
+        if tall or any(len(each.items) == 1 for each in groups):
+            for lower, upper in zip(groups, groups[1:], strict=False):
+                self._world.place(upper.items, "on", lower.items)

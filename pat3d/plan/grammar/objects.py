@@ -1,0 +1,259 @@
+"""From noun phrases to groups of objects: how many, of what, in which colours."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import replace
+
+from pat3d.assets.colours import COLOURS
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.plan.grammar.world import MAX_OBJECTS, Group, Item, World
+
+_SOFT_ALREADY = ("pillow", "cushion", "floor cushion", "blanket", "towel")
+
+
+class Maker:
+    """Makes the groups of one scene."""
+
+    def __init__(self, nouns: Nouns, *, allow_proxies: bool) -> None:
+        self._nouns = nouns
+        self._allow_proxies = allow_proxies
+
+    def make(self, world: World, phrase: Phrase, *, filling: bool = False, kind: Group | None = None) -> Group:
+        """A new group for `phrase`, of the generic `kind` where it lists one ("plush toys, including ...").
+
+        Raises:
+            PromptError: the noun is unknown and proxies are not allowed, or the count is impossible.
+        """
+        noun, said, proxy = phrase.noun, phrase.said, False
+        if phrase.kind == "unknown":
+            noun, said, proxy = self._proxy(world, phrase)
+        count, height = self._count(world, phrase, filling)
+        group = Group(
+            phrase=phrase, noun=noun, said=said, modifiers=phrase.modifiers, counted=phrase.count is not None,
+            exact=phrase.count is not None and not phrase.vague, height=height, rows=phrase.rows, heap=phrase.heap,
+            proxy=proxy,
+        )  # fmt: skip
+        group.items = [Item(group=group) for _ in range(count)]
+        if phrase.left_out:
+            world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
+        if phrase.substance:
+            world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
+        self.note_adjectives(world, phrase)
+        if kind is not None:
+            self._take_after(world, group, kind)
+        share_colours(group)
+        world.groups.append(group)
+        check_total(world)
+        return group
+
+    def note_adjectives(self, world: World, phrase: Phrase, told: Modifiers | None = None) -> None:
+        """Say which words (those of `told`, if given) describe what `phrase` names and make no difference to it."""
+        said = f'"{phrase.words}"'
+        idle: list[str] = []
+        for word in (told or phrase.modifiers).adjectives:
+            if word in lexicon.HONOURED | lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
+                continue
+            kind = self._nouns.match([word]) is not None or word in lexicon.SUBSTANCES
+            if kind and not is_modifier(word):
+                world.note(f'"{word}" of {said} is left out: it is made as a "{phrase.said or phrase.head}".')
+            elif (colour := nearest_colour(word)) and not is_modifier(word):
+                world.note(f'"{word}" of {said} is no colour known here; did you mean "{colour}"?')
+            else:
+                idle.append(f'"{word}"')
+        if idle:
+            world.note(f"not modelled: {', '.join(idle)} of {said}")
+
+    def _proxy(self, world: World, phrase: Phrase) -> tuple[str, str, bool]:
+        if self._allow_proxies:
+            world.note(f'"{phrase.head}" (word {phrase.number}) is not in the catalogue: a plain box stands in.')
+            return "box", phrase.head[:40], True
+        raise self.unknown(phrase)
+
+    def unknown(self, phrase: Phrase) -> PromptError:
+        """The error for a noun that the catalogue lacks."""
+        word, number = phrase.head, phrase.number
+        if word in lexicon.MEALS:
+            return PromptError(
+                f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
+            )
+        tables = (
+            lexicon.VERBS,
+            lexicon.PARTICIPLES,
+            lexicon.ADVERBS,
+            lexicon.DIRECTIONS,
+            lexicon.POSITIONS,
+            lexicon.COPULAS,
+        )
+        if any(word in table for table in tables) or word in lexicon.SAID_OTHERWISE or len(word) == 1:
+            return PromptError(
+                f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
+                'the table. A spoon is to the left of the mug."'
+            )
+        near = self._nouns.nearest(word)
+        hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
+        return PromptError(
+            f'"{word}" is not in the catalogue (word {number}). {hint} Bring a mesh of '
+            "your own with pat3d build, or accept a plain box with --allow-proxies."
+        )
+
+    def _count(self, world: World, phrase: Phrase, filling: bool) -> tuple[int, int]:
+        """Objects, and objects in a stack."""
+        modifiers, count, noted = phrase.modifiers, phrase.count, True
+        plural = phrase.plural or (phrase.kind == "unknown" and phrase.head.endswith("s") and not phrase.determined)
+        if count is None:
+            several = plural or phrase.height is not None or (bool(phrase.cycle) and not phrase.determined)
+            colours = len(modifiers.colours)
+            if not several:
+                count, noted = 1, False
+            elif modifiers.palette_word:
+                count = lexicon.PALETTE_COUNT.get(modifiers.palette_word, lexicon.COLOURFUL_COUNT)
+            elif phrase.height is not None or modifiers.stacked:
+                count = lexicon.STACK_HEIGHT
+            elif phrase.noun in lexicon.COMES_IN_TWOS:
+                count = 2
+            else:
+                count = max(lexicon.FILLING if filling else lexicon.BARE_PLURAL, colours)
+            if several and colours >= 3:
+                count = -(-count // colours) * colours
+        else:
+            noted = phrase.vague
+        if not 1 <= count <= MAX_OBJECTS:
+            raise PromptError(
+                f'"{phrase.words[:60]}" (word {phrase.number}) asks for {count} objects; '
+                f"a scene holds 1 to {MAX_OBJECTS}."
+            )
+        height = 1
+        if phrase.height is not None:
+            height = phrase.height or count
+            count = count if phrase.height else count * phrase.chains
+        elif modifiers.stacked and count > 1:
+            height = count
+        if noted:
+            world.note(f'"{phrase.words}": {count} assumed.')
+        return count, height
+
+    @staticmethod
+    def _take_after(world: World, group: Group, kind: Group) -> None:
+        word = kind.said.split()[0] if " " in kind.said else ""
+        material = kind.modifiers.material or ("plush" if word in ("plush", "stuffed", "soft") else None)
+        if material and not group.modifiers.material and not world.likely.is_a(group.noun, _SOFT_ALREADY):
+            group.modifiers = replace(group.modifiers, material=material)
+
+
+def share_colours(group: Group) -> None:
+    """As many colours as objects, or three and more, are shared out among the objects."""
+    named, palette = group.modifiers.colours, group.modifiers.palette
+    count = len(group.items)
+    in_turn = not group.counted or "alternating" in group.modifiers.adjectives
+    if palette and count == 1:
+        group.modifiers = replace(group.modifiers, colours=palette)
+        return
+    shared = palette or (
+        named if count > 1 and (len(named) == count or len(named) >= 3 or (len(named) == 2 and in_turn)) else ()
+    )
+    for index, item in enumerate(group.items):
+        item.colours = (shared[index % len(shared)],) if shared else item.colours
+
+
+def check_total(world: World) -> None:
+    """Raises: PromptError: there are too many objects."""
+    total = len(world.items())
+    if total > MAX_OBJECTS:
+        raise PromptError(
+            f'the prompt asks for {total} objects by "{world.groups[-1].words[:60]}"; a scene holds at most '
+            f"{MAX_OBJECTS}. Ask for fewer."
+        )
+
+
+def recount(world: World, group: Group, count: int) -> None:
+    """`group` has `count` objects (0: nothing new is said): "in three rows of four".
+
+    Raises:
+        PromptError: the prompt has given another number, or there would be too many.
+    """
+    if group.exact and count not in (0, len(group.items)):
+        raise PromptError(f'"{group.words}" are {len(group.items)} objects and cannot stand as {count}.')
+    if count:
+        group.items = [*group.items, *(Item(group=group) for _ in range(count - len(group.items)))][:count]
+        forget_count(world, group)
+        share_colours(group)
+        check_total(world)
+
+
+def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
+    """`items`, whole groups, once for each of `factor` objects."""
+    if factor < 2:
+        return items
+    for group in dict.fromkeys(item.group for item in items):
+        group.items += [Item(group=group) for _ in range(len(group.items) * (factor - 1))]
+        share_colours(group)
+    check_total(world)
+    return [each for group in dict.fromkeys(item.group for item in items) for each in group.items]
+
+
+def forget_count(world: World, group: Group) -> None:
+    """The number of `group` is not assumed any more."""
+    world.notes = [note for note in world.notes if not note.startswith(f'"{group.words}": ')]
+
+
+def tell_colours(world: World, group: Group, told: Modifiers) -> None:
+    """Read "blocks, featuring red, blue and green pieces"."""
+    shared = told.palette or told.colours
+    group.modifiers = group.modifiers.marked_as(told)
+    if not shared:
+        return
+    count = len(group.items)
+    if count == 1:
+        group.modifiers = replace(group.modifiers, colours=(*group.modifiers.colours, *shared))
+        return
+    if not group.counted:
+        tall = group.height == count
+        wanted = max(len(shared), count if told.palette else len(shared))
+        group.items = [*group.items, *(Item(group=group) for _ in range(wanted - count))][:wanted]
+        group.height = wanted if tall else group.height
+        forget_count(world, group)
+        check_total(world)
+    for index, item in enumerate(group.items):
+        item.colours = (shared[index % len(shared)],)
+
+
+def describe(group: Group, told: Modifiers, part: str = "") -> None:
+    """Give `group` what a later remark says of it: "is wooden", or of its `part`: "with red covers".
+
+    The colour of a part that shows little ("a mug with a blue handle") is not the object's main colour.
+    """
+    own = group.modifiers
+    colours = (*told.colours, *told.palette[: 1 if len(group.items) > 1 else None])
+    adjectives = told.adjectives
+    if part and not own.colours and part not in lexicon.MAIN_PARTS:
+        adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()
+    group.modifiers = replace(
+        own.marked_as(told),
+        colours=tuple(dict.fromkeys((*own.colours, *colours))),
+        material=own.material or (told.material if not part else None),
+        adjectives=(*own.adjectives, *adjectives),
+    )
+
+
+def tell(item: Item, told: Modifiers) -> None:
+    """Give one object the colour and the size by which the prompt tells it from its like."""
+    if told.colours and item.colours is None and not item.group.modifiers.colours:
+        item.colours = told.colours
+    size = told.size_word if not item.told.size_word else item.told.size_word
+    kept = replace(item.told, size_word=size, scale=told.scale if told.size_word else item.told.scale)
+    item.told = kept.marked_as(told)
+
+
+def nearest_colour(word: str) -> str | None:
+    """The colour of which `word` is probably a misspelling."""
+    near = difflib.get_close_matches(word, COLOURS, n=1, cutoff=0.8)
+    return near[0] if near else None
+
+
+def _quoted(name: str) -> str:
+    return f'"{name}"'

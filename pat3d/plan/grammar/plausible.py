@@ -1,0 +1,156 @@
+"""How likely one thing stands in a relation to another: what has a cavity, a top, a rim; what is larger.
+
+The one place where attachment, senses and pronouns are decided: every reading is the sum of what its relations cost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_NEUTRAL = 0.35
+_SUPPORTING = (
+    "cake", "book", "box", "pillow", "radio", "basket", "block", "pizza", "laptop", "pancake", "brick", "crate",
+    "suitcase", "notebook", "magazine", "bread", "burger", "sandwich", "cube", "printer", "microwave", "speaker", "can",
+    "cylinder", "plank", "cardboard sheet", "towel", "napkin", "steak", "cookie", "waffle", "storage box",
+    "wood block", "toy brick", "jenga block", "stack of paper", "dresser", "toolbox", "cracker box",
+)  # fmt: skip
+"""Flat enough to carry one thing, besides furniture and dishes."""
+
+
+LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
+    "barrel",
+          "tv", "dog", "rabbit", "robot", "globe", "drum", "broom", "toy truck", "ladder")  # fmt: skip
+"""What may stand on the floor as well as on a table."""
+
+
+class Plausible:
+    """Costs of relations between catalogue nouns; 0 for the ordinary, 3 for what hardly happens."""
+
+    def __init__(self, nouns: Nouns) -> None:
+        self._nouns = nouns
+
+    def is_a(self, noun: str, *tables: tuple[str, ...]) -> bool:
+        """Whether `noun` belongs to one of these classes of the lexicon."""
+        return any(self._nouns.of_class(noun, table) for table in tables)
+
+    def floor(self, noun: str) -> bool:
+        """Whether it stands on the floor by nature."""
+        return self.is_a(noun, lexicon.FLOOR)
+
+    def hollow(self, noun: str) -> bool:
+        """Whether things go into it from above."""
+        return self.is_a(noun, lexicon.HOLLOW)
+
+    def closet(self, noun: str) -> bool:
+        """Whether things go into it through a door or a drawer."""
+        return self.is_a(noun, lexicon.STORAGE, lexicon.CLOSED)
+
+    def level(self, noun: str) -> bool:
+        """Whether it has a level top to put things on."""
+        return self.is_a(noun, lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES)
+
+    def on(self, child: str, parent: str) -> float:
+        """Of `child` resting on `parent`."""
+        if (
+            self.floor(child)
+            and self.is_a(parent, lexicon.THIN)
+            and not self.is_a(parent, ("rug", "mat", "carpet", "blanket"))
+        ):
+            return 2.5
+        if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
+            return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 1.2
+        if self.floor(child):
+            return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
+        if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
+            return 0.1 if self._fits_dish(child) else 0.9
+        if self.level(parent):
+            return 0.0
+        if self.is_a(child, lexicon.ON_HEAD):
+            return 0.5
+        if self.is_a(parent, _SUPPORTING):
+            return 0.3
+        if self.is_a(parent, lexicon.ROUND, lexicon.SLENDER) and child != parent:
+            return 2.2
+        if self.hollow(parent):
+            return 0.9
+        return 0.6 if child == parent else 1.1
+
+    def within(self, child: str, parent: str) -> float:
+        """Of `child` being inside `parent`."""
+        if self.floor(child):
+            return 2.5
+        if self.hollow(parent):
+            if self.is_a(parent, lexicon.NARROW):
+                return 0.0 if self.is_a(child, lexicon.SLENDER) else 1.6 if self._vessel(child) else 0.7
+            if child != parent and self.is_a(child, lexicon.LARGE_VESSELS, lexicon.NOT_IN_VESSEL):
+                return 1.6
+            if child != parent and self.is_a(parent, lexicon.BOWLS):
+                return 1.3 if self._vessel(child) or self.is_a(child, lexicon.LEVEL, lexicon.NOT_ON_DISH) else 0.0
+            return 0.0
+        if self.closet(parent):
+            return 0.3
+        if self.level(parent):
+            return 0.5 + self.on(child, parent)
+        return 1.7
+
+    def beside(self, child: str, parent: str) -> float:
+        """Of the two standing next to each other."""
+        if self.floor(child) == self.floor(parent):
+            return 0.1
+        lone = child if self.floor(parent) else parent
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.0
+
+    def relation(self, link: Link, child: str, parent: str) -> float:
+        """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""
+        if not child or not parent:
+            return _NEUTRAL
+        if link.manner == "under":
+            return min(self.on(parent, child), self.beside(child, parent) + 0.2)
+        if link.manner in ("half", "edge"):
+            return min(self.on(child, parent), self.beside(child, parent))
+        if link.manner in ("source", "goal"):
+            return min(self.on(child, parent), self.within(child, parent))
+        if link.kind == "in":
+            return self.within(child, parent)
+        if link.kind == "on":
+            return self.on(child, parent)
+        if link.kind == "hangs_from":
+            return 0.2
+        return self.beside(child, parent)
+
+    def having(self, link: Link, parent: str, child: str) -> float:
+        """Of `parent` "with" `child`."""
+        if not child or not parent:
+            return _NEUTRAL
+        if link.manner in ("flank", "surround"):
+            return self.beside(child, parent)
+        if link.kind == "on":
+            return self.on(child, parent)
+        if self.floor(child):
+            return 0.7
+        inside = self.within(child, parent) if self.hollow(parent) or self.closet(parent) else 9.0
+        cost = min(inside, self.on(child, parent) + (1.0 if self.hollow(parent) else 0.0))
+        return cost if link.manner == "hold" else min(cost, 0.7 if not self.hollow(parent) else cost)
+
+    def _vessel(self, noun: str) -> bool:
+        return self.hollow(noun)
+
+    def _fits_dish(self, child: str) -> bool:
+        return not self.is_a(child, lexicon.NOT_ON_DISH) and not self.hollow(child)
+
+    def fits(self, phrase: Phrase) -> str:
+        """The noun by which `phrase` is judged."""
+        if phrase.kind != "object":
+            return ""
+        return phrase.noun or (self._nouns.resolve(phrase.cycle[0]) or "" if phrase.cycle else "")
+
+
+def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, Collection[str]]]) -> str:
+    """Which of `senses` of the word `said` its company tells of; the first where none does."""
+    scored = [(len(set(company) & set(about)), -rank, noun) for rank, (noun, about) in enumerate(senses)]
+    return max(scored)[2] if scored else said

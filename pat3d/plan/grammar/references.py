@@ -1,0 +1,379 @@
+"""What phrases speak of: new objects, objects named before, members of a group, pronouns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.world import Edge, Group, Item, World
+from pat3d.scene.model import LateralKind
+
+_SAME = {"leftmost": "left", "rightmost": "right"}
+_OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
+_REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
+_LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
+_SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
+LATERAL_SIDES: dict[str, LateralKind] = {
+    "left": "left_of",
+    "right": "right_of",
+    "front": "in_front_of",
+    "back": "behind",
+}
+
+
+class References:
+    """Resolves the phrases of one sentence."""
+
+    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, relating: Relating) -> None:
+        self._world = world
+        self._chunks = chunks
+        self._maker = maker
+        self._relating = relating
+        self._earlier = list(world.groups)
+        self.cost = 0.0
+        """Of pronouns that are not sure."""
+        self.known: dict[int, list[Item]] = {}
+        """What the phrases speak of, by chunk."""
+        self.bound: dict[int, tuple[int, ...]] = {}
+        """Pronouns of which the grammar says what they mean."""
+        self.each: set[int] = set()
+        """Phrases that speak of every one of a group."""
+        self.clauses: dict[int, tuple[int, ...]] = {}
+        """What the clauses are about, by where they begin."""
+        self.related: list[tuple[set[int], set[int]]] = []
+        """Phrases that a relation joins, so that they are different objects."""
+
+    def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
+        """Make, or find, what chunk `at` speaks of."""
+        world = self._world
+        if phrase.kind in ("object", "unknown"):
+            if (found := self._refer(at, phrase)) is not None:
+                self.known[at] = found
+                if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
+                    self._maker.note_adjectives(world, phrase)
+                return
+            generic = self.known.get(kind) if kind is not None else None
+            owner = generic[0].group if generic and generic[0].group.cycle else None
+            group = self._maker.make(world, phrase, filling=filling, kind=owner)
+            if owner is not None:
+                owner.replaced = True
+                forget_count(world, owner)
+            group.items[0].place = _position(phrase)
+            self.known[at] = list(group.items)
+            if _position(phrase) in ("left", "right") and len(group.items) == 1:
+                self._line_up(group.items[0])
+        elif phrase.kind == "pronoun" and phrase.head == "another":
+            self.known[at] = self._another(at, phrase)
+        elif phrase.kind == "pieces":
+            self._maker.note_adjectives(world, phrase)
+            self.known[at] = self._members(at, phrase)
+        elif phrase.kind == "items":
+            self.known[at] = []
+        elif phrase.kind == "background":
+            self.known[at] = []
+            if phrase.substance:
+                if phrase.words not in lexicon.PRONOUNS:
+                    world.note(f'not modelled: "{phrase.words}"')
+            elif phrase.words not in world.aside:
+                world.aside.append(phrase.words)
+
+    def _refer(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """The objects already read that `phrase` speaks of, or None."""
+        if phrase.head == "another" or phrase.kind not in ("object", "unknown") or phrase.other:
+            return None
+        bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
+        world = self._world
+        again = self._earlier if bare else []
+        again = again or [
+            group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
+        ]
+        if not phrase.definite and not any(group.noun == phrase.noun for group in again):
+            return None
+        partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}
+        besides = {item.group for head in partners if head < at for item in self.known.get(head, ())}
+        for same in (_same_noun, _same_head):
+            for group in reversed([group for group in world.groups if not group.replaced]):
+                own = group.modifiers.colours or (group.items[0].colours or ())
+                if group in besides and (same is _same_head or phrase.modifiers.colours != own):
+                    continue
+                if same is _same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
+                    continue
+                if same(group, phrase) and (found := self._chosen(group, phrase)):
+                    return found
+        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not _position(phrase):
+            storage = [
+                item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
+            ]
+            storage = [
+                item for item in storage if phrase.head not in ("shelf", "shelves") or not world.is_a(item, ("desk",))
+            ]
+            return storage[-1:] or None
+        return None
+
+    def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
+        """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
+        items, where = group.items, _position(phrase)
+        wanted = phrase.modifiers.colours
+        if wanted:
+            own = [item for item in items if _colours(item) and wanted[0] in _colours(item)]
+            blank = [item for item in items if not _colours(item)]
+            items = own or (blank if len(items) == len(blank) else [])
+        if phrase.count is not None and phrase.count > len(items):
+            return []
+        placed = [item for item in items if item.place == where] if where else []
+        if placed:
+            return placed
+        if where and any(item.place for item in items):
+            if len(items) == 1:
+                return []
+            items = [item for item in items if not item.place]
+        if where and len(items) > 1 and not phrase.plural and group.height == 1:
+            return self._at(items, where, phrase)
+        size = phrase.modifiers.size_word
+        if size and group.modifiers.size_word and size != group.modifiers.size_word:
+            return []
+        if phrase.plural or len(items) == 1 or group.height > 1:
+            return list(items)
+        return items[: phrase.count or 1] if wanted else list(items)
+
+    def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
+        index = len(items) // 2 if where in ("middle", "center", "centre") else lexicon.POSITIONS[where]
+        if not -len(items) <= index < len(items):
+            self._world.note(f'"{phrase.words}": there are only {len(items)}.')
+            return items[-1:]
+        item = items[index]
+        item.place = where
+        tell(item, phrase.modifiers)
+        if not item.group.rows:
+            self._line_up(item)
+        return [item]
+
+    def _line_up(self, placed: Item) -> None:
+        """Relate the left one and the right one of a kind to each other."""
+        if placed.place not in ("left", "right"):
+            return
+        for other in self._world.items():
+            same = other.group.noun == placed.group.noun and not other.group.cycle
+            known = any({edge.child, edge.parent} == {placed, other} for edge in self._world.laterals)
+            if known:
+                continue
+            if same and other is not placed and other.place in ("", _OPPOSITE[placed.place]):
+                self._world.laterals.append(Edge(child=placed, kind=LATERAL_SIDES[placed.place], parent=other))
+
+    def _members(self, at: int, phrase: Phrase) -> list[Item]:
+        """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""
+        world = self._world
+        if phrase.said == "stack":
+            towers = [group for group in world.groups if group.height > 1]
+            return list(towers[-1].items) if towers and phrase.definite else []
+        words, where = phrase.modifiers, _position(phrase)
+        groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
+        groups += [group for group in reversed(world.groups) if not group.replaced]
+        rest = phrase.head in _REST
+        if phrase.head == "each":
+            self.each.add(at)
+            plural = self._plural_before(at)
+            subject = list(plural[0].items) if plural else self._before(at)
+            return list(subject[0].group.items) if len(subject) == 1 else subject
+        if rest and world.telling:
+            told = world.telling[: phrase.count or len(world.telling)]
+            world.telling = world.telling[len(told) :]
+            return told
+        count = phrase.count or 1
+        if words.colours or words.palette or words.size_word:
+            return self._described(phrase, groups, count)
+        if world.telling and len(world.telling) >= count and not where:
+            told, world.telling = world.telling[:count], world.telling[count:]
+            return told
+        whole = next((group for group in groups if len(group.items) > count and group.height == 1), None)
+        if whole is None:
+            whole = next((group for group in groups if len(group.items) >= count), None)
+            return list(whole.items[:count]) if whole is not None else []
+        if where:
+            return self._at(whole.items, where, phrase)
+        if rest:
+            return list(whole.items[len(whole.items) - count :])
+        world.telling = whole.items[count:]
+        return list(whole.items[:count])
+
+    def _another(self, at: int, phrase: Phrase) -> list[Item]:
+        """One more of what was named first in the sentence, else last."""
+        named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
+        groups = [named[0][0].group] if named else self._world.groups[-1:]
+        if not groups or groups[0].proxy:
+            return []
+        more = replace(groups[0].phrase, words=phrase.words, count=1, plural=False, height=None, definite=False)
+        return list(self._maker.make(self._world, more).items)
+
+    def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
+        """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
+        words = phrase.modifiers
+        if words.size_word and not words.colours:
+            for item in self._world.items():
+                size = item.told.size_word or item.group.modifiers.size_word
+                if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
+                    return [item]
+            groups = [group for group in groups if len(group.items) > 1]
+        for group in groups:
+            own = [item for item in group.items if words.colours and words.colours[0] in _colours(item)]
+            if own and phrase.definite:
+                return own[:count] if phrase.count is not None or not phrase.plural else own
+        whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
+        if whole is None:
+            return []
+        if (
+            words.palette
+            or (not phrase.determined and phrase.count is None)
+            or (phrase.plural and phrase.count is None)
+        ):
+            tell_colours(self._world, whole, words)
+            return list(whole.items)
+        free = [item for item in whole.items if not _colours(item) and not item.told.size_word]
+        known = {colour for item in whole.items for colour in _colours(item)}
+        if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
+            # "a blue cube and the yellow one": one more of the kind.
+            more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
+                           modifiers=words, definite=phrase.definite)  # fmt: skip
+            return list(self._maker.make(self._world, more).items)
+        picked = free[:count]
+        for item in picked:
+            tell(item, words)
+        self._world.telling = free[count:]
+        return picked or list(whole.items[:count])
+
+    def _plural_before(self, at: int) -> list[Group]:
+        refs = [self.known[before] for before in sorted(self.known, reverse=True) if before < at and self.known[before]]
+        groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
+        return list(dict.fromkeys(groups))
+
+    def _before(self, at: int) -> list[Item]:
+        """What the clause that chunk `at` belongs to begins with."""
+        plural = self._plural_before(at)
+        listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
+        if len(listed) > 1:
+            return [item for head in listed for item in self.known[head]]
+        return list(plural[0].items) if plural else list(self._world.subject)
+
+    def ref(self, at: int) -> list[Item]:
+        """What chunk `at` speaks of."""
+        if at in self.known:
+            return self.known[at]
+        if at in self.bound:
+            return [item for head in self.bound[at] for item in self.ref(head)]
+        return []
+
+    def refs_of(
+        self, heads: Sequence[int], link: Link | None = None, other: Sequence[int] = (), *, child: bool = False
+    ) -> list[Item]:
+        """What `heads` speak of; of a pronoun, what makes `link` to or from (`child`) the `other` heads likely."""
+        made: list[Item] = []
+        for head in heads:
+            phrase = self._chunks[head].phrase
+            pronoun = phrase is not None and (phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive))
+            if pronoun and head not in self.bound and head not in self.known:
+                others = [item for each in other for item in self.ref(each)]
+                self.known[head] = self._pronoun(head, link, others, child=child)
+            made += [item for item in self.ref(head) if item not in made]
+        return [item for item in made if not item.group.replaced]
+
+    def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
+        """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
+        phrase = self._chunks[at].phrase
+        assert phrase is not None
+        plural = phrase.head in ("them", "they", "these", "those", "their")
+        candidates: list[tuple[float, list[Item]]] = []
+        starts = [start for start in sorted(self.clauses) if start < at]
+        before = [list(self.ref(self.clauses[start][0])) for start in reversed(starts)]
+        before += [self._world.subject]
+        near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
+        meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
+        if meant and not plural:
+            # "behind it a mug, and in front of it a bowl" speaks twice of the same.
+            candidates.append((-0.1, meant[-1]))
+        if self._relating.landmark[0] and not near:
+            candidates.append((0.1, self._relating.landmark[0]))
+        for rank, items in enumerate([each for each in before if each]):
+            candidates.append((0.2 * rank, items))
+        nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
+        nearest = [items for items in nearest if not set(items) & set(other)]
+        for rank, items in enumerate(nearest[:4]):
+            candidates.append(
+                ((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items)
+            )
+        for rank, group in enumerate(reversed(self._earlier[-3:])):
+            candidates.append((0.6 + 0.2 * rank, group.items))
+        best: tuple[float, list[Item]] | None = None
+        for cost, items in candidates:
+            if not items or set(items) & set(other) or items[0].group.replaced:
+                continue
+            if plural != (len(items) > 1) and not (plural and len(other) == 0):
+                cost += 0.4
+            if link is not None and other:
+                world = self._world
+                pair = (items[0], other[0]) if child else (other[0], items[0])
+                cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
+            if best is None or cost < best[0]:
+                best = (cost, list(items))
+        if best is None:
+            self._world.note(f'"{phrase.words}" (word {phrase.number}): nothing before it is meant.')
+            self.cost += 2.0
+            return []
+        self.cost += min(best[0], 1.5)
+        return best[1]
+
+    def is_open(self, at: int) -> bool:
+        """Whether chunk `at` is a pronoun of which it is still to be found what it means."""
+        return self._is_pronoun(at) and at not in self.bound and at not in self.known
+
+    def _is_pronoun(self, at: int) -> bool:
+        phrase = self._chunks[at].phrase
+        return phrase is not None and phrase.kind == "pronoun"
+
+    @staticmethod
+    def one_of(items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that "the smallest of", "the second of" means."""
+        where = phrase.superlative.adjectives[:1]
+        at = lexicon.POSITIONS.get(where[0], 0) if where else 0
+        if where and where[0] == "middle":
+            at = len(items) // 2
+        item = items[at] if -len(items) <= at < len(items) else items[-1]
+        tell(item, phrase.superlative)
+        return [item]
+
+    def not_understood(self, heads: Sequence[int]) -> None:
+        """Name those of `heads` that speak of nothing."""
+        for head in heads:
+            phrase = self._chunks[head].phrase
+            if phrase is not None and not self.ref(head) and phrase.kind in ("items", "pieces", "part", "pronoun"):
+                self._world.note(f'not understood: "{phrase.words}"')
+
+
+def _colours(item: Item) -> tuple[str, ...]:
+    return item.colours if item.colours is not None else item.group.modifiers.colours
+
+
+def _position(phrase: Phrase) -> str:
+    """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
+    found = next((word for word in phrase.modifiers.adjectives if word in lexicon.POSITIONS), "")
+    return _SAME.get(found, found) if phrase.definite else ""
+
+
+def _same_noun(group: Group, phrase: Phrase) -> bool:
+    if phrase.kind == "unknown":
+        return group.proxy and group.said == phrase.head
+    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
+
+
+def _same_head(group: Group, phrase: Phrase) -> bool:
+    """Whether "the ..." may call `group` by its last word: "bowl" for a fruit bowl, "loaf" for a loaf of bread."""
+    wanted = {phrase.said or phrase.head, *singulars(phrase.said or phrase.head)}
+    names = (group.said, group.noun) if not group.proxy else (group.said,)
+    heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
+    return not group.cycle and bool(wanted & heads)

@@ -1,0 +1,214 @@
+"""What a relation word between objects comes to: supports, lateral relations, arrangements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.objects import forget_count, multiply
+from pat3d.plan.grammar.plausible import LARGE
+from pat3d.plan.grammar.world import Item, Sided, World
+from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
+
+
+class Relating:
+    """Relates objects of one world."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.landmark: tuple[list[Item], bool] = ([], False)
+        """What the sentence last said "to the left of" of, and whether it was "on the left side of"."""
+        self.cost = 0.0
+        """Of what can only be arranged in part."""
+
+    def relate(self, children: list[Item], link: Link, parents: list[Item], *, one_of: bool = False) -> None:
+        """Record that `children` stand in relation `link` to `parents`."""
+        world = self.world
+        said = f'"{children[0].group.words}" {{}} "{parents[0].group.words}"'
+        if set(children) == set(parents):
+            if link.kind in SUPPORT_KINDS:
+                raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
+            return
+        children = [child for child in children if child not in parents] or children
+        if link.manner == "than":
+            world.note(f"not modelled: {said.format(link.said)}")
+        elif link.manner == "gaze":
+            world.arrange("facing", children, parents, said.format("facing"))
+        elif link.manner == "far":
+            world.arrange("far_from", children, parents, said.format("far from"))
+        elif link.manner == "under":
+            self._under(children, parents, said)
+        elif link.manner == "sides":
+            self.landmark = (parents, False)
+            self.both_sides(children, parents)
+        elif link.manner == "between":
+            self._between(children, parents)
+        elif link.manner == "half":
+            self._on_half(children, link.side or "centre", parents)
+        elif link.manner == "edge" and link.says is not None:
+            level = world.likely.level(world.noun(parents[0]))
+            where = (
+                link.says.replace("_", " ")
+                .replace("at edge", "at the edge of")
+                .replace("in corner", "in the corner of")
+            )
+            self.relate(children, Link(kind="on" if level else "next_to"), parents)
+            world.arrange(
+                link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
+            )
+        elif link.manner in ("source", "goal") and link.kind != "next_to":
+            self.relate(children, Link(kind=world.containment(parents[0])), parents)
+        elif link.kind in SUPPORT_KINDS:
+            self._carried(children, link, parents, said, one_of=one_of)
+        elif link.kind in LATERAL_KINDS:
+            if link.kind not in ("next_to", "around"):
+                self.landmark = (parents, False)
+            if link.says == "leaning_against":
+                world.arrange(
+                    "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
+                )
+            self._settle(children, parents)
+            small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
+            table = world.is_table(parents[0]) and world.on_floor(parents[0])
+            if link.kind == "next_to" and small and table and world.support(children[0]) is None:
+                world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
+            world.beside(children, link.kind, parents)  # type: ignore[arg-type]
+
+    def hold(self, link: Link, owners: list[Item], children: list[Item]) -> None:
+        """Record what it means that `owners` have `children`."""
+        world, owner = self.world, owners[0]
+        self._settle(children, owners)
+        weak = link.manner == "with" and link.kind is None
+        if link.manner == "surround":
+            world.beside(children, "around", owners)
+        elif link.kind == "on":
+            world.place(children, "on", owners)
+        elif (
+            weak
+            and world.is_a(children[0], lexicon.ON_HEAD)
+            and not world.flat(owner)
+            and not world.is_a(owner, lexicon.HOLLOW)
+        ):
+            world.place(children, "on", owners, weak=True)
+        elif weak and world.on_floor(children[0]):
+            around = len(children) >= 3 and world.is_a(children[0], ("chair", "stool", "armchair"))
+            world.beside(children, "around" if around else "next_to", owners, weak=True)
+        elif (
+            not weak
+            or world.is_a(owner, lexicon.HOLLOW)
+            or world.flat(owner)
+            or world.likely.on(world.noun(children[0]), world.noun(owner)) < 0.6
+        ):
+            kind = world.containment(owner)
+            world.place(children, kind, owners, weak=weak)
+        else:
+            world.beside(children, "next_to", owners, weak=True)
+
+    def _settle(self, children: list[Item], parents: list[Item]) -> None:
+        """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""
+        world = self.world
+        cycle = children[0].group.cycle
+        if not cycle:
+            return
+        for other in world.groups:
+            same = other is not children[0].group and other.cycle == cycle and not other.replaced
+            if same and other.items and world.support(other.items[0]) in parents and not other.counted:
+                other.replaced = True
+                forget_count(world, other)
+
+    def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str, *, one_of: bool) -> None:
+        world, kind = self.world, link.kind
+        parent = parents[0]
+        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW):
+            if world.is_a(parent, tuple(lexicon.OPENED)):
+                pass
+            elif world.is_a(parent, lexicon.CLOSED):
+                world.note(f"not arranged: {said.format('inside')}; it is placed on it")
+                kind = "on"
+            elif world.on_floor(parent):
+                kind = "on"
+        self._settle(children, parents)
+        if link.says == "above":
+            world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
+        tops = world.tops(parents)
+        if len(world.bases(children)) < len(tops) and not one_of and parents[0].group.height == 1:
+            exact = parents[0].group.exact or len({item.group for item in parents}) > 1
+            if exact and kind == "in":
+                raise PromptError(
+                    f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or '
+                    "name one."
+                )
+            if exact and len(world.bases(children)) == 1:
+                names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
+                what = "across" if link.says == "across" else "on"
+                note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
+                world.arrange("across", children, tops, note)
+                self.cost += 0.3
+        assert kind in SUPPORT_KINDS
+        world.place(children, kind, parents)
+
+    def _under(self, children: list[Item], parents: list[Item], said: str) -> None:
+        world = self.world
+        child, parent = children[0], parents[0]
+        world.forget_guess(child, parent)
+        table = world.is_a(child, ("table",)) and not world.on_floor(parent)
+        rug = world.is_a(child, ("rug", "mat", "carpet", "blanket")) or not world.on_floor(parent)
+        thin = world.is_a(child, lexicon.THIN) and not table and rug
+        if thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
+            world.place(parents, "on", children)
+            world.arrange("under", children, parents)
+        else:
+            world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
+            world.beside(children, "next_to", parents)
+
+    def both_sides(self, children: list[Item], parents: list[Item]) -> None:
+        """`children` stand on both sides of `parents`."""
+        world = self.world
+        if len(children) == 1:
+            group = children[0].group
+            children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
+        self.flanked(children, parents)
+
+    def flanked(self, children: Sequence[Item], parents: list[Item], sides: Sequence[str] = ()) -> None:
+        """`children` stand left and right of `parents`, as `sides` say or in turn."""
+        kinds: dict[str, LateralKind] = {"one": "left_of", "left": "left_of", "other": "right_of", "right": "right_of"}
+        given = {kinds[side] for side in sides if side in kinds}
+        for index, child in enumerate(self.world.bases(children)):
+            kind: LateralKind = "right_of" if (index % 2 if not given else "left_of" in given) else "left_of"
+            if index < len(sides) and sides[index] in kinds:
+                kind = kinds[sides[index]]
+            self.world.beside([child], kind, parents[:1])
+
+    def _between(self, children: list[Item], parents: list[Item]) -> None:
+        """Both neighbours are said of the one between them: "A left_of child", "B right_of child"."""
+        world = self.world
+        said = f'"{children[0].group.words}" between "{parents[0].group.words}"'
+        groups = list(dict.fromkeys(item.group for item in parents))
+        if len(parents) < 2 and len(groups) < 2:
+            world.note(f"{said}: the other neighbour is not said.")
+        sides = (
+            list(parents) if len(groups) == 1 else [next(item for item in parents if item.group is g) for g in groups]
+        )
+        for child in children:
+            world.forget_guess(child, parents[0])
+        if len(sides) > 2:
+            world.arrange("between", children, sides, f"{said}: between more than two")
+            world.beside(children, "next_to", sides[:1])
+            return
+        world.arrange("between", children, sides)
+        for index, neighbour in enumerate(sides):
+            world.beside([neighbour], "right_of" if index % 2 else "left_of", children[:1])
+
+    def _on_half(self, children: list[Item], side: str, parents: list[Item]) -> None:
+        """Read "on the left side of the table": on it when it is a surface, else beside it."""
+        world, parent = self.world, parents[0]
+        level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS)
+        self.landmark = (parents, True)
+        if side == "centre" or (level and not world.on_floor(children[0])):
+            kind = world.containment(parent)
+            world.place(children, kind, parents)
+            world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
+        else:
+            world.beside(children, "left_of" if side == "left" else "right_of", parents)

@@ -1,0 +1,488 @@
+"""The grammar of a scene description: which chunks and phrases make larger ones, and what that says.
+
+Categories: L what is named, with all that is said of it; M a modifier ("on a table", "with a lid", "in a row"), CM one
+after a joint; CL the rest of a list; E "there is"; EL, VL what is there; S a clause; CS one after a joint. Facts are
+tuples: ("rel", link, children, parents), ("have", link, parents, children), ("place", chunk, children, owners),
+("form", chunk, members), ("quality", chunk, objects), ("bind", pronoun, what), ("subject", what, first chunk).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar.chart import Node, Rule, parse
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexicon import DEMONSTRATIVES
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import Plausible
+from pat3d.scene.model import SUPPORT_KINDS
+
+_LEAVES = {
+    "noun": "L", "rel": "R", "have": "H", "place": "A", "form": "F", "quality": "Q", "joint": "C", "clause": "X",
+    "verb": "V", "there": "E", "which": "W",
+}  # fmt: skip
+_HEADLESS = ("pieces", "part")
+
+
+def _list_cost(joints: str) -> float:
+    """How unusual it is to list with these joints: "," and "&" for "and", ";" for ", and"."""
+    closers = len(joints) - joints.count(",")
+    if not closers:
+        return 0.3 if joints else 0.0
+    early = sum(joint != "," for joint in joints[:-1])
+    cost = early * (0.35 if "," in joints else 0.05) + (0.3 if joints.endswith(",") else 0.0)
+    return cost + (0.15 if joints == ";" else 0.0)
+
+
+class Grammar:
+    """The rules over the chunks of one sentence."""
+
+    def __init__(self, chunks: Sequence[Chunk], likely: Plausible) -> None:
+        self._chunks = chunks
+        self._likely = likely
+        self._rules: dict[tuple[str, str], list[Rule]] = {
+            # Modifiers
+            ("R", "L"): [self._relation], ("H", "L"): [self._relation], ("V", "M"): [self._predicate],
+            ("V", "Q"): [self._quality], ("W", "M"): [self._relative], ("C", "M"): [self._joined_modifier],
+            ("X", "M"): [self._joined_modifier], ("V", "V"): [lambda a, b: replace(a, cost=a.cost + b.cost)],
+            ("V", "A"): [self._placed], ("V", "F"): [self._placed],
+            ("L", "M"): [self._modified], ("L", "CM"): [self._modified],
+            # Lists
+            ("C", "L"): [self._rest], ("L", "CL"): [self._list], ("V", "L"): [self._predicated],
+            ("L", "VL"): [self._equation],
+            # Clauses
+            ("E", "L"): [self._existing], ("C", "EL"): [self._joined], ("M", "EL"): [self._fronted],
+            ("M", "CEL"): [self._fronted], ("M", "CL"): [self._fronted], ("M", "L"): [self._fronted],
+            ("M", "VL"): [self._fronted], ("M", "S"): [self._fronted_clause], ("M", "CS"): [self._fronted_clause],
+            ("C", "S"): [self._clause], ("X", "S"): [self._clause],
+            ("X", "L"): [self._clause], ("C", "W"): [lambda a, b: replace(b, start=a.start)],
+            ("S", "CS"): [self._clauses], ("L", "CS"): [self._clauses], ("S", "CL"): [self._clauses],
+            ("CM", "L"): [self._clause_front], ("CM", "VL"): [self._clause_front],
+            ("CM", "CL"): [self._clause_front], ("S", "CM"): [self._late],
+        }  # fmt: skip
+        self._unary: dict[str, list[Callable[[Node], Node | None]]] = {
+            "A": [self._place],
+            "F": [self._place],
+            "EL": [lambda node: replace(node, cat="S")],
+        }
+
+    def readings(self, *, moving: bool = False) -> list[Node]:
+        """Readings of the whole sentence, likeliest first; of what is `moving`, those that say where to before all."""
+        leaves = [
+            Node(cat=_LEAVES[chunk.kind], start=at, heads=(at,) if chunk.kind == "noun" else (), mod=(at,))
+            for at, chunk in enumerate(self._chunks)
+        ]
+        leaves = [replace(leaf, mod=None) if leaf.cat == "L" else leaf for leaf in leaves]
+        if not moving:
+            return parse(leaves, self._rules, self._unary, ("L", "S"))
+        rules = {**self._rules, ("L", "M"): [self._modified, self._goal], ("L", "CM"): [self._modified, self._goal],
+                 ("C", "IM"): [lambda a, b: replace(b, cat="CIM", start=a.start)], ("IM", "CIM"): [self._goals],
+                 ("IM", "M"): [self._further], ("IM", "CM"): [self._further]}  # fmt: skip
+        made = parse(leaves, rules, self._unary, ("IM", "L", "S"))
+        return [node for node in made if node.cat == "IM"] or made
+
+    def _goals(self, first: Node, second: Node) -> Node:
+        """Read "the forks in the drawer" + ", the plates on the rack"."""
+        return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
+
+    def _further(self, goal: Node, modifier: Node) -> Node | None:
+        """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
+        if modifier.mod[0] != "link":  # type: ignore[index]
+            return None
+        extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
+        return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
+
+    def _goal(self, named: Node, modifier: Node) -> Node | None:
+        """Read "the mug" + "on the plate", where it is to go."""
+        kind, at = modifier.mod  # type: ignore[misc]
+        if kind == "place" and self._chunks[at].link is not None:
+            facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, ()))
+            return Node("IM", named.start, named.cost + modifier.cost, named.heads, facts, named.joints, named.flags)
+        if kind != "link" or self._link(at).manner == "source":
+            return None
+        link = self._link(at)
+        if link.inverse and (link.manner != "with" or link.kind is not None):
+            return None
+        cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
+        cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
+            "modified" in named.flags and self._is_pronoun(named.heads)
+        )
+        # What is told of with the object itself keeps near to it.
+        cost += 0.15 * ("modified" in named.flags)
+        cost += sum(
+            self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
+        )
+        facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
+        return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
+
+    def _phrase(self, at: int) -> Phrase:
+        phrase = self._chunks[at].phrase
+        assert phrase is not None
+        return phrase
+
+    def _link(self, at: int) -> Link:
+        link = self._chunks[at].link
+        assert link is not None
+        return link
+
+    def _noun(self, at: int) -> str:
+        return self._likely.fits(self._phrase(at))
+
+    # Modifiers
+
+    def _relation(self, link: Node, objects: Node) -> Node:
+        """Read "on" + "a table": a modifier that waits for what it is said of."""
+        assert link.mod
+        at = link.mod[0]
+        cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
+        said = self._link(at)
+        if said.manner == "between":
+            plural = len(objects.heads) > 1 or any(self._several(head) for head in objects.heads)
+            cost += 0.0 if plural and len(objects.heads) <= 2 else 1.5
+        if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
+            # One thing on several, or beside several.
+            cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
+        flags = frozenset({"finite"} if said.finite else ()) | (objects.flags & {"trailing"})
+        return Node("M", link.start, cost, objects.heads, objects.facts, objects.joints, flags, ("link", at))
+
+    def _place(self, node: Node) -> Node:
+        assert node.mod
+        kind = "form" if node.cat == "F" else "place"
+        return Node("M", node.start, node.cost, mod=(kind, node.mod[0]))
+
+    def _placed(self, verb: Node, place: Node) -> Node:
+        made = self._place(place)
+        return replace(made, start=verb.start, flags=made.flags | {"finite"})
+
+    def _quality(self, verb: Node, quality: Node) -> Node:
+        assert quality.mod
+        return Node("M", verb.start, verb.cost, flags=frozenset({"finite"}), mod=("quality", quality.mod[0]))
+
+    def _predicate(self, verb: Node, modifier: Node) -> Node:
+        return replace(modifier, start=verb.start, cost=verb.cost + modifier.cost, flags=modifier.flags | {"finite"})
+
+    def _relative(self, which: Node, modifier: Node) -> Node:
+        """Read "which is on a table": said of what stands before, like any modifier."""
+        return replace(modifier, start=which.start, flags=(modifier.flags - {"finite"}) | {"which"})
+
+    def _joined_modifier(self, joint: Node, modifier: Node) -> Node | None:
+        text = self._chunks[joint.start].text
+        cost = 0.3 if "and" in text and "finite" not in modifier.flags else 0.0
+        return replace(modifier, cat="CM", start=joint.start, cost=modifier.cost + cost)
+
+    def _modified(self, named: Node, modifier: Node) -> Node | None:
+        """Say `modifier` of all that `named` names."""
+        kind, at = modifier.mod  # type: ignore[misc]
+        cost = (
+            named.cost + modifier.cost + (0.12 if named.flags & {"modified"} and "finite" not in modifier.flags else 0)
+        )
+        facts = (*named.facts, *modifier.facts)
+        flags = named.flags | {"modified"} | (modifier.flags & {"finite"})
+        if modifier.cat == "CM":
+            flags |= {"comma"}
+            cost += 0.1
+        if "finite" in named.flags and "finite" not in modifier.flags:
+            cost += 0.1
+        if "colon" in named.flags:
+            cost += 0.3
+        inner = kind == "place" or (kind == "link" and self._is_pronoun(modifier.heads) and not self._link(at).inverse)
+        if "told" in named.flags and "finite" not in modifier.flags:
+            cost += 0.4
+        if kind == "link" and not self._link(at).inverse and self._only_background(named.heads):
+            cost += 0.6
+        if (
+            kind == "link"
+            and (self._link(at).manner == "of" or self._link(at).filling)
+            and not modifier.flags & {"finite", "which"}
+            and named.heads != (at - 1,)
+        ):
+            # "a bowl of oranges": of what stands directly before.
+            return None
+        inner = inner and self._chunks[at].text not in ("one", "other")
+        if inner and "having" in named.flags and modifier.cat == "M" and "finite" not in modifier.flags:
+            # "a crate with a dog on top": what stands behind the dog is said of the dog.
+            cost += 0.6
+        if kind == "link" and self._link(at).inverse:
+            flags |= {"having"}
+        if kind != "link" or not self._link(at).inverse:
+            flags |= {"placed"}
+        if kind != "link":
+            if kind == "form" and len(named.heads) == 1 and not self._several(named.heads[0]):
+                cost += 0.6
+            if kind == "form" and self._chunks[at].text == "tower" and len(named.heads) != self._chunks[at].size:
+                return None
+            if self._chunks[at].text in ("one", "other"):
+                cost += 0.5
+            if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
+                close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
+                cost += 0.2 if close else 0.45
+            said = (kind, at, named.heads, ()) if kind == "place" else (kind, at, named.heads)
+            return Node("L", named.start, cost, named.heads, (*facts, said), named.joints, flags)
+        link = self._link(at)
+        if len(named.heads) > 1 and link.inverse:
+            cost += 0.9
+        if len(named.heads) > 1 and "placed" in named.flags and "finite" not in modifier.flags:
+            # "A mug on a tray, a can behind a bowl"
+            cost += 0.2
+        if link.manner == "include":
+            listed = ("include", at, named.heads, modifier.heads)
+            cost += 0.0 if len(named.heads) == 1 and self._several(named.heads[0]) else 1.5
+            told = all(self._phrase(head).kind in _HEADLESS for head in modifier.heads)
+            heads = named.heads if told else modifier.heads
+            return Node("L", named.start, cost, heads, (*facts, listed), named.joints, flags | {"included"})
+        if link.inverse:
+            made, extra = self._having(at, link, named.heads, modifier)
+            return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
+        extra = self._arcs(link, named.heads, modifier.heads)
+        if link.kind in SUPPORT_KINDS and link.manner == "place":
+            twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
+            # What is on a book that is on a table is on the book; nothing is on two small things.
+            extra += twice * (1.0 if self._likely.level(self._noun(modifier.heads[0])) else 3.0)
+        if link.manner == "under" and modifier.heads[:1] != (self._carrier(modifier.heads[0], modifier.facts),):
+            # "A book under a lamp on a table": the book is on the table.
+            cost += 0.6
+        if any(self._again_named(head, named.heads) for head in modifier.heads):
+            cost += 1.0
+        if any(self._said_of(named, head) for head in modifier.heads):
+            cost += 1.2
+        said = ("rel", at, named.heads, modifier.heads)
+        return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
+
+    def _again(self, head: int, facts: tuple[tuple, ...]) -> float:
+        """The cost of a second support for what has one."""
+        told = (fact for fact in facts if fact[0] == "rel" and head in fact[2] and len(fact[2]) == 1)
+        return 0.25 if any(self._link(fact[1]).kind in SUPPORT_KINDS for fact in told) else 0.0
+
+    def _having(self, at: int, link: Link, owners: tuple[int, ...], modifier: Node) -> tuple[list[tuple], float]:
+        """Facts of `owners` with what `modifier` names: in or on them, or where it says ("a pen inside")."""
+        facts: list[tuple] = []
+        placed: set[int] = set()
+        cost = 0.0
+        for fact in modifier.facts:
+            ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
+            if ours and link.manner == "flank":
+                facts.append(("side", fact[1], fact[2]))
+                cost -= 0.5
+                continue
+            if ours and not placed & set(fact[2]):
+                facts.append(("place", fact[1], fact[2], owners))
+                placed |= set(fact[2])
+                said = self._chunks[fact[1]].link
+                if said is not None:
+                    near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
+                    cost += 0.1 if near else self._arcs(said, fact[2], owners)
+                continue
+            apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
+            if apart and self._link(fact[1]).kind not in SUPPORT_KINDS and self._likely.floor(self._noun(fact[3][0])):
+                # "A pot on a stove with flour beside the stove"
+                placed |= set(fact[2])
+                cost += 0.2
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
+                facts.append(("bind", fact[3][0], owners))
+                cost += self._arcs(self._link(fact[1]), fact[2], owners)
+                placed |= set(fact[2])
+            facts.append(fact)
+        carriers = {head: self._carrier(head, modifier.facts) for head in modifier.heads}
+        # What stands on something known already is told of by that alone.
+        placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
+        left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
+        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        if left:
+            facts.append(("have", at, owners, left))
+            parts = [head for head in left if self._phrase(head).kind in _HEADLESS]
+            things = [head for head in left if head not in parts]
+            if things and link.manner not in ("include", "of"):
+                cost += sum(
+                    self._likely.having(link, self._noun(owner), self._noun(head))
+                    for head in things
+                    for owner in owners
+                ) / (len(things) * len(owners)) + 0.25 * sum(
+                    self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
+                )
+        if link.manner == "of" and left:
+            cost += 0.6 * any(self._phrase(head).determined for head in modifier.heads[1:])
+            cost += (
+                0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
+            )
+        return facts, cost
+
+    def _said_of(self, named: Node, parent: int) -> bool:
+        """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
+        noun = self._phrase(parent).noun
+        return bool(noun) and self._phrase(parent).definite and any(
+            fact[0] == "rel" and set(fact[2]) & set(named.heads) and self._phrase(fact[3][0]).noun == noun
+            for fact in named.facts
+        )  # fmt: skip
+
+    def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
+        """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
+        phrase = self._phrase(head)
+        same = (
+            phrase.definite
+            and not phrase.other
+            and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
+        )
+        return same or (phrase.head == "each" and len(heads) > 1)
+
+    def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
+        """What "with a lamp on two books" has: the books."""
+        for fact in facts:
+            if fact[0] != "rel" or head not in fact[2]:
+                continue
+            link, parent = self._link(fact[1]), fact[3][0]
+            carried = link.kind in SUPPORT_KINDS and link.manner == "place"
+            if carried and self._phrase(parent).kind in ("object", "unknown"):
+                return parent
+        return head
+
+    def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
+        costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
+        return sum(costs) / max(len(costs), 1)
+
+    def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
+        return len(heads) == 1 and (
+            (self._phrase(heads[0]).kind == "pronoun" and self._phrase(heads[0]).head not in DEMONSTRATIVES)
+            or (self._phrase(heads[0]).kind == "part" and self._phrase(heads[0]).possessive)
+        )
+
+    def _means(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether the pronoun `heads` may mean `owners`."""
+        plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
+        return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
+
+    def _several(self, at: int) -> bool:
+        phrase = self._phrase(at)
+        return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
+
+    # Lists
+
+    def _rest(self, joint: Node, named: Node) -> Node:
+        text = self._chunks[joint.start].text
+        mark = ":" if ":" in text else ";" if text == ", and" else "&" if text == "and" else ","
+        return Node("CL", joint.start, named.cost, named.heads, named.facts, mark + named.joints, named.flags)
+
+    def _list(self, first: Node, rest: Node) -> Node | None:
+        """Read "a mug" + ", a plate and a fork"."""
+        mark, later = rest.joints[0], rest.joints[1:]
+        facts = (*first.facts, *rest.facts)
+        cost = first.cost + rest.cost
+        if mark == ":":
+            if any(self._phrase(head).kind == "items" for head in first.heads):
+                facts = (*facts, *(("bind", head, rest.heads) for head in first.heads))
+                return Node("L", first.start, cost, rest.heads, facts, "", first.flags | rest.flags)
+            if all(self._phrase(head).kind in _HEADLESS for head in rest.heads):
+                return Node("L", first.start, cost, first.heads, facts, "", first.flags | {"colon"})
+            said = ("list", rest.start, first.heads, rest.heads)
+            extra = sum(
+                self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head))
+                for head in rest.heads
+            ) / len(rest.heads)
+            return Node("L", first.start, cost + extra, first.heads, (*facts, said), "", first.flags | {"colon"})
+        if first.joints and "modified" not in first.flags:
+            return None
+        cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
+        coloured = any(self._phrase(head).modifiers.colours for head in first.heads)
+        headless = [
+            self._phrase(head).kind in _HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads
+        ]
+        if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
+            # "two mugs, one on a plate": said of the mugs, nothing more is named.
+            flags = first.flags | (rest.flags & {"finite"}) | {"told"}
+            cost += 0.8 * sum(self._says_nothing(head, rest.facts) for head in rest.heads)
+            return Node("L", first.start, cost, first.heads, facts, "", flags)
+        if any(headless) and not all(headless):
+            cost += 0.4
+        if "placed" in rest.flags and "placed" not in first.flags:
+            # "a mug and a plate on a table": what stands behind a list is said of all of it, or of its last.
+            cost += 0.3 if len(rest.heads) == 1 else 0.6
+        if "modified" in first.flags:
+            cost += 0.15 if "finite" not in first.flags else 0.3
+        if "finite" in rest.flags and "finite" not in first.flags:
+            cost += 0.4
+        flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
+        return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+
+    def _one_more(self, head: int) -> bool:
+        """Whether "two green ones" names more objects of a kind and tells nothing of those before."""
+        phrase = self._phrase(head)
+        return phrase.words.split()[-1:] in (["one"], ["ones"]) and bool(phrase.modifiers.colours)
+
+    def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
+        words = self._phrase(head).modifiers
+        told = words.colours or words.palette or words.size_word or words.material or words.adjectives
+        return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
+
+    def _only_background(self, heads: tuple[int, ...]) -> bool:
+        return all(self._phrase(head).kind == "background" and not self._phrase(head).substance for head in heads)
+
+    def _predicated(self, verb: Node, named: Node) -> Node:
+        return replace(named, cat="VL", start=verb.start)
+
+    def _equation(self, named: Node, what: Node) -> Node | None:
+        """Read "The items are a lamp and a mug"."""
+        kinds = {self._phrase(head).kind for head in named.heads}
+        if not kinds & {"items", "pieces", "pronoun", "background"}:
+            return None
+        facts = (*named.facts, *what.facts, *(("bind", head, what.heads) for head in named.heads))
+        return Node("L", named.start, named.cost + what.cost, what.heads, facts, "", frozenset({"finite"}))
+
+    # Clauses
+
+    def _existing(self, there: Node, named: Node) -> Node:
+        return replace(named, cat="EL", start=there.start)
+
+    def _joined(self, joint: Node, node: Node) -> Node:
+        return replace(node, cat="CEL", start=joint.start)
+
+    def _fronted(self, modifier: Node, named: Node) -> Node | None:
+        """Read "On the table there is" + "a mug"."""
+        if modifier.mod[0] == "quality" or ("finite" in modifier.flags and named.cat != "CL"):  # type: ignore[index]
+            return None
+        link = self._link(modifier.mod[1]) if modifier.mod[0] == "link" else None  # type: ignore[index]
+        if link is not None and link.inverse and link.manner != "surround":
+            return None
+        cost = 0.6 if named.cat == "L" else 0.2 if named.cat == "CL" else 0.0
+        whole = self._modified(replace(named, cat="L", flags=named.flags - {"modified"}), replace(modifier, cat="M"))
+        if whole is None:
+            return None
+        first = modifier.heads[:1] if link is not None else ()
+        facts = (*whole.facts, ("subject", named.heads, modifier.start), *((("front", first),) if first else ()))
+        if named.cat == "CL" and not named.joints.startswith(":"):
+            facts = (*facts, ("comma front", modifier.start))
+        if len(named.heads) > 1:
+            cost -= 0.1
+        return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
+
+    def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
+        """Read "On a table," + "from left to right: a mug and a bowl"."""
+        if any(fact[0] == "front" for fact in clause.facts):
+            return None
+        return self._fronted(modifier, replace(clause, cat="CL"))
+
+    def _clause(self, joint: Node, clause: Node) -> Node:
+        comma = 0.9 * any(fact[0] == "comma front" for fact in clause.facts)
+        return replace(clause, cat="CS", start=joint.start, cost=clause.cost + 0.2 + comma)
+
+    def _clause_front(self, modifier: Node, named: Node) -> Node | None:
+        made = self._fronted(replace(modifier, cat="M"), named)
+        comma = 0.9 * (named.cat == "CL")
+        return None if made is None else replace(made, cat="CS", cost=made.cost + 0.2 + comma)
+
+    def _clauses(self, first: Node, second: Node) -> Node:
+        subject, later = self._subject(first), self._subject(second)
+        cost = first.cost + second.cost + (0.3 if second.cat == "CL" else 0.0)
+        heads = (*first.heads, *second.heads) if second.cat == "CL" else first.heads
+        return Node("S", first.start, cost, heads, (*first.facts, *subject, *second.facts, *later), "", first.flags)
+
+    @staticmethod
+    def _subject(clause: Node) -> tuple[tuple, ...]:
+        """What `clause` is about, where it does not say so yet."""
+        known = any(fact[0] == "subject" and fact[1] == clause.heads for fact in clause.facts)
+        return () if known else (("subject", clause.heads, clause.start),)
+
+    def _late(self, clause: Node, modifier: Node) -> Node | None:
+        """Read "On a desk there is a lamp, with a mug beside it"."""
+        made = self._modified(replace(clause, cat="L"), modifier)
+        return None if made is None else replace(made, cat="S", cost=made.cost + 0.1)

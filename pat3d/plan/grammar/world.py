@@ -1,0 +1,312 @@
+"""The scene while it is being read: single objects, what carries them, where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import Plausible
+from pat3d.plan.scene_plan import ArrangementKind
+from pat3d.scene.model import LateralKind, RelationKind
+
+MAX_OBJECTS = 60
+"""Objects in one scene."""
+
+
+Manner = Literal["make", "move", "stack", "pick", "unload", "sort", "other"]
+
+
+@dataclass(kw_only=True, eq=False)
+class Item:
+    """One object."""
+
+    group: Group
+    colours: tuple[str, ...] | None = None
+    """Its own, where the prompt tells it from the others of its group."""
+    told: Modifiers = NO_MODIFIERS
+    """What the prompt says of it alone."""
+    place: str = ""
+    """By which it is told from its like: "left" for "the left box"."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Group:
+    """Objects asked for by one noun phrase."""
+
+    phrase: Phrase
+    noun: str
+    said: str
+    modifiers: Modifiers
+    items: list[Item] = field(default_factory=list)
+    counted: bool = False
+    """Whether the prompt gives the number."""
+    exact: bool = False
+    """Whether it is a number of objects and not "some"."""
+    height: int = 1
+    """Objects in each stack; 1 where they are not stacked."""
+    rows: int = 0
+    """Rows that the objects stand in; 0 where nothing is said."""
+    heap: bool = False
+    proxy: bool = False
+    replaced: bool = False
+    """A generic whose members were listed ("plush toys, including ...")."""
+
+    @property
+    def words(self) -> str:
+        """As written in the prompt."""
+        return self.phrase.words
+
+    @property
+    def cycle(self) -> tuple[str, ...]:
+        """Nouns standing in turn for a generic ("fruit")."""
+        return self.phrase.cycle
+
+
+@dataclass(kw_only=True, eq=False)
+class Edge:
+    """A support, or a lateral relation, of `child`."""
+
+    child: Item
+    kind: RelationKind
+    parent: Item
+    weak: bool = False
+    """Guessed from "with": gives way to anything the prompt says outright."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Sided:
+    """Objects said to be on the left, in the middle, behind, ... of something that is not said with it."""
+
+    items: list[Item]
+    side: str
+    """left, right, one, other, centre, front or back."""
+    owner: list[Item]
+    """What has the side, where the prompt lets know."""
+    implied: list[Item]
+    """What they stand beside where nothing else is on a side."""
+    begun: bool = False
+    """Whether the clause begins with `implied`, so that the side is its side: "a mug, a spoon on the left"."""
+
+
+@dataclass(kw_only=True, eq=False)
+class Arranged:
+    """What people say about places beyond relations."""
+
+    kind: ArrangementKind
+    items: list[Item]
+    of: list[Item]
+    arranged: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """One thing to do."""
+
+    manner: Manner
+    said: str
+    """The clause, as written."""
+    items: tuple[Item, ...]
+    link: Link | None = None
+    goal: tuple[Item, ...] = ()
+
+
+class World:
+    """Objects, supports and lateral relations; supports stay a tree."""
+
+    def __init__(self, likely: Plausible) -> None:
+        self.likely = likely
+        self.groups: list[Group] = []
+        self.supports: dict[Item, Edge] = {}
+        self.laterals: list[Edge] = []
+        self.sided: list[Sided] = []
+        self.arranged: list[Arranged] = []
+        self.steps: list[Step] = []
+        """What an instruction asks for."""
+        self.aside: list[str] = []
+        self.notes: list[str] = []
+        self.subject: list[Item] = []
+        """What the sentence before is about."""
+        self.landmark: tuple[list[Item], bool] = ([], False)
+        """What "to the left of" was last said of, and whether it was "on the left side of"."""
+        self.telling: list[Item] = []
+        """Members of the group told of one by one that were not told of yet."""
+
+    def items(self) -> list[Item]:
+        """Every object, in the order of the prompt."""
+        return [item for group in self.groups if not group.replaced for item in group.items]
+
+    def signature(self) -> tuple[int, frozenset[tuple[int, str, int]]]:
+        """How many objects there are, and what carries what."""
+        number = {item: at for at, item in enumerate(self.items())}
+        edges = ((number.get(e.child, -1), e.kind, number.get(e.parent, -1)) for e in self.supports.values())
+        return len(number), frozenset(edges)
+
+    def note(self, text: str) -> None:
+        """Say `text` once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+    # What things are
+
+    def is_a(self, item: Item, *tables: tuple[str, ...]) -> bool:
+        """Whether it belongs to one of these classes of the lexicon."""
+        return self.likely.is_a(self.noun(item), *tables)
+
+    def noun(self, item: Item) -> str:
+        """Catalogue noun of `item`."""
+        group = item.group
+        return group.cycle[group.items.index(item) % len(group.cycle)] if group.cycle else group.noun
+
+    def on_floor(self, item: Item) -> bool:
+        """Whether it stands on the floor by nature."""
+        return self.likely.floor(self.noun(item))
+
+    def is_table(self, item: Item) -> bool:
+        """Whether it is furniture with a level top, not a dish."""
+        return self.is_a(item, lexicon.LEVEL) and not self.is_a(item, lexicon.DISHES)
+
+    def flat(self, item: Item) -> bool:
+        """Whether nothing can be in it."""
+        return not self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED)) and self.likely.level(self.noun(item))
+
+    def containment(self, parent: Item) -> RelationKind:
+        """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
+        return "in" if self.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) else "on"
+
+    # Stacks
+
+    def bases(self, items: Sequence[Item]) -> list[Item]:
+        """Those that stand on the support of `items`: all, or the lowest of each stack."""
+        return [item for item in items if not self._inside_stack(item, 0) or len(items) == 1]
+
+    def tops(self, items: Sequence[Item]) -> list[Item]:
+        """Those that carry what is on `items`: all, or the highest of each stack."""
+        kept = [item for item in items if not self._inside_stack(item, -1) or len(items) == 1]
+        return kept or list(items[-1:])
+
+    @staticmethod
+    def _inside_stack(item: Item, end: int) -> bool:
+        group = item.group
+        if group.height <= 1:
+            return False
+        at, height = group.items.index(item), group.height
+        last = at % height == height - 1 or at == len(group.items) - 1
+        return not (at % height == 0 if end == 0 else last)
+
+    # Supports
+
+    def support(self, item: Item) -> Item | None:
+        """What carries `item`, or None for the ground."""
+        edge = self.supports.get(item)
+        if edge is not None:
+            return edge.parent
+        at = item.group.items.index(item) if item.group.height > 1 else 0
+        return item.group.items[at - 1] if at % item.group.height else None
+
+    def ancestors(self, item: Item) -> list[Item]:
+        """What carries `item`, what carries that, and so on."""
+        path: list[Item] = []
+        while (parent := self.support(path[-1] if path else item)) is not None:
+            path.append(parent)
+        return path
+
+    def place(self, children: Sequence[Item], kind: RelationKind, parents: Sequence[Item], weak: bool = False) -> None:
+        """Record that `children` are carried by `parents`, in turn where there are several.
+
+        Raises:
+            PromptError: the prompt has an object carry itself.
+        """
+        tops = self.tops(parents)
+        # Of a tower the lowest stands on what the tower is on.
+        lowest = [child for child in self.bases(children) if not set(self.ancestors(child)) & set(children)]
+        for index, child in enumerate(lowest):
+            self._put(child, kind, tops[index % len(tops)], weak)
+
+    def _put(self, child: Item, kind: RelationKind, parent: Item, weak: bool) -> None:
+        if kind == "in" and self.flat(parent):
+            kind = "on"
+        old = self.supports.get(child)
+        if parent is child or child in self.ancestors(parent):
+            known = self.supports.get(parent)
+            if weak:
+                return
+            if known is not None and known.weak and known.parent is child:
+                del self.supports[parent]
+            else:
+                # "a lamp and a table with the lamp on it" may repeat what is known, never turn it round.
+                raise PromptError(
+                    f'"{child.group.words}" would rest on itself: it already carries "{parent.group.words}". '
+                    "Say which one is below."
+                )
+        if old is not None and not old.weak:
+            below = old.parent
+            free = self.support(below) is None and not self.on_floor(below)
+            carries = self.is_table(parent) or self.likely.on(self.noun(below), self.noun(parent)) < 1.0
+            if not weak and carries and free and parent is not below:
+                # "A lamp on a book" that is "on a table": the book is.
+                self._put(below, kind, parent, False)
+            if weak or parent is below or parent in self.ancestors(child):
+                return
+            if below not in self.ancestors(parent):
+                known_words = f'"{child.group.words}" is {old.kind} "{below.group.words}"'
+                self.note(f'{known_words}; also being {kind} "{parent.group.words}" is left out.')
+                return
+        self.supports[child] = Edge(child=child, kind=kind, parent=parent, weak=weak)
+        if not weak:
+            self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]
+            if old is not None and old.weak and self._may_stand(parent, old.parent):
+                # Where "a desk with a lamp" goes on "on two books", the books stand where the lamp was to stand.
+                for each in parent.group.items if parent.group.height == 1 else [parent]:
+                    if self.support(each) is None:
+                        self._put(self._lowest(each), old.kind, old.parent, True)
+
+    def _lowest(self, item: Item) -> Item:
+        return [item, *self.ancestors(item)][-1]
+
+    def _may_stand(self, item: Item, where: Item) -> bool:
+        lowest = self._lowest(item)
+        newest = bool(self.groups) and item.group in self.groups and item.group is not where.group
+        clear = where not in [lowest, *self.ancestors(item)] and lowest not in self.ancestors(where)
+        return newest and clear and not self.on_floor(lowest) and lowest is not where
+
+    # Laterals
+
+    def beside(self, children: Sequence[Item], kind: LateralKind, parents: Sequence[Item], weak: bool = False) -> None:
+        """Record a lateral relation, with `parents` in turn."""
+        places = self.bases(parents)
+        for index, child in enumerate(self.bases(children)):
+            parent = places[index % len(places)]
+            if child is not parent:
+                self.forget_guess(child, parent)
+                self.laterals.append(Edge(child=child, kind=kind, parent=parent, weak=weak))
+
+    def forget_guess(self, child: Item, parent: Item) -> None:
+        """`child` does not stand on or beside `parent` after all, unless the prompt says so outright."""
+        old = self.supports.get(child)
+        if old is not None and old.weak and old.parent is parent:
+            del self.supports[child]
+        self.laterals = [
+            edge for edge in self.laterals if not (edge.weak and edge.child is child and edge.parent is parent)
+        ]
+
+    def siblings(self, child: Item, parent: Item) -> tuple[Item, Item] | None:
+        """The nearest carriers of `child` and `parent` (or they themselves) that share a support."""
+        above_child = [child, *self.ancestors(child)]
+        above_parent = [parent, *self.ancestors(parent)]
+        for one in above_child:
+            for other in above_parent:
+                if one is not other and self.support(one) is self.support(other):
+                    return None if one in above_parent or other in above_child else (one, other)
+        return None
+
+    def arrange(self, kind: ArrangementKind, items: Sequence[Item], of: Sequence[Item] = (), note: str = "") -> None:
+        """Record an arrangement; `note` says what is not arranged."""
+        self.arranged.append(Arranged(kind=kind, items=list(items), of=list(of), arranged=not note))
+        if note:
+            self.note(f"not arranged: {note}")

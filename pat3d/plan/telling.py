@@ -1,0 +1,246 @@
+"""A plan in plain words, composed from the plan alone, so that a person sees a misreading before anything is made."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.model import GROUND, Relation
+
+_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+_PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
+            "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen"}  # fmt: skip
+_PLURAL_ONLY = frozenset({
+    "scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones", "jeans",
+    "binoculars",
+    "goggles", "shears", "grapes", "dice", "fries", "chopsticks", "shelves", "crackers", "raisins", "noodles",
+    "flowers",
+})  # fmt: skip
+_WORDS = {
+    "on": "on", "in": "in", "hangs_from": "hanging from", "left_of": "to the left of", "right_of": "to the right of",
+    "in_front_of": "in front of", "behind": "behind", "next_to": "next to", "around": "around",
+}  # fmt: skip
+
+
+def tell(plan: ScenePlan) -> str:
+    """What `plan` says, in English sentences."""
+    return _Teller(plan).told()
+
+
+class _Teller:
+    def __init__(self, plan: ScenePlan) -> None:
+        self._plan = plan
+        self._base = {obj.name: _base(obj, plan) for obj in plan.objects}
+        self._kinds: dict[str, list[str]] = {}
+        """Objects that one phrase named alike."""
+        self._like: dict[str, list[str]] = {}
+        for obj in plan.objects:
+            like = self._kinds.setdefault(f"{self._base[obj.name]}/{obj.phrase}", [])
+            like.append(obj.name)
+            self._like[obj.name] = like
+        self._named: set[str] = set()
+        self._below = {rel.child: rel for rel in plan.relations if rel.supports}
+
+    def told(self) -> str:
+        sentences = [*self._supports(), *self._rows(), *self._between(), *self._laterals()]
+        if self._plan.task is not None:
+            sentences.append(f"The task is {self._plan.task}")
+        return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
+
+    # Supports
+
+    def _supports(self) -> list[str]:
+        """What stands on the ground, then what stands on each of that, stacks as one."""
+        made: list[str] = []
+        told: set[str] = set()
+        waiting = [GROUND]
+        while waiting:
+            parent = waiting.pop(0)
+            children = self._children(parent)
+            waiting += [name for name in children if name not in waiting]
+            for kind in ("on", "in", "hangs_from"):
+                own = [name for name in children if self._kind(name) == kind and name not in told]
+                own = [name for name in own if not self._continues_stack(name)]
+                if not own:
+                    continue
+                told |= set(own)
+                verb = (
+                    "is" if len(own) == 1 and (self._stack(own[0])[1:] or not _is_plural(self._base[own[0]])) else "are"
+                )
+                if parent == GROUND:
+                    stand = "stands" if verb == "is" else "stand"
+                    made.append(f"{self._listed(own)} {stand} on the ground")
+                else:
+                    others, place = self._same_parents(parent, own)
+                    made.append(f"{self._listed(others)} {'are' if len(others) > 1 else verb} {_WORDS[kind]} {place}")
+                    told |= set(others)
+        return made
+
+    def _kind(self, name: str) -> str:
+        return self._below[name].kind if name in self._below else "on"
+
+    def _children(self, parent: str) -> list[str]:
+        return [obj.name for obj in self._plan.objects if self._plan.parent(obj.name) == parent]
+
+    def _same_parents(self, parent: str, own: list[str]) -> tuple[list[str], str]:
+        """`own` and its like on the like of `parent`, where every one of these has its own."""
+        kind = self._like[parent]
+        if len(kind) > 1 and len(own) == 1:
+            pairs = [(other, self._children(other)) for other in kind]
+            likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
+            if all(len(each) == 1 for each in likes) and all(len(names) == 1 for _, names in pairs):
+                return [each[0] for each in likes], f"the {_count(len(kind))} {plural(self._base[parent])}, one on each"
+        return own, self._the(parent)
+
+    def _stack(self, name: str) -> list[str]:
+        """The tower of equal objects of which `name` is the lowest."""
+        tower = [name]
+        while True:
+            above = [other for other in self._like[name]
+                     if other in self._below and self._below[other].kind == "on"
+                     and self._below[other].parent == tower[-1]]  # fmt: skip
+            if len(above) != 1:
+                return tower
+            tower.append(above[0])
+
+    def _continues_stack(self, name: str) -> bool:
+        below = self._below.get(name)
+        return below is not None and below.kind == "on" and self._base[below.parent] == self._base[name] and (
+            name in self._stack(below.parent)
+        )  # fmt: skip
+
+    # Beside each other
+
+    def _rows(self) -> list[str]:
+        rows = [each for each in self._plan.arrangements if each.kind == "row" and each.arranged]
+        return [f"{self._all(each.objects)} are in a row from left to right" for each in rows if len(each.objects) > 1]
+
+    def _between(self) -> list[str]:
+        found = [each for each in self._plan.arrangements if each.kind == "between" and each.arranged]
+        return [f"{self._all(each.objects)} is between {self._all(each.of)}" for each in found]
+
+    def _laterals(self) -> list[str]:
+        """Lateral relations, those of equal children to one parent in one sentence."""
+        grouped: dict[tuple[str, str], list[str]] = {}
+        for rel in self._plan.relations:
+            if not rel.supports and not self._said(rel):
+                grouped.setdefault((rel.kind, rel.parent), []).append(rel.child)
+        made: list[str] = []
+        for (kind, parent), children in grouped.items():
+            verb = "is" if len(children) == 1 and not _is_plural(self._base[children[0]]) else "are"
+            made.append(f"{self._all(children)} {verb} {_WORDS[kind]} {self._the(parent)}")
+        return made
+
+    def _said(self, rel: Relation) -> bool:
+        """Whether a row or "between" says it."""
+        for each in self._plan.arrangements:
+            if each.arranged and each.kind == "row" and {rel.child, rel.parent} <= set(each.objects):
+                return True
+            if each.arranged and each.kind == "between" and rel.parent in each.objects and rel.child in each.of:
+                return True
+        return False
+
+    # Names
+
+    def _listed(self, names: Sequence[str]) -> str:
+        """Read "a mug and two plates", by kind, towers as one."""
+        parts: list[str] = []
+        by_kind: dict[str, list[str]] = {}
+        for name in names:
+            tower = self._stack(name)
+            if len(tower) > 1:
+                parts.append(f"a stack of {_count(len(tower))} {plural(self._base[name])}")
+                self._named |= set(tower)
+            else:
+                by_kind.setdefault(self._like[name][0], []).append(name)
+        for own in by_kind.values():
+            base, whole = self._base[own[0]], self._like[own[0]]
+            fresh = not set(whole) & self._named
+            if len(own) == len(whole) or (fresh and len(own) > 1):
+                parts.append(_some(base, len(own)))
+            elif len(own) == 1:
+                parts.append(self._the(own[0]))
+            else:
+                parts.append(f"{_count(len(own))} of the {_count(len(whole))} {plural(base)}")
+            self._named |= set(own)
+        return _joined(parts)
+
+    def _all(self, names: Sequence[str]) -> str:
+        """Read "the mug and the two plates"."""
+        by_kind: dict[str, list[str]] = {}
+        for name in dict.fromkeys(names):
+            by_kind.setdefault(self._like[name][0], []).append(name)
+        parts: list[str] = []
+        for own in by_kind.values():
+            base, whole = self._base[own[0]], self._like[own[0]]
+            if len(own) > 1 and len(own) == len(whole):
+                parts.append(f"the {_count(len(own))} {plural(base)}")
+            else:
+                parts += [self._the(name) for name in own]
+        return _joined(parts)
+
+    def _the(self, name: str) -> str:
+        base, whole = self._base[name], self._like[name]
+        if len(whole) == 1:
+            return f"the {base}"
+        at = whole.index(name)
+        if len(self._stack(whole[0])) == len(whole):
+            end = "lowest" if at == 0 else "top" if at == len(whole) - 1 else _ordinal(at)
+            return (
+                f"the {end} of the {_count(len(whole))} {plural(base)}"
+                if end != "top"
+                else f"the stack of {plural(base)}"
+            )
+        return f"the {_ordinal(at)} of the {_count(len(whole))} {plural(base)}"
+
+
+def _base(obj: PlannedObject, plan: ScenePlan) -> str:
+    """The name of `obj` without the number that tells it from its like."""
+    found = re.fullmatch(r"(.+) (\d+)", obj.name)
+    if found is None:
+        return obj.name
+    like = [other for other in plan.objects if other.noun == obj.noun and other.name.startswith(f"{found[1]} ")]
+    return found[1] if len(like) > 1 or obj.colours else obj.name
+
+
+def _is_plural(base: str) -> bool:
+    return base.partition(" of ")[0].split()[-1] in _PLURAL_ONLY
+
+
+def plural(name: str) -> str:
+    """The plural of a noun phrase: "bars of soap", "boxes", "mice"."""
+    head, of, rest = name.partition(" of ")
+    *before, word = head.split(" ")
+    if word in _PLURALS:
+        word = _PLURALS[word]
+    elif word in _PLURAL_ONLY:
+        pass
+    elif re.search(r"(s|x|z|ch|sh|tomato|potato)$", word):
+        word += "es"
+    elif re.search(r"[^aeiou]y$", word):
+        word = f"{word[:-1]}ies"
+    else:
+        word += "s"
+    return " ".join([*before, word]) + of + rest
+
+
+def _some(base: str, count: int) -> str:
+    if count > 1:
+        return f"{_count(count)} {plural(base)}"
+    if _is_plural(base):
+        return base
+    return f"{'an' if re.match(r'[aeio]|u(?!ni|s|k|t)', base) else 'a'} {base}"
+
+
+def _count(count: int) -> str:
+    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+
+
+def _ordinal(at: int) -> str:
+    return _ORDINALS[at] if at < len(_ORDINALS) else f"{at + 1}th"
+
+
+def _joined(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}" if parts else "nothing"

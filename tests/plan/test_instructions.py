@@ -1,0 +1,72 @@
+"""An instruction makes the scene before it, and its task."""
+
+import pytest
+
+from pat3d.envs.tasks.registry import parse_task
+from pat3d.plan.grammar.planner import GrammarPlanner
+
+PLANNER = GrammarPlanner()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "before", "task"),
+    [
+        ("put the soup in the basket", set(), "place:tomato soup:basket"),
+        ("Stack the blue cube on the yellow one.", set(), "stack:blue cube:yellow cube"),
+        ("Pick up the red mug.", set(), "pick:red mug"),
+        ("Take the apple out of the bowl and put it on the plate.", {"apple in bowl"}, "place:apple:plate"),
+        ("Put the red cup on the tray on the table", {"tray on table"}, "place:red cup:tray"),
+        ("Put the apple on the table on the plate", {"apple on table"}, "place:apple:plate"),
+        ("Pick up the marker from the table and put it in the mug.", {"marker on table"}, "place:marker:mug"),
+        ("Could you please move the orange to the white plate?", set(), "place:orange:white plate"),
+        ("Use the left arm to grab the shoe and place it on the mat.", set(), "place:shoe:mat"),
+        ("The robot should put the spoon inside the mug.", set(), "place:spoon:mug"),
+        ("unload the dish rack", set(), "unload:dish rack"),
+        ("A mug is on a table. Put the mug on the tray.", {"mug on table"}, "place:mug:tray"),
+    ],
+)
+def test_the_scene_before_and_the_task(prompt: str, before: set[str], task: str):
+    plan = PLANNER.plan(prompt)
+    assert {str(relation) for relation in plan.relations} == before
+    assert plan.task == task
+    assert parse_task(task).spec == task
+
+
+@pytest.mark.parametrize(
+    ("prompt", "note"),
+    [
+        ("open the drawer", 'not modelled: "open the drawer": no task does that.'),
+        ("put both the soup and the sauce in the basket",
+         "the instruction is several tasks, of which the environment has one at a time: place:tomato soup:basket, "
+         "place:tomato sauce:basket."),
+        ("put the mug behind the bowl", 'not modelled: "put the mug behind the bowl": no task does that.'),
+        ("close the laptop", 'not modelled: "close the laptop": no task does that.'),
+    ],
+)  # fmt: skip
+def test_what_no_task_does_is_noted(prompt: str, note: str):
+    plan = PLANNER.plan(prompt)
+    assert plan.task is None
+    assert note in plan.notes
+    assert plan.relations == ()
+
+
+def test_opening_and_placing_is_the_placing_and_a_note():
+    plan = PLANNER.plan("open the top drawer of the cabinet and put the bowl in it")
+    assert plan.task == "place:bowl:cabinet"
+    assert 'not modelled: "open the top drawer of the cabinet": no task does that.' in plan.notes
+
+
+def test_what_is_told_of_indefinite_things_is_the_scene_to_make():
+    plan = PLANNER.plan("Put two mugs on a shelf.")
+    assert {str(relation) for relation in plan.relations} == {"mug 1 on shelf", "mug 2 on shelf"}
+    assert plan.task is None
+    assert any("is read as the scene to make" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    "prompt", ["an open box on a desk", "a stack of plates", "a set of three mugs", "a close-up of a mug on a tray"]
+)
+def test_what_only_looks_like_an_instruction_describes(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert plan.task is None
+    assert not any("no task" in note for note in plan.notes)

@@ -1,0 +1,57 @@
+"""A plan is told back from the plan alone."""
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.plan.telling import plural, tell
+from pat3d.scene.model import Relation
+
+PLANNER = GrammarPlanner()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "told"),
+    [
+        ("A mug on a tray, a can behind the second of four mugs in a row",
+         "A tray, a can and four mugs stand on the ground. A mug is on the tray. The four mugs are in a row from left "
+         "to right. The can is behind the second of the four mugs."),
+        ("a stack of three plates on a table",
+         "A table stands on the ground. A stack of three plates is on the table."),
+        ("an apple and two pears in a bowl",
+         "A bowl stands on the ground. An apple and two pears are in the bowl."),
+        ("a lamp between two books on a desk",
+         "A desk stands on the ground. A lamp and two books are on the desk. The lamp is between the two books."),
+        ("an apple on each of three plates",
+         "Three plates stand on the ground. Three apples are on the three plates, one on each."),
+        ("a swing hanging from a tree", "A tree stands on the ground. A swing is hanging from the tree."),
+        ("scissors on a box", "A box stands on the ground. Scissors are on the box."),
+        ("put the mug on the tray", "A mug and a tray stand on the ground. The task is place:mug:tray."),
+    ],
+)  # fmt: skip
+def test_telling(prompt: str, told: str):
+    assert tell(PLANNER.plan(prompt)) == told
+
+
+def test_a_plan_of_another_planner_is_told_too():
+    plan = ScenePlan(
+        prompt="",
+        objects=(PlannedObject(name="cup", noun="cup"), PlannedObject(name="red box", noun="box")),
+        relations=(Relation(child="cup", kind="in", parent="red box"),),
+    )
+    assert tell(plan) == "A red box stands on the ground. A cup is in the red box."
+
+
+def test_a_misreading_is_told_differently():
+    """The sentence is no part of what is told: two plans of one sentence differ in the telling."""
+    beside = tell(PLANNER.plan("a mug beside a tray"))
+    assert beside != tell(PLANNER.plan("a mug on a tray"))
+
+
+@pytest.mark.parametrize(
+    ("one", "many"),
+    [("mug", "mugs"), ("box", "boxes"), ("bar of soap", "bars of soap"), ("cherry", "cherries"), ("toy", "toys"),
+     ("computer mouse", "computer mice"), ("scissors", "scissors"), ("tomato", "tomatoes"), ("brush", "brushes")],
+)  # fmt: skip
+def test_plurals(one: str, many: str):
+    assert plural(one) == many
