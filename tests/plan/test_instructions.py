@@ -50,6 +50,12 @@ def test_what_no_task_does_is_noted(prompt: str, note: str):
     assert plan.relations == ()
 
 
+def test_what_is_there_already_is_no_task():
+    plan = PLANNER.plan("A mug is on a tray. Put the mug on the tray.")
+    assert plan.task is None
+    assert 'not modelled: "Put the mug on the tray": no task does that.' in plan.notes
+
+
 def test_opening_and_placing_is_the_placing_and_a_note():
     plan = PLANNER.plan("open the top drawer of the cabinet and put the bowl in it")
     assert plan.task == "place:bowl:cabinet"
