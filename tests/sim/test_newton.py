@@ -10,6 +10,7 @@ from pat3d.sim.arrays import filled
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.solvers import line_search
+from pat3d.sim.solvers import newton as newton_module
 from pat3d.sim.terms.inertia import Inertia
 from pat3d.sim.terms.term import Evaluation
 from tests.sim.builders import add_hull, box_points, random_hull
@@ -168,6 +169,19 @@ def test_trials_that_are_not_wholly_safe_are_not_evaluated():
     assert safe.numpy().tolist() == [1, 0]
 
 
+def test_a_world_that_finds_no_step_has_stalled_and_not_converged(monkeypatch):
+    monkeypatch.setattr(newton_module, "BACKTRACKS", 0)
+    model = hulls(worlds=2)
+    run = Run(model, SettleOptions(), lambda *_: None)
+    run.set_d_hat(1e-3)
+    run.potential.inertia.sigma.fill_(1000.0)
+    wp.copy(run.potential.inertia.start, run.q)
+    result = run.newton.minimise(run.q, np.array([True, False]), move_tolerance=1e-9)
+    np.testing.assert_array_equal(result.stalled, [True, False])
+    assert not result.converged.any()
+    np.testing.assert_array_equal(run.state(), model.q0)
+
+
 def test_one_step_of_free_fall_is_that_of_implicit_euler():
     """By g dt^2 along -z without turning, whatever the mass."""
     model = hulls()
@@ -182,7 +196,7 @@ def test_one_step_of_free_fall_is_that_of_implicit_euler():
 
 
 def test_inertia_is_that_of_the_bodies_points():
-    """sigma / 2 times the integral of rho |x - x_n|^2 over a box, by samples, and m g times the rise of its centre."""
+    """Half of sigma times the integral of rho |x - x_n|^2 over a box, by samples, and m g times its centre's rise."""
     builder = ModelBuilder()
     add_hull(builder, box_points(0.1, 0.06, 0.04), Pose(position=(0, 0, 1.0)))
     model = builder.finalize("cpu")
