@@ -20,13 +20,13 @@ def beam(builder: ModelBuilder) -> int:
     return add_hull(builder, box_points(0.4, 0.1, 0.1), Pose(position=(0, 0, 1.27)), fixed=True)
 
 
-def hung(points: np.ndarray, anchors: np.ndarray, pose: Pose) -> tuple[Model, int]:
-    """The hull of `points` at `pose`, with its `anchors` attached to where they are under a fixed beam."""
+def hung(points: np.ndarray, points_held: np.ndarray, pose: Pose) -> tuple[Model, int]:
+    """The hull of `points` at `pose`, with its `points_held` attached to where they are under a fixed beam."""
     builder = ModelBuilder()
     support = beam(builder)
     body = add_hull(builder, points, pose)
-    for anchor in anchors:
-        builder.add_attachment(body, anchor, support, pose.apply(anchor[None])[0] - (0, 0, 1.27))
+    for point in points_held:
+        builder.add_attachment(body, point, support, pose.apply(point[None])[0] - (0, 0, 1.27))
     return builder.finalize("cpu"), body
 
 
@@ -34,26 +34,26 @@ def hung(points: np.ndarray, anchors: np.ndarray, pose: Pose) -> tuple[Model, in
 def test_a_body_hung_at_one_point_ends_with_its_centre_of_mass_below_it(seed):
     rng = np.random.default_rng(seed)
     points = random_hull(rng, 0.2)
-    anchor = points[np.argmax(points[:, 0])]
-    model, body = hung(points, anchor[None], Pose(position=tuple(HOOK - anchor)))
+    point = points[np.argmax(points[:, 0])]
+    model, body = hung(points, point[None], Pose(position=tuple(HOOK - point)))
     settled = settle(model)
     assert settled.at_rest.all()
     pose = poses_from_states(model, settled.q)[body]
-    held, centre = pose.apply(anchor[None])[0], settled.q[body, 0]
-    # A stretch of the anchor, and at a residual of 1e-6 of the weight a lever arm of 1e-6 of the body's size.
+    held, centre = pose.apply(point[None])[0], settled.q[body, 0]
+    # A stretch of the attachment, and at a residual of 1e-6 of the weight a lever arm of 1e-6 of the body's size.
     np.testing.assert_allclose(held, HOOK, atol=2 * ATTACHMENT_STRETCH)
     np.testing.assert_allclose(centre[:2], HOOK[:2], atol=1e-6)
     assert centre[2] < HOOK[2] - 0.01
 
 
-def test_an_anchor_gives_way_by_the_stated_stretch():
+def test_an_attachment_point_gives_way_by_the_stated_stretch():
     model, body = hung(box_points(0.1, 0.1, 0.1), np.array([[0, 0, 0.05]]), Pose(position=(0, 0, 0.95)))
     settled = settle(model)
     top = settled.q[body, 0] + 0.05 * settled.q[body, 3]
     np.testing.assert_allclose(top, HOOK - (0, 0, ATTACHMENT_STRETCH), atol=1e-3 * ATTACHMENT_STRETCH)
 
 
-def test_two_anchors_are_a_hinge():
+def test_two_attachment_points_are_a_hinge():
     """A board held at two points of an edge swings down about that edge and keeps its direction along it."""
     corners = np.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0]])
     start = Pose(position=(0.0, 0.1, 1.0))
@@ -85,8 +85,8 @@ def test_attached_bodies_still_collide_with_one_another():
     builder = ModelBuilder()
     wall = add_hull(builder, box_points(0.1, 0.4, 0.6), Pose(position=(-0.05, 0, 0.7)), fixed=True)
     body = add_hull(builder, box_points(0.2, 0.1, 0.1), Pose(position=(0.105, 0, 0.8)))
-    anchor = np.array([-0.1, 0.0, 0.05])
-    builder.add_attachment(body, anchor, wall, np.array([0.055, 0.0, 0.15]))
+    point = np.array([-0.1, 0.0, 0.05])
+    builder.add_attachment(body, point, wall, np.array([0.055, 0.0, 0.15]))
     model = builder.finalize("cpu")
     settled = settle(model)
     assert settled.at_rest.all()

@@ -18,24 +18,24 @@ def dropped(model: Model, frames: int) -> tuple[bytes, Run]:
     return run.state().tobytes(), run
 
 
-def drop_with(monkeypatch, model: Model, frames: int, room: int) -> tuple[bytes, Run]:
+def drop_with(monkeypatch, model: Model, frames: int, capacity: int) -> tuple[bytes, Run]:
     for module, name in ((broad_phase, "CAPACITY"), (boxes, "CLUSTER_PAIRS"), (friction, "CAPACITY")):
-        monkeypatch.setattr(module, name, room)
+        monkeypatch.setattr(module, name, capacity)
     return dropped(model, frames)
 
 
 @pytest.mark.parametrize("kind", ["concave", "sharp"])
-def test_hulls_fall_alike_whatever_the_room_at_first(monkeypatch, kind):
+def test_hulls_fall_alike_whatever_the_capacity_at_first(monkeypatch, kind):
     model = random_scene(kind, 7)
     small, run = drop_with(monkeypatch, model, 25, 1)
-    large, roomy = drop_with(monkeypatch, model, 25, 1 << 16)
+    large, ample = drop_with(monkeypatch, model, 25, 1 << 16)
     assert small == large
-    assert run.potential.candidates.count == roomy.potential.candidates.count > 1
+    assert run.potential.candidates.count == ample.potential.candidates.count > 1
     assert run.potential.candidates.capacity < 1 << 16
-    assert roomy.potential.candidates.capacity == roomy.potential.friction.capacity == 1 << 16
+    assert ample.potential.candidates.capacity == ample.potential.friction.capacity == 1 << 16
 
 
-def test_detailed_bodies_fall_alike_whatever_the_room_at_first(monkeypatch):
+def test_detailed_bodies_fall_alike_whatever_the_capacity_at_first(monkeypatch):
     model = pair_of_lumps().finalize("cpu")
     small, run = drop_with(monkeypatch, model, 3, 1)
     large, _ = drop_with(monkeypatch, model, 3, 1 << 16)
@@ -45,7 +45,7 @@ def test_detailed_bodies_fall_alike_whatever_the_room_at_first(monkeypatch):
 
 
 def test_contacts_that_appear_while_a_run_goes_on_are_all_kept(monkeypatch):
-    """Friction's contacts are those candidates that are within the barrier's reach, counted by another way."""
+    """Friction's contacts are those candidates that are closer than d_hat, counted by another way."""
     model = random_scene("concave", 3)
     _, run = drop_with(monkeypatch, model, 30, 1)
     potential = run.potential

@@ -42,7 +42,17 @@ class Candidates:
 
     def __post_init__(self) -> None:
         model, device = self.model, self.model.device
-        self._boxes = Boxes(model)
+        self._boxes = boxes = Boxes(model)
+        self._boxed = filled(
+            Boxed,
+            ranges=model.cluster_ranges,
+            edges=model.edges,
+            triangles=model.triangles,
+            low=boxes.low,
+            high=boxes.high,
+            cluster_low=boxes.cluster_low,
+            cluster_high=boxes.cluster_high,
+        )
         self._size = wp.zeros(1, dtype=int, device=device)
         self._outside = wp.zeros(1, dtype=int, device=device)
         self._margin = wp.zeros(1, dtype=wp.float64, device=device)
@@ -129,17 +139,7 @@ class Candidates:
                 _pair_candidates,
                 dim=(len(close), boxes.lanes),
                 device=model.device,
-                inputs=[
-                    boxes.lanes,
-                    close,
-                    model.cluster_ranges,
-                    boxes.cluster_low,
-                    boxes.cluster_high,
-                    model.edges,
-                    model.triangles,
-                    boxes.low,
-                    boxes.high,
-                ],
+                inputs=[boxes.lanes, close, self._boxed],
                 outputs=[self._size, self.kind, self.primitives],
             )
             self.count = int(self._size.numpy()[0])
@@ -208,45 +208,48 @@ def _ground_candidates(
         _append(counter, kinds, primitives, POINT_GROUND, wp.vec4i(v, -1, -1, -1))
 
 
+@wp.struct
+class Boxed:
+    """Primitives of clusters, and the boxes of vertices and clusters."""
+
+    ranges: wp.array2d(dtype=int)
+    """`Model.cluster_ranges`."""
+    edges: wp.array(dtype=wp.vec2i)
+    triangles: wp.array(dtype=wp.vec3i)
+    low: wp.array(dtype=wp.vec3d)
+    """Of vertices [m]."""
+    high: wp.array(dtype=wp.vec3d)
+    cluster_low: wp.array(dtype=wp.vec3d)
+    """[m]"""
+    cluster_high: wp.array(dtype=wp.vec3d)
+
+
 @wp.func
 def _points_against_faces(
     points: int,
     faces: int,
     lane: int,
     lanes: int,
-    ranges: wp.array2d(dtype=int),
-    boxes_low: wp.array(dtype=wp.vec3d),
-    boxes_high: wp.array(dtype=wp.vec3d),
-    triangles: wp.array(dtype=wp.vec3i),
-    low: wp.array(dtype=wp.vec3d),
-    high: wp.array(dtype=wp.vec3d),
+    boxed: Boxed,
     counter: wp.array(dtype=int),
     kinds: wp.array(dtype=int),
     primitives: wp.array(dtype=wp.vec4i),
 ):
-    for f in range(ranges[faces, 4] + lane, ranges[faces, 5], lanes):
-        t = triangles[f]
-        a = wp.min(wp.min(low[t[0]], low[t[1]]), low[t[2]])
-        b = wp.max(wp.max(high[t[0]], high[t[1]]), high[t[2]])
-        if boxes_overlap(a, b, boxes_low[points], boxes_high[points]):
-            for v in range(ranges[points, 0], ranges[points, 1]):
-                if boxes_overlap(a, b, low[v], high[v]):
+    for f in range(boxed.ranges[faces, 4] + lane, boxed.ranges[faces, 5], lanes):
+        t = boxed.triangles[f]
+        a = wp.min(wp.min(boxed.low[t[0]], boxed.low[t[1]]), boxed.low[t[2]])
+        b = wp.max(wp.max(boxed.high[t[0]], boxed.high[t[1]]), boxed.high[t[2]])
+        if boxes_overlap(a, b, boxed.cluster_low[points], boxed.cluster_high[points]):
+            for v in range(boxed.ranges[points, 0], boxed.ranges[points, 1]):
+                if boxes_overlap(a, b, boxed.low[v], boxed.high[v]):
                     _append(counter, kinds, primitives, POINT_TRIANGLE, wp.vec4i(v, t[0], t[1], t[2]))
 
 
 @wp.kernel
 def _pair_candidates(
     lanes: int,
-    # Model
     close: wp.array(dtype=wp.vec2i),
-    ranges: wp.array2d(dtype=int),
-    # State in
-    boxes_low: wp.array(dtype=wp.vec3d),
-    boxes_high: wp.array(dtype=wp.vec3d),
-    edges: wp.array(dtype=wp.vec2i),
-    triangles: wp.array(dtype=wp.vec3i),
-    low: wp.array(dtype=wp.vec3d),
-    high: wp.array(dtype=wp.vec3d),
+    boxed: Boxed,
     # Out
     counter: wp.array(dtype=int),
     kinds: wp.array(dtype=int),
@@ -255,18 +258,15 @@ def _pair_candidates(
     slot, lane = wp.tid()
     p = close[slot][0]
     q = close[slot][1]
-    _points_against_faces(
-        p, q, lane, lanes, ranges, boxes_low, boxes_high, triangles, low, high, counter, kinds, primitives
-    )
-    _points_against_faces(
-        q, p, lane, lanes, ranges, boxes_low, boxes_high, triangles, low, high, counter, kinds, primitives
-    )
-    for i in range(ranges[p, 2] + lane, ranges[p, 3], lanes):
-        e = edges[i]
-        a = wp.min(low[e[0]], low[e[1]])
-        b = wp.max(high[e[0]], high[e[1]])
-        if boxes_overlap(a, b, boxes_low[q], boxes_high[q]):
-            for j in range(ranges[q, 2], ranges[q, 3]):
-                g = edges[j]
-                if boxes_overlap(a, b, wp.min(low[g[0]], low[g[1]]), wp.max(high[g[0]], high[g[1]])):
+    _points_against_faces(p, q, lane, lanes, boxed, counter, kinds, primitives)
+    _points_against_faces(q, p, lane, lanes, boxed, counter, kinds, primitives)
+    for i in range(boxed.ranges[p, 2] + lane, boxed.ranges[p, 3], lanes):
+        e = boxed.edges[i]
+        a = wp.min(boxed.low[e[0]], boxed.low[e[1]])
+        b = wp.max(boxed.high[e[0]], boxed.high[e[1]])
+        if boxes_overlap(a, b, boxed.cluster_low[q], boxed.cluster_high[q]):
+            for j in range(boxed.ranges[q, 2], boxed.ranges[q, 3]):
+                g = boxed.edges[j]
+                low = wp.min(boxed.low[g[0]], boxed.low[g[1]])
+                if boxes_overlap(a, b, low, wp.max(boxed.high[g[0]], boxed.high[g[1]])):
                     _append(counter, kinds, primitives, EDGE_EDGE, wp.vec4i(e[0], e[1], g[0], g[1]))

@@ -190,6 +190,15 @@ def _record(
 
 
 @wp.func
+def mobilisation(y: wp.float64, epsilon: wp.float64):
+    """f0'(y) / y and f0''(y) - f0'(y) / y [1/m]."""
+    if y < epsilon:
+        return wp.float64(2.0) / epsilon - y / (epsilon * epsilon), -y / (epsilon * epsilon)
+    ratio = wp.float64(1.0) / y
+    return ratio, -ratio
+
+
+@wp.func
 def _displacement(
     pair: wp.vec2i,
     c: vec8d,
@@ -229,11 +238,9 @@ def _value(
     y = wp.length(u)
     strength = law.coefficient[world] * record.force[i]
     value = y
-    # f0'(y) / y
-    ratio = wp.float64(1.0) / wp.max(y, epsilon)
     if y < epsilon:
         value = y * y / epsilon - y * y * y / (wp.float64(3.0) * epsilon * epsilon) + epsilon / wp.float64(3.0)
-        ratio = wp.float64(2.0) / epsilon - y / (epsilon * epsilon)
+    ratio, _ = mobilisation(y, epsilon)
     wp.atomic_add(energy, world, strength * value)
     drag = strength * ratio * u
     for k in range(4):
@@ -266,11 +273,7 @@ def _hessian(
     y = wp.length(u)
     strength = law.coefficient[world] * record.force[k]
     # P = f0'/y (I - n n^T) + (f0'' - f0'/y) u u^T / y^2
-    ratio = wp.float64(1.0) / wp.max(y, epsilon)
-    radial = -ratio
-    if y < epsilon:
-        ratio = wp.float64(2.0) / epsilon - y / (epsilon * epsilon)
-        radial = -y / (epsilon * epsilon)
+    ratio, radial = mobilisation(y, epsilon)
     direction = u / wp.max(y, wp.float64(1.0e-300))
     identity = wp.identity(n=3, dtype=wp.float64)
     block = strength * (ratio * (identity - wp.outer(n, n)) + radial * wp.outer(direction, direction))

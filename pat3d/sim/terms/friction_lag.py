@@ -27,7 +27,7 @@ from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.pairs import Pairs, contact_at
 from pat3d.sim.kernel_modules import declare_kernels
 from pat3d.sim.terms.contact import cross_gradient_u, cross_gradient_v, mollifier_slope
-from pat3d.sim.terms.friction import Friction, FrictionLaw
+from pat3d.sim.terms.friction import Friction, FrictionLaw, mobilisation
 
 declare_kernels(__name__, most_records=8, gradients=True)
 
@@ -108,7 +108,6 @@ def _pull_back(
     if d >= d_hat:
         return
     zero = wp.float64(0.0)
-    one = wp.float64(1.0)
     a = contact.body_a
     b = contact.body_b
     n = contact.normal
@@ -126,11 +125,7 @@ def _pull_back(
     y = wp.length(u)
     direction = u / wp.max(y, wp.float64(1.0e-300))
     # k = f0'/y and y k'
-    k = one / wp.max(y, epsilon)
-    radial = -k
-    if y < epsilon:
-        k = wp.float64(2.0) / epsilon - y / (epsilon * epsilon)
-        radial = -y / (epsilon * epsilon)
+    k, radial = mobilisation(y, epsilon)
     su = wp.dot(s, u)
     strength = mu * normal_force
     bar_u = strength * (radial * wp.dot(s, direction) * direction + k * s)
