@@ -190,7 +190,7 @@ def test_an_interrupted_run_goes_on_after_the_last_finished_stage(tmp_path):
     out = tmp_path / "ball"
 
     def stop(event):
-        if event.stage == "proving":
+        if event.stage == "verifying":
             raise _StoppedError
 
     with pytest.raises(_StoppedError):
