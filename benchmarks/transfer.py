@@ -165,10 +165,11 @@ def table(
         "# Scenes in other engines",
         "",
         f"{seconds:g} s of simulated time; drift at any time, from the pose in "
-        f"scene.json; still means under {MM:g} mm and {DEGREES:g} degree. The last columns: the most that any object still "
-        "moves in the last quarter of a run.",
+        f"scene.json; still means under {MM:g} mm and {DEGREES:g} degree. Last columns: the most that any object "
+        "still moves in the last quarter of a run.",
         "",
-        "| engine | version | settings | scenes | objects | still | median mm | worst mm | worst deg | mm/min | deg/min |",
+        "| engine | version | settings | scenes | objects | still | median mm | worst mm | worst deg "
+        "| mm/min | deg/min |",
         "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for engine in here:
