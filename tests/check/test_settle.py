@@ -112,7 +112,7 @@ def test_half_a_minute_tells_creep_and_a_box_has_none(tmp_path):
 
 
 def test_what_still_moves_late_in_the_run_is_named(tmp_path):
-    """Two boxes far up fall for longer than the run; the mean speed from third to last quarter is g (5/8 + 7/8) T / 2."""
+    """A box far up falls for longer than the run, from its third quarter to its last at 3/4 g T on average."""
     cube = asset_of(box(0.1, 0.1, 0.1))
     report = _settle(scene_of(placed("low", cube, (0, 0, GAP)), placed("high", cube, (1, 0, 1e4))), tmp_path, 30.0)
     assert [obj.name for obj in report.creeping()] == ["high"]
