@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from pat3d.errors import Pat3dError
 from pat3d.exporters.compare import locate
@@ -74,7 +75,7 @@ def contents(scene: Scene, path: str | Path, *, anew: Path | None = None) -> Con
     with tempfile.TemporaryDirectory(prefix="pat3d-contents-") as scratch:
         if anew is None:
             package = (folder / "scene.usdz").is_file()
-            usd = {"text": main.suffix == ".usda", "package": package} if kind == "usd" else {}
+            usd: dict[str, Any] = {"text": main.suffix == ".usda", "package": package} if kind == "usd" else {}
             anew = export(scene, (kind,), scratch, **usd)[kind].parent
         lines = tuple(f"{folder / name}: {line}." for name, line in _folders(folder, anew))
         same = (filecmp.cmp(folder / name, anew / name, shallow=False) for name in _names(anew))

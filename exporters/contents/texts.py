@@ -155,7 +155,7 @@ def _json(found: Any, expected: Any, place: str) -> Iterator[str]:
             else:
                 yield from _json(found[key], expected[key], where)
     elif _are_numbers(found) and _are_numbers(expected):
-        if not same_numbers(found, expected):
+        if not same_numbers(np.array(found), np.array(expected)):
             yield f"{place} is {shown(found)} instead of {shown(expected)}"
     elif isinstance(found, list) and isinstance(expected, list) and len(found) == len(expected):
         for number, (one, other) in enumerate(zip(found, expected, strict=True)):

@@ -31,13 +31,15 @@ def same_words(found: str | None, expected: str | None) -> bool:
         return True
     if len(here) != len(there):
         return False
-    numbers = []
+    mine: list[float] = []
+    theirs: list[float] = []
     for one, other in zip(here, there, strict=True):
         if _NUMBER.fullmatch(one) and _NUMBER.fullmatch(other):
-            numbers.append((float(one), float(other)))
+            mine.append(float(one))
+            theirs.append(float(other))
         elif one != other:
             return False
-    return same_numbers(*zip(*numbers, strict=True)) if numbers else True
+    return same_numbers(mine, theirs)
 
 
 def same_numbers(found: ArrayLike, expected: ArrayLike, relative: float = RELATIVE) -> bool:

@@ -89,9 +89,7 @@ def check_folder(folder: str | Path, *, seconds: float = STILL_SECONDS, progress
 
 
 def creep_notes(verification: Verification) -> list[str]:
-    """A line for every object that stands but never quite stops; a shorter run than usual cannot tell."""
-    if verification.mujoco.seconds < STILL_SECONDS:
-        return []
+    """A line for every object that stands but never quite stops."""
     return [
         f'"{obj.name}" still moves after {verification.mujoco.seconds:g} s of MuJoCo: {obj.creep_mm or 0.0:.2g} mm and '
         f"{obj.creep_degrees or 0.0:.2g} degrees a minute (still is under {CREEP_MM:g} and {CREEP_DEGREES:g})."

@@ -17,6 +17,9 @@ from pat3d.scene.physics import STILL_SECONDS
 SAMPLE_STEPS = 5
 """Time steps between two measurements of the drift."""
 
+CREEP_SECONDS = 30.0
+"""A shorter run [s] cannot tell creep from the last of the settling, which may take some seconds."""
+
 CREEP_MM = 0.1
 """Objects that are slower than this late in a run [mm a minute] stand still for as long as anybody watches..."""
 
@@ -39,7 +42,7 @@ class ObjectDrift:
     degrees: float
     """Rotation [degrees]."""
     creep_mm: float | None = None
-    """Speed of the centre of mass late in the run [mm a minute], see `creep`; None where it was not measured."""
+    """Speed of the centre of mass late in the run [mm a minute], see `creep`; None after a short run."""
     creep_degrees: float | None = None
     """Rotation late in the run [degrees a minute]."""
 
@@ -74,7 +77,7 @@ class SettleReport:
 
     @property
     def worst_creep_mm(self) -> float | None:
-        """Largest speed late in the run [mm a minute]; None where it was not measured."""
+        """Largest speed late in the run [mm a minute]; None after a short run."""
         return max((obj.creep_mm for obj in self.objects if obj.creep_mm is not None), default=None)
 
     @property
@@ -127,12 +130,14 @@ def creep(
         quats: unit quaternions, any sign, shape (records, bodies, 4).
 
     Returns:
-        [mm a minute] and [degrees a minute], shape (bodies,) each; None where a quarter has no record.
+        [mm a minute] and [degrees a minute], shape (bodies,) each; None for runs of less than CREEP_SECONDS.
     """
     start, end = float(times[0]), float(times[-1])
+    if end - start < 0.99 * CREEP_SECONDS:
+        return None
     third = (times >= start + 0.5 * (end - start)) & (times < start + 0.75 * (end - start))
     last = times >= start + 0.75 * (end - start)
-    if not (third.any() and last.any()) or end <= start:
+    if not (third.any() and last.any()):
         return None
     minutes = float(times[last].mean() - times[third].mean()) / 60.0
     aligned = quats * np.where(np.einsum("rbi,bi->rb", quats, quats[-1]) < 0, -1.0, 1.0)[:, :, None]

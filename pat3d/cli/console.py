@@ -246,8 +246,8 @@ def show_settings(target: Console, reports: Sequence[SettingReport]) -> None:
         )
     target.print(table)
     target.print(
-        f"\n{reports[0].report.seconds:g} s each; what stands strays less than 1 mm and 1 degree. Verified is the scene "
-        "as written.",
+        f"\n{reports[0].report.seconds:g} s each; what stands strays less than 1 mm and 1 degree. Verified is the "
+        "scene as written.",
         markup=False,
     )
 

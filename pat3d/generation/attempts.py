@@ -76,7 +76,7 @@ class Attempt:
 
     @property
     def lost(self) -> tuple[Relation, ...]:
-        """Lateral relations of the layout that do not hold at rest: no failure, but less faithful."""
+        """Lateral relations that hold in the layout and not at rest; an optimisation may bring them back."""
         if self.scene is None or self.settled is None:
             return ()
         return lost(self.scene, self.checked.verification.relations if self.checked else relations_at_rest(self.scene))

@@ -3,6 +3,7 @@
 import pytest
 
 from pat3d.check.settings import SETTINGS, check_settings, chosen_settings
+from pat3d.cli.main import main
 from pat3d.errors import SpecError
 from pat3d.exporters.mjcf.writer import write_mjcf
 from tests.scenes import tower
@@ -51,3 +52,13 @@ def test_names_are_chosen_once_and_unknown_ones_are_listed():
     ]
     with pytest.raises(SpecError, match=r"unknown setting \"warp\".*integrator-euler.*all"):
         chosen_settings(["warp"])
+
+
+def test_the_command_prints_a_row_for_every_setting(tmp_path, capsys):
+    write_mjcf(tower(1), tmp_path / "mjcf")
+    assert main(["check", str(tmp_path), "--settings", "cone-pyramidal,timestep-5ms", "--seconds", "0.2"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("stands") == 4
+    assert "as written" in said
+    assert "time step 5 ms" in said
+    assert main(["check", str(tmp_path), "--settings", "all", "--seconds", "-1"]) == 2

@@ -99,3 +99,22 @@ def test_a_file_that_mujoco_refuses_is_an_error(tmp_path):
     (tmp_path / "scene.xml").write_text("<mujoco><worldbody><nonsense/></worldbody></mujoco>")
     with pytest.raises(CheckError, match="nonsense"):
         settle_in_mujoco(tmp_path / "scene.xml")
+
+
+def test_half_a_minute_tells_creep_and_a_box_has_none(tmp_path):
+    report = _settle(tower(1), tmp_path, 30.0)
+    assert report.worst_creep_mm is not None
+    assert report.worst_creep_degrees is not None
+    assert report.worst_creep_mm < 1e-3
+    assert report.worst_creep_degrees < 1e-3
+    assert report.creeping() == ()
+    assert report.as_dict()["worst_creep_mm_per_minute"] == report.worst_creep_mm
+
+
+def test_what_still_moves_late_in_the_run_is_named(tmp_path):
+    """A box far up falls for longer than the run, from its third quarter to its last at 3/4 g T on average."""
+    cube = asset_of(box(0.1, 0.1, 0.1))
+    report = _settle(scene_of(placed("low", cube, (0, 0, GAP)), placed("high", cube, (1, 0, 1e4))), tmp_path, 30.0)
+    assert [obj.name for obj in report.creeping()] == ["high"]
+    speed = 9.81 * 0.75 * 30.0
+    assert report.worst_creep_mm == pytest.approx(60e3 * speed, rel=1e-3)

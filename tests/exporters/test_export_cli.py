@@ -29,7 +29,8 @@ def folder(tmp_path):
 def test_a_scene_is_written_in_every_format_and_read_back(folder, tmp_path, capfd):
     out = tmp_path / "exports" / "desk"
     assert main(["export", str(folder), "--formats", "mjcf,urdf", "sdf", "--out", str(out)]) == 0
-    assert sorted(path.name for path in out.iterdir()) == ["mjcf", "sdf", "urdf"]
+    assert sorted(path.name for path in out.iterdir()) == ["checksums.json", "mjcf", "sdf", "urdf"]
+    assert main(["check", str(out)]) == 0
     said = capfd.readouterr().out
     assert "MuJoCo" in said
     assert said.count("same") >= 4
