@@ -15,13 +15,25 @@ from pat3d.policies_eval.analysis.statistics import clopper_pearson, compare, ep
 
 
 @given(st.integers(1, 400), st.data())
-def test_both_intervals_are_those_of_scipy(n, data):
+def test_both_intervals_are_those_of_their_definitions(n, data):
+    """Wilson's ends are where the score test is just significant; the exact ones where a tail has 2.5 %."""
     k = data.draw(st.integers(0, n))
-    for ours, method in ((wilson, "wilson"), (clopper_pearson, "exact")):
-        theirs = stats.binomtest(k, n).proportion_ci(0.95, method=method)
-        mine = ours(k, n)
-        assert mine.low == pytest.approx(theirs.low, abs=1e-12)
-        assert mine.high == pytest.approx(theirs.high, abs=1e-12)
+    rate = wilson(k, n)
+    z = 1.959963984540054
+    for end in (rate.low, rate.high):
+        if 1e-12 < end < 1 - 1e-12:
+            assert abs(k / n - end) == pytest.approx(z * math.sqrt(end * (1 - end) / n), abs=1e-9)
+    assert rate.low <= k / n <= rate.high
+    exact = clopper_pearson(k, n)
+    assert (exact.successes, exact.episodes) == (k, n)
+    assert exact.low == (0.0 if k == 0 else pytest.approx(stats.beta.ppf(0.025, k, n - k + 1), abs=1e-9))
+    assert exact.high == (1.0 if k == n else pytest.approx(stats.beta.ppf(0.975, k + 1, n - k), abs=1e-9))
+    assert (rate.low == 0.0, rate.high == 1.0) == (k == 0, k == n)
+
+
+def test_another_level_gives_another_interval():
+    assert wilson(5, 10, 0.5).high < wilson(5, 10).high
+    assert clopper_pearson(5, 10, 0.99).low < clopper_pearson(5, 10).low
 
 
 @pytest.mark.parametrize("p", [0.02, 0.3, 0.9])
