@@ -56,6 +56,16 @@ sys.meta_path.insert(0, Broken())
 """As of a MuJoCo that the environments do not know: every environment raises when it is made."""
 
 
+WITHOUT_GYMNASIUM = """
+import importlib.abc, sys
+class Absent(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name.split(".")[0] == "gymnasium":
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Absent())
+"""
+
+
 def test_an_environment_that_raises_is_no_score_and_claims_no_folder(tmp_path):
     pytest.importorskip("robosuite")
     done = command(BROKEN_ENVIRONMENT, "evaluate", "--policy", "random", "--episodes", "3", "--out", "o", cwd=tmp_path)
@@ -76,7 +86,7 @@ def test_an_environment_that_raises_is_no_score_and_claims_no_folder(tmp_path):
     ],
 )
 def test_without_gymnasium_the_command_says_how_to_get_it(tmp_path, arguments, out):
-    done = command("import sys\nsys.modules['gymnasium'] = None\n", *arguments, "--out", out, cwd=tmp_path)
+    done = command(WITHOUT_GYMNASIUM, *arguments, "--out", out, cwd=tmp_path)
     assert done.returncode == 2
     assert f"pat3d: pat3d {arguments[0]} needs gymnasium, which is not installed: pip install 'pat3d[" in done.stderr
     assert "Traceback" not in done.stderr
