@@ -147,6 +147,22 @@ def test_comparison_pairs_episodes_and_refuses_what_cannot_be_compared(done, tmp
         compare_evaluations(done, read_evaluation(tmp_path / "b"))
 
 
+def test_two_runs_with_the_same_options_compare_and_others_say_which_differ(tmp_path, capsys):
+    def run(policy, name, *more):
+        episodes = ["--episodes", "2", "--max-steps", "4", "--no-pictures", *more]
+        assert main(["evaluate", "--policy", policy, *episodes, "--out", str(tmp_path / name)]) == 0
+        return str(tmp_path / name)
+
+    first, second = run("scripted", "a"), run("random", "b")
+    perturbed = run("random", "c", "--perturb", "pose=0.01")
+    capsys.readouterr()
+    assert main(["compare", first, second]) == 0
+    assert "McNemar p = 1" in capsys.readouterr().out
+    assert main(["compare", first, perturbed]) == 2
+    assert "evaluate both with the same --perturb." in capsys.readouterr().err
+    assert main(["leaderboard", first, second]) == 0
+
+
 def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
     from pat3d.cli.console import console
 
@@ -189,7 +205,9 @@ def test_a_film_shows_one_episode(done, tmp_path, capsys):
     assert main([*arguments, "--video", str(tmp_path / "x.gif"), "--picture", str(tmp_path / "x.png")]) == 0
     assert (tmp_path / "x.png").stat().st_size > 1000
     assert (tmp_path / "x.gif").read_bytes()[:4] == b"GIF8"
-    assert "1 of 1 episodes went as recorded" in capsys.readouterr().out
+    told = capsys.readouterr()
+    assert "1 of 1 episodes went as recorded" in told.out
+    assert "filming 1/" in told.err
     assert main(["replay", folder, "--episode", "99"]) == 2
     assert "done: 0 to 3" in capsys.readouterr().err
     assert main(["replay", folder, "--video", str(tmp_path / "x.gif")]) == 2
