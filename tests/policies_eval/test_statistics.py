@@ -68,6 +68,13 @@ def test_the_episodes_needed_give_the_promised_power():
     assert 0.72 < found < 0.88
 
 
+def test_the_episodes_needed_are_miettinen_s():
+    """d = 0.35, e = 0.15: (1.95996 sqrt(0.35) + 0.84162 sqrt(0.35 - 0.0225))^2 / 0.0225 = 119.7."""
+    assert episodes_needed(25, 10, 100) == 120
+    # All episodes differ, all one way: (1.95996 + 0)^2 = 3.84.
+    assert episodes_needed(10, 0, 10) == 4
+
+
 def test_equal_policies_have_no_number_of_episodes():
     seen = compare([(True, True), (True, False), (False, True), (False, False)])
     assert (seen.both, seen.only_first, seen.only_second, seen.neither) == (1, 1, 1, 1)
