@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from pat3d.errors import EvaluationError
+from pat3d.policies_eval.analysis.compare import PairedResult, verdict
 from pat3d.policies_eval.analysis.statistics import clopper_pearson, compare, episodes_needed, mcnemar, wilson
 
 
@@ -69,10 +71,23 @@ def test_the_episodes_needed_give_the_promised_power():
 
 
 def test_the_episodes_needed_are_miettinen_s():
-    """d = 0.35, e = 0.15: (1.95996 sqrt(0.35) + 0.84162 sqrt(0.35 - 0.0225))^2 / 0.0225 = 119.7."""
+    """With d = 0.35 and e = 0.15, n = (1.95996 sqrt(0.35) + 0.84162 sqrt(0.35 - 0.0225))^2 / 0.0225 = 119.7."""
     assert episodes_needed(25, 10, 100) == 120
     # All episodes differ, all one way: (1.95996 + 0)^2 = 3.84.
     assert episodes_needed(10, 0, 10) == 4
+
+
+def test_the_better_policy_is_the_one_that_did_what_the_other_did_not():
+    found = compare([(True, False)] * 12 + [(False, True)] + [(False, False)] * 7)
+    assert found.difference == pytest.approx(11 / 20)
+    assert found.decided
+    rates = (wilson(12, 20), wilson(1, 20))
+    told = PairedResult(names=("ours", "theirs"), rates=rates, comparison=found, left_out=0, notes=())
+    assert verdict(told) == "ours is better (5 % level)."
+    other = compare([(False, True)] * 12 + [(False, False)] * 8)
+    assert verdict(replace(told, comparison=other)) == "theirs is better (5 % level)."
+    few = compare([(True, False)] * 2 + [(False, False)] * 8)
+    assert verdict(replace(told, comparison=few)).startswith("Not decided: a difference of this size takes about 37")
 
 
 def test_equal_policies_have_no_number_of_episodes():
