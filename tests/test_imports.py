@@ -1,4 +1,4 @@
-"""What is loaded when: importing PAT3D and asking for help load nothing heavy, and no command loads another's module."""
+"""What is loaded when: importing PAT3D and asking for help load nothing heavy, and a command its own module."""
 
 import os
 import re

@@ -124,7 +124,7 @@ def request_key(request: SceneRequest, *, seed: int, friction: float, device: st
 
 
 class Attempts:
-    """Makes attempts at one request."""
+    """Makes attempts at one request: layouts with different seeds, each settled and verified."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""From planned objects to assets: what a request asks for, made."""
+"""A request for a scene, whatever it came from, and the objects that a plan asks for, made from the catalogue."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@ import contextlib
 import io
 import json
 import tomllib
+import zlib
 from pathlib import Path
 
 import pytest
@@ -37,12 +38,36 @@ def test_catalogue_lists_every_noun_with_its_size(small_catalogue, capsys):
     assert capsys.readouterr().out == first
 
 
-def test_a_damaged_size_cache_is_measured_again(small_catalogue, tmp_path, capsys):
+def test_the_sizes_of_every_noun_ship_with_the_package_and_nothing_is_measured(monkeypatch, capsys):
+    from pat3d.cli import catalogue as browse
+
+    def measured(noun, seed):
+        raise AssertionError(f"{noun} was measured")
+
+    monkeypatch.setattr(browse, "_size_of", measured)
     assert main(["catalogue"]) == 0
+    assert f"{len(browse.nouns.entries())} nouns" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("share", [pytest.param(1, marks=pytest.mark.slow), 40])
+def test_the_sizes_that_ship_are_those_of_the_recipes(share):
+    """One noun in 40, chosen by its name; all of them in the slow test. `measure_shipped` writes them anew."""
+    from pat3d.cli import catalogue as browse
+
+    shipped = json.loads(browse.shipped_sizes().read_text())
+    found = browse.nouns.entries()
+    assert set(shipped) == {entry.noun for entry in found}
+    for entry in found:
+        if zlib.crc32(entry.noun.encode()) % share == 0:
+            assert browse._size_of(entry.noun, 0) == pytest.approx(shipped[entry.noun], abs=1e-4)
+
+
+def test_a_damaged_size_cache_is_measured_again(small_catalogue, tmp_path, capsys):
+    assert main(["catalogue", "--seed", "1"]) == 0
     first = capsys.readouterr().out
     (cache,) = (tmp_path / "cache").glob("catalogue-*.json")
     cache.write_text(json.dumps({small_catalogue[0].noun: "big"}))
-    assert main(["catalogue"]) == 0
+    assert main(["catalogue", "--seed", "1"]) == 0
     assert capsys.readouterr().out == first
 
 

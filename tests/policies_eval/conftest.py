@@ -17,7 +17,7 @@ def runner():
     from pat3d.policies_eval.run.rollout import Runner
     from pat3d.policies_eval.run.settings import RolloutSettings
 
-    made = Runner(RolloutSettings(max_steps=100, act_seconds=2.0))
+    made = Runner(RolloutSettings(max_steps=100, act_seconds=3600.0))
     yield made
     made.close()
 

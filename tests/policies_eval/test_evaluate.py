@@ -6,6 +6,8 @@ import json
 import os
 import time
 from collections import deque
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,7 +28,8 @@ from pat3d.policies_eval.run.evaluate import evaluate, next_episode
 from pat3d.policies_eval.run.records import read_evaluation
 from pat3d.policies_eval.run.settings import RolloutSettings
 
-SHORT = RolloutSettings(max_steps=8, act_seconds=1.0)
+SHORT = RolloutSettings(max_steps=8, act_seconds=3600.0)
+"""No machine is so slow that an action of these policies takes an hour."""
 EPISODES = episodes_of([Setting(scene="", task="pick:red mug")], 4)
 
 
@@ -78,21 +81,19 @@ def test_episodes_that_take_longer_than_a_second_are_kept_at_once_and_shorter_on
 
 def test_another_evaluation_in_the_folder_is_not_mixed_with(done):
     with pytest.raises(EvaluationError, match="max_steps: 8 there, 9 now"):
-        evaluate("random", EPISODES, done.folder, settings=RolloutSettings(max_steps=9, act_seconds=1.0), workers=0)
+        evaluate("random", EPISODES, done.folder, settings=replace(SHORT, max_steps=9), workers=0)
 
 
 class Freezes:
     """Hangs where no Python exception reaches it, in the second episode; dies in the third."""
 
-    count = 0
-
     def reset(self, episode):
-        type(self).count += 1
         if episode.seed == EPISODES[1].seed:
             import signal
 
             signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGALRM])
-            time.sleep(300)
+            Path(os.environ["PAT3D_TEST_FROZEN"]).touch()
+            time.sleep(100_000)
         if episode.seed == EPISODES[2].seed:
             os._exit(7)
 
@@ -111,7 +112,16 @@ def test_a_worker_stays_with_its_scene_while_there_are_episodes_of_it():
 
 
 def test_a_worker_that_hangs_or_dies_is_a_policy_error_and_the_run_goes_on(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "GRACE_SECONDS", 1.0)
+    """The policy says when it hangs, and only then has the parent's clock passed the hour that an action may take."""
+    frozen = tmp_path / "frozen"
+    monkeypatch.setenv("PAT3D_TEST_FROZEN", str(frozen))
+
+    def now():
+        late = 2 * SHORT.act_seconds if frozen.exists() else 0.0
+        frozen.unlink(missing_ok=True)
+        return time.monotonic() + late
+
+    monkeypatch.setattr(module, "now", now)
     found = evaluate(f"{__name__}:Freezes", EPISODES, tmp_path / "f", settings=SHORT, workers=1)
     assert [one.outcome for one in found.results] == ["missed", "policy_error", "policy_error", "missed"]
     assert "hang" in found.results[1].reason
@@ -135,6 +145,22 @@ def test_comparison_pairs_episodes_and_refuses_what_cannot_be_compared(done, tmp
     file.write_text(json.dumps(manifest))
     with pytest.raises(EvaluationError, match=r"mujoco \(2.0.0"):
         compare_evaluations(done, read_evaluation(tmp_path / "b"))
+
+
+def test_two_runs_with_the_same_options_compare_and_others_say_which_differ(tmp_path, capsys):
+    def run(policy, name, *more):
+        episodes = ["--episodes", "2", "--max-steps", "4", "--no-pictures", *more]
+        assert main(["evaluate", "--policy", policy, *episodes, "--out", str(tmp_path / name)]) == 0
+        return str(tmp_path / name)
+
+    first, second = run("scripted", "a"), run("random", "b")
+    perturbed = run("random", "c", "--perturb", "pose=0.01")
+    capsys.readouterr()
+    assert main(["compare", first, second]) == 0
+    assert "McNemar p = 1" in capsys.readouterr().out
+    assert main(["compare", first, perturbed]) == 2
+    assert "evaluate both with the same --perturb." in capsys.readouterr().err
+    assert main(["leaderboard", first, second]) == 0
 
 
 def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
@@ -179,7 +205,9 @@ def test_a_film_shows_one_episode(done, tmp_path, capsys):
     assert main([*arguments, "--video", str(tmp_path / "x.gif"), "--picture", str(tmp_path / "x.png")]) == 0
     assert (tmp_path / "x.png").stat().st_size > 1000
     assert (tmp_path / "x.gif").read_bytes()[:4] == b"GIF8"
-    assert "1 of 1 episodes went as recorded" in capsys.readouterr().out
+    told = capsys.readouterr()
+    assert "1 of 1 episodes went as recorded" in told.out
+    assert "filming 1/" in told.err
     assert main(["replay", folder, "--episode", "99"]) == 2
     assert "done: 0 to 3" in capsys.readouterr().err
     assert main(["replay", folder, "--video", str(tmp_path / "x.gif")]) == 2

@@ -131,7 +131,8 @@ def test_statistics_are_those_of_the_frames(tmp_path, shown):
         assert np.allclose(found["std"], values.std(axis=0))
         assert np.allclose(found["min"], values.min(axis=0))
         assert np.allclose(found["max"], values.max(axis=0))
-        assert np.allclose(found["q10"], np.quantile(values, 0.1, axis=0))
+        for name, share in (("q01", 0.01), ("q10", 0.1), ("q50", 0.5), ("q90", 0.9), ("q99", 0.99)):
+            assert np.allclose(found[name], np.quantile(values, share, axis=0))
         assert found["count"] == [len(values)]
     assert np.shape(stats["timestamp"]["mean"]) == (1,)
 
@@ -169,6 +170,13 @@ def test_films_hold_every_frame_where_the_episodes_say(tmp_path, monkeypatch):
     assert np.shape(stats["mean"]) == (3, 1, 1)
     assert np.allclose(np.ravel(stats["mean"]), everything.mean())
     assert np.allclose(np.ravel(stats["std"]), everything.std())
+    assert np.allclose(np.ravel(stats["min"]), everything.min())
+    assert np.allclose(np.ravel(stats["max"]), everything.max())
+    # Quantiles of films are means of the episodes' own, by their lengths.
+    parts = [one.observations["wrist_image"] / 255 for one in shown]
+    for name, share in (("q01", 0.01), ("q50", 0.5), ("q99", 0.99)):
+        mean = sum(len(part) * np.quantile(part, share) for part in parts) / len(everything)
+        assert np.allclose(np.ravel(stats[name]), mean)
 
 
 def test_a_folder_that_holds_something_is_left_alone(tmp_path, shown):

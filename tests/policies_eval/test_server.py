@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -36,6 +35,7 @@ def raw(handler):
         thread = threading.Thread(target=server.serve_forever, daemon=True)
         thread.start()
         yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
+        HELD.set()
         server.shutdown()
         thread.join(5)
 
@@ -76,6 +76,17 @@ def test_an_observation_has_the_names_that_openpi_uses():
     assert message["observation/state"].shape == (8,)
 
 
+HELD = threading.Event()
+"""Never set while a test waits for an answer."""
+
+
+@pytest.fixture(autouse=True)
+def release():
+    HELD.clear()
+    yield
+    HELD.set()
+
+
 def answering(reply):
     def handler(socket):
         socket.send(wire.pack({}))
@@ -93,12 +104,12 @@ def answering(reply):
         (lambda socket: socket.send("Traceback ...\nValueError: no image"), "server error"),
         (lambda socket: socket.close(), "disconnected"),
         (lambda socket: socket.send(b"\0" * 100_000_000), "too large"),
-        (lambda socket: time.sleep(3.0), "hang"),
+        (lambda socket: HELD.wait(), "hang"),
     ],
 )
 def test_what_a_server_may_do_wrong_is_a_policy_error(reply, kind):
     with raw(answering(reply)) as address:
-        policy = ServerPolicy(address, connect_seconds=5.0, answer_seconds=0.5 if kind == "hang" else 10.0)
+        policy = ServerPolicy(address, connect_seconds=3600.0, answer_seconds=0.2 if kind == "hang" else 3600.0)
         policy.reset(start())
         with pytest.raises(PolicyError) as caught:
             policy.act(OBSERVATION)
@@ -118,7 +129,7 @@ def test_after_a_lost_connection_the_next_episode_has_a_new_one():
             socket.send(wire.pack({"actions": np.zeros((1, 7))}))
 
     with raw(handler) as address:
-        policy = ServerPolicy(address, connect_seconds=5.0)
+        policy = ServerPolicy(address, connect_seconds=3600.0)
         policy.reset(start())
         with pytest.raises(PolicyError, match="disconnected"):
             policy.act(OBSERVATION)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,17 +12,30 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from pat3d.errors import EvaluationError
+from pat3d.policies_eval.analysis.compare import PairedResult, verdict
 from pat3d.policies_eval.analysis.statistics import clopper_pearson, compare, episodes_needed, mcnemar, wilson
 
 
 @given(st.integers(1, 400), st.data())
-def test_both_intervals_are_those_of_scipy(n, data):
+def test_both_intervals_are_those_of_their_definitions(n, data):
+    """Wilson's ends are where the score test is just significant; the exact ones where a tail has 2.5 %."""
     k = data.draw(st.integers(0, n))
-    for ours, method in ((wilson, "wilson"), (clopper_pearson, "exact")):
-        theirs = stats.binomtest(k, n).proportion_ci(0.95, method=method)
-        mine = ours(k, n)
-        assert mine.low == pytest.approx(theirs.low, abs=1e-12)
-        assert mine.high == pytest.approx(theirs.high, abs=1e-12)
+    rate = wilson(k, n)
+    z = 1.959963984540054
+    for end in (rate.low, rate.high):
+        if 1e-12 < end < 1 - 1e-12:
+            assert abs(k / n - end) == pytest.approx(z * math.sqrt(end * (1 - end) / n), abs=1e-9)
+    assert rate.low <= k / n <= rate.high
+    exact = clopper_pearson(k, n)
+    assert (exact.successes, exact.episodes) == (k, n)
+    assert exact.low == (0.0 if k == 0 else pytest.approx(stats.beta.ppf(0.025, k, n - k + 1), abs=1e-9))
+    assert exact.high == (1.0 if k == n else pytest.approx(stats.beta.ppf(0.975, k + 1, n - k), abs=1e-9))
+    assert (rate.low == 0.0, rate.high == 1.0) == (k == 0, k == n)
+
+
+def test_another_level_gives_another_interval():
+    assert wilson(5, 10, 0.5).high < wilson(5, 10).high
+    assert clopper_pearson(5, 10, 0.99).low < clopper_pearson(5, 10).low
 
 
 @pytest.mark.parametrize("p", [0.02, 0.3, 0.9])
@@ -54,6 +68,26 @@ def test_the_episodes_needed_give_the_promised_power():
     draws = random.multinomial(needed, [0.25, 0.10, 0.65], size=1500)
     found = np.mean([mcnemar(int(b), int(c)) < 0.05 for b, c, _ in draws])
     assert 0.72 < found < 0.88
+
+
+def test_the_episodes_needed_are_miettinen_s():
+    """With d = 0.35 and e = 0.15, n = (1.95996 sqrt(0.35) + 0.84162 sqrt(0.35 - 0.0225))^2 / 0.0225 = 119.7."""
+    assert episodes_needed(25, 10, 100) == 120
+    # All episodes differ, all one way: (1.95996 + 0)^2 = 3.84.
+    assert episodes_needed(10, 0, 10) == 4
+
+
+def test_the_better_policy_is_the_one_that_did_what_the_other_did_not():
+    found = compare([(True, False)] * 12 + [(False, True)] + [(False, False)] * 7)
+    assert found.difference == pytest.approx(11 / 20)
+    assert found.decided
+    rates = (wilson(12, 20), wilson(1, 20))
+    told = PairedResult(names=("ours", "theirs"), rates=rates, comparison=found, left_out=0, notes=())
+    assert verdict(told) == "ours is better (5 % level)."
+    other = compare([(False, True)] * 12 + [(False, False)] * 8)
+    assert verdict(replace(told, comparison=other)) == "theirs is better (5 % level)."
+    few = compare([(True, False)] * 2 + [(False, False)] * 8)
+    assert verdict(replace(told, comparison=few)).startswith("Not decided: a difference of this size takes about 37")
 
 
 def test_equal_policies_have_no_number_of_episodes():
