@@ -63,10 +63,9 @@ class Patch:
 
         Infinite beyond the largest of them.
         """
-        near = [len(self.corners(distance)) > 0 for distance in DISTANCES]
-        if not any(near):
+        first = next((k for k, distance in enumerate(DISTANCES) if len(self.corners(distance))), None)
+        if first is None:
             return np.inf
-        first = near.index(True)
         high, low = DISTANCES[first], DISTANCES[max(first - 1, 0)]
         while high - low > high / 30:
             middle = (low + high) / 2

@@ -96,7 +96,9 @@ def test_a_round_foot_tips_over_its_true_edge(sides):
     certificate = certify(scene, margin=True)
     ideal = math.degrees(math.atan(radius / (height / 2)))
     # 48 sides of the picture, sixteen corners of the support, sixteen directions: each inscribed in a circle.
-    assert 0.93 * ideal <= certificate.largest_tilt <= 1.005 * ideal
+    assert 0.93 * ideal <= certificate.outline_tilt <= 1.005 * ideal
+    # Engines keep four of its contact points.
+    assert 0.73 * ideal <= certificate.largest_tilt <= 0.92 * ideal
 
 
 def test_a_thin_foot_of_a_wide_part_has_its_own_tilt():
@@ -105,7 +107,7 @@ def test_a_thin_foot_of_a_wide_part_has_its_own_tilt():
     scene = scene_of(placed("cone", asset_of(Shape(cone.solid, cylinder(0.03, 0.2).hulls)), (0, 0, GAP)))
     certificate = certify(scene, margin=True)
     centre = float(scene["cone"].asset.mass_properties.centre_of_mass[2])
-    assert certificate.largest_tilt == pytest.approx(math.degrees(math.atan(0.005 / centre)), rel=0.05)
+    assert certificate.outline_tilt == pytest.approx(math.degrees(math.atan(0.005 / centre)), rel=0.05)
 
 
 def test_a_ball_in_a_part_around_it_touches_where_the_ball_does():
