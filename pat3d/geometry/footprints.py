@@ -39,7 +39,7 @@ class Plane:
         axis = np.eye(3)[np.argmin(np.abs(normal))]
         first = np.cross(normal, axis)
         first /= np.linalg.norm(first)
-        axes = np.stack([first, np.cross(normal, first), normal])
+        axes = np.asarray(np.stack([first, np.cross(normal, first), normal]), dtype=np.float64)
         return cls(axes=axes, offset=float(point @ normal))
 
     def seen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
