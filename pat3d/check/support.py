@@ -30,6 +30,9 @@ UPRIGHT = 0.99
 FLAT_AROUND = 0.05
 """What is flat this far around a contact, as a share of the size of what lies there, is a floor."""
 
+CAP = 1.3
+"""A surface is flat, not round, where it is near to the plane for this much further than its curvature says."""
+
 MENTIONED = 2
 """Contacts that a failure names at most."""
 
@@ -195,6 +198,10 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
     asset, pose = scene.objects[body].asset, scene.objects[body].pose
     upper = curvature(pose.apply(asset.visual.vertices), patch.plane, at, sign, float(asset.size.max()))
     if upper is None:
+        return None
+    # A foot is flat for further than so round a thing would be near to the plane.
+    turns, axes = np.linalg.eigh(upper)
+    if np.any(np.ptp(corners @ axes, axis=0) > 2 * CAP * np.sqrt(2 * DISTANCES[1] / np.maximum(turns, 1e-3))):
         return None
     lower = np.zeros((2, 2))
     if other != GROUND_INDEX and not patch.flat(1 - own, at, FLAT_AROUND * float(asset.size.max())):
