@@ -96,9 +96,9 @@ def balls() -> tuple[Scene, float | None]:
     ball = asset_of(ellipsoid(0.03))
     hull = ConvexHull(ball.parts[0].vertices)
     normal = hull.equations[0, :3]
-    turn, _ = Rotation.align_vectors([[0, 0, 1]], [normal])
+    turn = Rotation.align_vectors([[0, 0, 1]], [normal])[0]
     depth = -hull.equations[0, 3]
-    other, _ = Rotation.align_vectors([[0, 0, -1]], [normal])
+    other = Rotation.align_vectors([[0, 0, -1]], [normal])[0]
     return scene_of(
         placed("low", ball, pose=Pose.from_matrix(turn.as_matrix(), np.array([0, 0, depth])), fixed=True),
         placed("high", ball, pose=Pose.from_matrix(other.as_matrix(), np.array([0, 0, 3 * depth + GAP]))),

@@ -290,7 +290,7 @@ def _solve(
     from scipy import sparse
 
     rows, width = matrix.shape
-    residual = sparse.lil_matrix((rows // 3 * 4, width + 1))
+    residual = np.zeros((rows // 3 * 4, width + 1))
     target = np.zeros(rows // 3 * 4)
     for block in range(rows // 3):
         here, vector = slice(3 * block, 3 * block + 3), slice(4 * block + 1, 4 * block + 4)
@@ -300,24 +300,26 @@ def _solve(
             residual[4 * block, -1] = -1.0
         else:
             target[4 * block] = allowed
-            residual[vector, -1] = -tilted[0][here, None]
-    inside = -sparse.eye(3 * contacts, width + 1)
-    blocks, targets = [inside, residual.tocsc()], [np.zeros(3 * contacts), target]
+            residual[vector, -1] = -tilted[0][here]
+    blocks, targets = [-np.eye(3 * contacts, width + 1), residual], [np.zeros(3 * contacts), target]
     cones = [clarabel.SecondOrderConeT(3)] * contacts + [clarabel.SecondOrderConeT(4)] * (rows // 3)
     objective = np.zeros(width + 1)
     objective[-1] = 1.0 if tilted is None else -1.0
     if weights is not None:
         objective = np.append(weights, 0.0)
     if tilted is not None:
-        last = sparse.csc_matrix(([1.0], ([0], [width])), shape=(1, width + 1))
-        blocks, targets, cones = [*blocks, last], [*targets, [tilted[1]]], [*cones, clarabel.NonnegativeConeT(1)]
+        blocks, targets, cones = (
+            [*blocks, np.eye(1, width + 1, width)],
+            [*targets, [tilted[1]]],
+            [*cones, clarabel.NonnegativeConeT(1)],
+        )
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_iter = 100
     solution = clarabel.DefaultSolver(
         sparse.csc_matrix((width + 1, width + 1)),
         objective,
-        sparse.vstack(blocks, format="csc"),
+        sparse.csc_matrix(np.concatenate(blocks)),
         np.concatenate(targets),
         cones,
         settings,

@@ -57,6 +57,8 @@ class PenetrationReport:
     """Pairs whose visual meshes intersect."""
     gaps: tuple[Gap, ...]
     """Pairs within a millimetre that do not intersect."""
+    afloat: tuple[str, ...]
+    """Fixed objects that nothing is within a millimetre of: the user fixed them, and no force holds them."""
     ratio: float
     """R: volume shared by pairs of visual meshes over the volume of all objects [-].
 
@@ -117,7 +119,14 @@ def penetration(scene: Scene) -> PenetrationReport:
                     seen.append(Overlap(first=first.name, second=second.name, depth=depth, volume=volume))
                     shared += volume or 0.0
     total = sum(obj.asset.mass_properties.volume for obj in objects)
-    return PenetrationReport(hulls=tuple(deep), visuals=tuple(seen), gaps=tuple(gaps), ratio=shared / total)
+    near = {name for pair in (*deep, *gaps) for name in (pair.first, pair.second)}
+    return PenetrationReport(
+        hulls=tuple(deep),
+        visuals=tuple(seen),
+        gaps=tuple(gaps),
+        afloat=tuple(obj.name for obj in objects if obj.fixed and obj.name not in near),
+        ratio=shared / total,
+    )
 
 
 Soup = tuple[NDArray[np.float64], NDArray[np.int32]]

@@ -16,12 +16,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.check.balance import Balance
+from pat3d.check.rolling import Rolling, curvature, rolling
 from pat3d.check.surfaces import DISTANCES, Patch, beyond, contacts_of, patches
 from pat3d.geometry.contacts import GROUND_INDEX, Contacts
 from pat3d.scene.model import GROUND, Scene
 
 CARRIES = 0.01
 """Share of the lighter object's weight from which a contact counts as carrying."""
+
+UPRIGHT = 0.99
+"""Cosine of the normal's angle with z up to which one object lies on top of another."""
+
+FLAT_AROUND = 0.05
+"""What is flat this far around a contact, as a share of the size of what lies there, is a floor."""
+
+CAP = 1.3
+"""A surface is flat, not round, where it is near to the plane for this much further than its curvature says."""
 
 MENTIONED = 2
 """Contacts that a failure names at most."""
@@ -57,6 +67,10 @@ class Support:
     unsupported: Mapping[str, tuple[Excess, ...]] = field(default_factory=dict)
     """Objects that only the excess of convex parts holds, and their contacts that are not really there."""
 
+    rolling: Mapping[str, Rolling] = field(default_factory=dict)
+    """What rests in one point of a smooth surface, on what is under it alone, and whether it rolls away from there. The
+    flat sides of its convex part hold it still in engines."""
+
     @property
     def failures(self) -> tuple[str, ...]:
         """A line for every object that true surfaces do not hold."""
@@ -72,6 +86,7 @@ class Support:
             "air": dict(self.air),
             "excess": dict(self.excess),
             "unsupported": {name: [asdict(one) for one in worst] for name, worst in self.unsupported.items()},
+            "rolling": dict(self.rolling),
             "failures": list(self.failures),
         }
 
@@ -100,6 +115,7 @@ def true_support(scene: Scene, contacts: Contacts, balance: Balance, friction: f
     air: dict[str, float] = {}
     excess: dict[str, float] = {}
     unsupported: dict[str, tuple[Excess, ...]] = {}
+    rolls: dict[str, Rolling] = {}
     kept: list[Contacts] = []
     for group in balance.groups:
         members = set(group.members)
@@ -115,13 +131,20 @@ def true_support(scene: Scene, contacts: Contacts, balance: Balance, friction: f
         true = contacts_of(placed)
         kept.append(true)
         carrying = _carrying(scene, true, members, friction, tolerance)
+        pressed = [one for one, carries in zip(placed, carrying, strict=True) if carries]
+        for body in group.members:
+            touching = [one for one in pressed if body in one[0].bodies]
+            if len(touching) == 1 and (found := _rolling(scene, *touching[0], body)):
+                rolls[names[body]] = found
         for number, (patch, corners) in enumerate(placed):
             if not carrying[number]:
                 continue
             for body in members.intersection(patch.bodies):
                 air[names[body]] = max(air.get(names[body], 0.0), patch.air)
                 excess[names[body]] = max(excess.get(names[body], 0.0), beyond(patch.points, corners))
-    return Found(support=Support(air=air, excess=excess, unsupported=unsupported), contacts=_joined(kept))
+    return Found(
+        support=Support(air=air, excess=excess, unsupported=unsupported, rolling=rolls), contacts=_joined(kept)
+    )
 
 
 def _held(
@@ -163,6 +186,33 @@ def _carrying(scene: Scene, true: Contacts, members: set[int], friction: float, 
             if found is not None:
                 np.maximum.at(force, number[group.source], found)
     return (force >= CARRIES).tolist()
+
+
+def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int) -> Rolling | None:
+    """Whether `body` rolls away from its only contact; None where either surface is flat or has an edge there."""
+    own = patch.bodies.index(body)
+    sign, other = (1.0, -1.0)[own], patch.bodies[1 - own]
+    if sign * patch.plane.axes[2, 2] < UPRIGHT:
+        return None
+    at = corners.mean(axis=0)
+    asset, pose = scene.objects[body].asset, scene.objects[body].pose
+    upper = curvature(pose.apply(asset.visual.vertices), patch.plane, at, sign, float(asset.size.max()))
+    if upper is None:
+        return None
+    # A foot is flat for further than so round a thing would be near to the plane.
+    turns, axes = np.linalg.eigh(upper)
+    if np.any(np.ptp(corners @ axes, axis=0) > 2 * CAP * np.sqrt(2 * DISTANCES[1] / np.maximum(turns, 1e-3))):
+        return None
+    lower = np.zeros((2, 2))
+    if other != GROUND_INDEX and not patch.flat(1 - own, at, FLAT_AROUND * float(asset.size.max())):
+        under = scene.objects[other]
+        vertices = under.pose.apply(under.asset.visual.vertices)
+        bent = curvature(vertices, patch.plane, at, -sign, float(under.asset.size.max()))
+        if bent is None:
+            return None
+        lower = bent
+    centre = pose.apply(np.array([asset.mass_properties.centre_of_mass]))
+    return rolling(upper, lower, sign * float(patch.plane.seen(centre)[0, 2]))
 
 
 def _worst(names: list[str], own: list[Patch], body: int) -> tuple[Excess, ...]:

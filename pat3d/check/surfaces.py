@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,9 @@ the same, while a floor that is not there carries nothing."""
 
 TOLERANCE = 1e-5
 """By this much a mesh may stick out of its parts, or end below them [m]."""
+
+FULL = 0.98
+"""Share of a window that a flat surface fills at least."""
 
 _BESIDE = 0.3
 """True surfaces may meet this far beside the parts' contact points, as a share of the smaller object's size."""
@@ -63,10 +67,9 @@ class Patch:
 
         Infinite beyond the largest of them.
         """
-        near = [len(self.corners(distance)) > 0 for distance in DISTANCES]
-        if not any(near):
+        first = next((k for k, distance in enumerate(DISTANCES) if len(self.corners(distance))), None)
+        if first is None:
             return np.inf
-        first = near.index(True)
         high, low = DISTANCES[first], DISTANCES[max(first - 1, 0)]
         while high - low > high / 30:
             middle = (low + high) / 2
@@ -82,10 +85,18 @@ class Patch:
         )
         return corners_of(above ^ below)
 
+    def flat(self, number: int, at: NDArray[np.float64], reach: float) -> bool:
+        """Whether the mesh on side `number` fills the plane up to `reach` around `at` [m]."""
+        side = self.sides[number]
+        around = rectangle(np.stack([at - reach, at + reach]))
+        return side is None or (side.within(DISTANCES[0]) ^ around).area() > FULL * around.area()
+
 
 def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
     """The planes in which objects of `scene` touch by `contacts` of their parts."""
-    meshes = [(obj.pose.apply(obj.asset.visual.vertices), obj.asset.visual.faces) for obj in scene.objects]
+    meshes: list[tuple[Any, Any]] = [
+        (obj.pose.apply(obj.asset.visual.vertices), obj.asset.visual.faces) for obj in scene.objects
+    ]
     sizes = [float(obj.asset.size.max()) for obj in scene.objects]
     found = []
     for members in _planes(contacts):
@@ -104,7 +115,9 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
                 gap=float(contacts.gaps[members].min()),
                 window=window,
                 sides=tuple(  # type: ignore[arg-type]
-                    None if body == GROUND_INDEX else Footprint(*meshes[body], plane, side, window, DISTANCES[-1])
+                    None
+                    if body == GROUND_INDEX
+                    else Footprint(meshes[body][0], meshes[body][1], plane, side, window, DISTANCES[-1])
                     for body, side in ((first, 1.0), (second, -1.0))
                 ),
                 allowed=tuple(  # type: ignore[arg-type]

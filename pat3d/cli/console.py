@@ -119,7 +119,9 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
         residual = verification.certificate.residuals.get(obj.name)
         table.add_row(
             obj.name,
-            "fixed" if obj.fixed else scene.parent(obj.name),
+            ("fixed by the user, afloat" if obj.name in verification.penetration.afloat else "fixed")
+            if obj.fixed
+            else scene.parent(obj.name),
             f"{obj.asset.mass_properties.mass:.3g}",
             "-" if drift is None else f"{max(drift.centre_mm, drift.origin_mm):.3f}",
             "-" if drift is None else f"{drift.degrees:.3f}",
@@ -154,6 +156,11 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
     for name, verdict in verdicts.items():
         target.print(verdict, style={"pass": "green", "FAIL": "bold red"}[verdict], end="  ")
         target.print(f"{name}: {texts[name]}", markup=False)
+    for name, rolls in (support.rolling if support else {}).items():
+        if rolls != "stable":
+            target.print(
+                f"      {name}: {rolls} on its round side; flat sides of its convex part hold it", markup=False
+            )
 
 
 def _millimetres(lengths: Mapping[str, float] | None, name: str) -> str:

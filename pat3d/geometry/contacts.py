@@ -180,6 +180,38 @@ def merged(contacts: Contacts) -> Contacts:
     return contacts.pick(corners_of_planes(contacts))
 
 
+def four_of_each(contacts: Contacts) -> Contacts:
+    """At most four contacts for every pair of parts in one plane, spread as far as they go.
+
+    Engines keep so many of a face (MuJoCo's and Bullet's meshes do): what stands on a round foot stands on a square in
+    it, and rocks from one to the next.
+    """
+    keep: list[int] = []
+    pairs = np.concatenate([contacts.bodies, contacts.parts], axis=1)
+    for pair in np.unique(pairs, axis=0):
+        members = np.flatnonzero((pairs == pair).all(axis=1))
+        while len(members):
+            normal = contacts.normals[members[0]]
+            same = contacts.normals[members] @ normal > 1.0 - 1e-10
+            keep += _spread(contacts.points, _corners(contacts.points, members[same], normal))
+            members = members[~same]
+    return contacts.pick(np.array(sorted(keep), dtype=np.int64))
+
+
+def _spread(points: NDArray[np.float64], members: list[int]) -> list[int]:
+    """Of corners of a plane polygon the two furthest apart, and the furthest on either side of their line."""
+    if len(members) <= 4:
+        return members
+    own = points[members]
+    apart = np.linalg.norm(own[:, None] - own[None], axis=2)
+    first, second = np.unravel_index(np.argmax(apart), apart.shape)
+    along = (own[second] - own[first]) / apart[first, second]
+    across = own - own[first] - ((own - own[first]) @ along)[:, None] * along
+    furthest = int(np.argmax(np.linalg.norm(across, axis=1)))
+    side = across @ across[furthest]
+    return [members[k] for k in dict.fromkeys((int(first), int(second), furthest, int(np.argmin(side))))]
+
+
 def _corners(points: NDArray[np.float64], members: NDArray[np.int64], normal: NDArray[np.float64]) -> list[int]:
     """Those of `members` that are corners of the convex hull of their points seen along `normal`."""
     axis = np.eye(3)[np.argmin(np.abs(normal))]

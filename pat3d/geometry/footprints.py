@@ -39,7 +39,7 @@ class Plane:
         axis = np.eye(3)[np.argmin(np.abs(normal))]
         first = np.cross(normal, axis)
         first /= np.linalg.norm(first)
-        axes = np.stack([first, np.cross(normal, first), normal])
+        axes = np.asarray(np.stack([first, np.cross(normal, first), normal]), dtype=np.float64)
         return cls(axes=axes, offset=float(point @ normal))
 
     def seen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -85,6 +85,9 @@ class Footprint:
         u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         cross = np.cross(u, v)
         facing = cross[:, 2] * side <= _AWAY * np.linalg.norm(cross, axis=1)
+        # Seen from above a face that looks down is clockwise; clipping keeps the order.
+        clockwise = cross[:, 2] < 0.0
+        corners[clockwise] = corners[clockwise, ::-1]
         self._corners, self._low, self._high = corners[facing], self._low[facing], self._high[facing]
         self._window = window
 
@@ -92,14 +95,14 @@ class Footprint:
         """The region, in micrometres, where the mesh is at most `distance` [m] from the plane."""
         chosen = (self._low <= distance) & (self._high >= -_BEHIND)
         whole = chosen & (self._high <= distance) & (self._low >= -_BEHIND)
-        polygons = [_turned(one[:, :2]) for one in self._corners[whole]]
-        for one in self._corners[chosen & ~whole]:
+        polygons = list(_UNIT * self._corners[whole][:, :, :2])
+        for one in self._corners[chosen & ~whole].tolist():
             cut = _clipped(_clipped(one, 1.0, distance), -1.0, _BEHIND)
             if len(cut) >= 3:
-                polygons.append(_turned(cut[:, :2]))
+                polygons.append(_UNIT * np.array(cut)[:, :2])
         if not polygons:
             return manifold3d.CrossSection()
-        region = manifold3d.CrossSection([_UNIT * one for one in polygons], manifold3d.FillRule.NonZero)
+        region = manifold3d.CrossSection(polygons, manifold3d.FillRule.NonZero)
         return region ^ rectangle(self._window)
 
 
@@ -120,20 +123,15 @@ def corners_of(region: Any, directions: int = 16) -> NDArray[np.float64]:
     return np.asarray(points[np.unique(furthest)] / _UNIT, dtype=np.float64)
 
 
-def _turned(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`polygon`, shape (n, 2), counter-clockwise."""
-    after = np.roll(polygon, -1, axis=0)
-    area = np.sum(polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0])
-    return polygon if area >= 0.0 else polygon[::-1]
-
-
-def _clipped(polygon: NDArray[np.float64], sign: float, limit: float) -> NDArray[np.float64]:
-    """The part of a polygon in space, shape (n, 3), with `sign` times its height at most `limit`."""
+def _clipped(polygon: list[list[float]], sign: float, limit: float) -> list[list[float]]:
+    """The part of a polygon in space, its corners (x, y, height), with `sign` times its height at most `limit`."""
     kept = []
-    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+    for k, b in enumerate(polygon):
+        a = polygon[k - 1]
         over_a, over_b = sign * a[2] - limit, sign * b[2] - limit
-        if over_a <= 0.0:
-            kept.append(a)
-        if (over_a < 0.0) != (over_b < 0.0) and over_a != over_b:
-            kept.append(a + over_a / (over_a - over_b) * (b - a))
-    return np.array(kept).reshape(-1, 3)
+        if (over_a < 0.0 < over_b) or (over_b < 0.0 < over_a):
+            t = over_a / (over_a - over_b)
+            kept.append([p + t * (q - p) for p, q in zip(a, b, strict=True)])
+        if over_b <= 0.0:
+            kept.append(b)
+    return kept

@@ -11,9 +11,11 @@ from PIL import Image
 
 from pat3d.assets.mesh import load as mesh_load
 from pat3d.assets.mesh.cover import outside, surface_points
+from pat3d.assets.mesh.decompose import Decomposition
 from pat3d.assets.mesh.importing import import_mesh
 from pat3d.assets.mesh.repair import repair
 from pat3d.assets.mesh.topology import signed_volume
+from pat3d.assets.shapes import prism
 from pat3d.errors import AssetError
 
 
@@ -462,3 +464,46 @@ def test_closed_boxes_in_one_file_stay_boxes(write, tmp_path):
     asset = import_mesh(write(tray, "corner.off"), cache_dir=tmp_path)
     assert len(asset.parts) == 3
     assert all(part.box is not None for part in asset.parts)
+
+
+def test_one_file_is_imported_once_until_it_changes(tmp_path, monkeypatch):
+    """A hundred objects of one mesh cost one import; their assets are not one object, so each keeps its own files."""
+    from pat3d.assets.mesh import importing
+
+    path = tmp_path / "block.obj"
+    trimesh.creation.box((0.1, 0.1, 0.1)).export(path)
+    calls = []
+    load = importing.load_mesh
+    monkeypatch.setattr(importing, "load_mesh", lambda *given, **more: calls.append(given) or load(*given, **more))
+    first, second = (importing.import_mesh(path, cache_dir=tmp_path / "cache") for _ in range(2))
+    assert first is not second
+    assert first.visual is second.visual
+    assert len(calls) == 1
+    importing.import_mesh(path, cache_dir=tmp_path / "cache", mass=1.0)
+    assert len(calls) == 2
+    trimesh.creation.box((0.1, 0.1, 0.2)).export(path)
+    assert importing.import_mesh(path, cache_dir=tmp_path / "cache").size[2] == pytest.approx(0.2)
+
+
+def test_all_pieces_of_a_mesh_share_one_budget_of_time(tmp_path, monkeypatch):
+    """A soup has dozens of pieces; a limit for each would add up to many minutes."""
+    from pat3d.assets.mesh import importing
+
+    clock = [0.0]
+    given = []
+
+    def slow(vertices, faces, *, timeout, **options):
+        given.append(timeout)
+        clock[0] += 40.0
+        return Decomposition(parts=[vertices], options={}, cached=False, seconds=40.0)
+
+    monkeypatch.setattr(importing, "decompose", slow)
+    monkeypatch.setattr(importing.time, "monotonic", lambda: clock[0])
+    outline = [(0, 0), (0.1, 0), (0.1, 0.03), (0.03, 0.03), (0.03, 0.1), (0, 0.1)]
+    ells = [prism(outline, 0.05).moved(x=0.2 * number).solid.to_mesh64() for number in range(4)]
+    ells = [trimesh.Trimesh(np.asarray(ell.vert_properties)[:, :3], np.asarray(ell.tri_verts)) for ell in ells]
+    path = tmp_path / "ells.stl"
+    trimesh.util.concatenate(ells).export(path)
+    importing.import_mesh(path, cache_dir=tmp_path / "cache", timeout=100.0)
+    assert given[:3] == [100.0, 60.0, 20.0]
+    assert all(rest == importing.LEAST_SECONDS for rest in given[3:])

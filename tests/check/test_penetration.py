@@ -68,3 +68,14 @@ def test_far_turned_objects_are_apart():
     assert report.passed
     assert report.least_gap == pytest.approx(0.0)  # Both stand on the ground; they are 9 mm apart.
     assert {gap.second for gap in report.gaps} == {"ground"}
+
+
+def test_fixed_objects_in_mid_air_are_said_to_be_fixed_by_the_user():
+    """A shelf on a wall touches nothing that holds it; a fixed table stands on the ground."""
+    shelf, table = asset_of(box(0.3, 0.2, 0.02)), asset_of(box(0.4, 0.4, 0.3))
+    scene = scene_of(
+        placed("shelf", shelf, (0, 0, 0.6), fixed=True),
+        placed("table", table, (0, 0, GAP), fixed=True),
+        placed("cup", asset_of(box(0.05, 0.05, 0.05)), (0, 0, 0.3 + 2 * GAP)),
+    )
+    assert penetration(scene).afloat == ("shelf",)

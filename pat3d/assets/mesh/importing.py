@@ -19,10 +19,11 @@ from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.cavity import cavity_loss
 from pat3d.assets.mesh.cover import cover, surface_patches, surface_points
 from pat3d.assets.mesh.decompose import DEFAULT_OPTIONS, decompose
-from pat3d.assets.mesh.load import LoadedMesh, load_mesh
+from pat3d.assets.mesh.load import LoadedMesh, files_beside, load_mesh
 from pat3d.assets.mesh.reduce import inflation
 from pat3d.assets.mesh.regions import cavity, find_regions, mesh_height_map
 from pat3d.assets.mesh.repair import Repaired, Solid, manifold_of, repair, solid_of
+from pat3d.assets.mesh.split import allowed, fitted
 from pat3d.assets.mesh.topology import signed_volume
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
@@ -72,7 +73,16 @@ NEARLY_CONVEX = 0.93
 MAX_DENT = 0.11
 """Depth below the convex hull as a fraction of the object's longest side; 0.02 for objects with a cavity."""
 
-_VERSION = 3
+LEAST_SECONDS = 1.0
+"""[s]; what a decomposition gets at least, so that one that is known is still found."""
+
+_VERSION = 4
+
+
+MOST_IMPORTED = 16
+
+_imported: dict[tuple[str, ...], Asset] = {}
+"""The last assets that this process imported, by the files and the arguments they came from."""
 
 
 def import_mesh(
@@ -111,7 +121,7 @@ def import_mesh(
         thickness: wall thickness [m] for open shells; see `repair`.
         texture_root: folder that material files may refer into; the mesh's own where None.
         cache_dir: where decompositions are kept; see `cache_root`.
-        timeout: [s] for one convex decomposition.
+        timeout: [s] for the convex decomposition of all pieces.
 
     Raises:
         AssetError: the file, the mesh or an argument is unusable; the message says why and what would do.
@@ -119,6 +129,13 @@ def import_mesh(
     path = Path(path)
     _check_arguments(units, scale, size, up, density, mass, friction, parts, thickness)
     found = find_material(material)
+    key = (
+        *files_beside(path, texture_root),
+        *map(str, (name, units, scale, size, up, density, mass, material, friction, parts, thickness, cache_dir)),
+    )
+    if key in _imported:
+        # A copy, since objects that share an asset share its files.
+        return replace(_imported[key])
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
@@ -138,7 +155,9 @@ def import_mesh(
     centre = np.array(properties.centre_of_mass) + lift
     uv = loaded.uv.reshape(-1, 2)[fixed.corners]
     used_scale = [float(factor) for factor in factors]
-    return Asset(
+    while len(_imported) >= MOST_IMPORTED:
+        del _imported[next(iter(_imported))]
+    _imported[key] = Asset(
         noun=name or path.stem,
         visual=VisualMesh(
             vertices=fixed.vertices + lift,
@@ -169,6 +188,7 @@ def import_mesh(
             "lifted": float(lift[2]),
         },
     )
+    return replace(_imported[key])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -201,11 +221,15 @@ def _make_parts(
     stored = load_points(path)
     if stored is not None:
         return _Parts(parts=[convex_part(hull) for hull in stored], record={**load_record(path), "cached": True})
+    # A budget for all pieces at all thresholds: a soup of triangles has dozens, and each could take all of it.
+    ends = start + timeout
+    limit = allowed(float(np.ptp(points, axis=0).max()))
     pit = cavity(mesh_height_map(fixed.solid.vertices, fixed.solid.faces))
     parts: list[ConvexPart] = []
     record: dict[str, Any] = {}
     for threshold in CAVITY_THRESHOLDS if pit else (THRESHOLD,):
-        hulls, options = _decomposed(fixed, threshold, pit is not None, cache_dir, timeout)
+        pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, ends)
+        hulls = [half for piece in pieces for half in fitted(piece, limit)] if len(pieces) <= MAX_PIECES else pieces
         parts, before, after = cover(hulls, points, triangles)
         record = {"options": options, "stuck_out": before, **_record(parts, hulls, after, start)}
         if pit is None or len(parts) > 150:
@@ -219,9 +243,9 @@ def _make_parts(
 
 
 def _decomposed(
-    fixed: Repaired, threshold: float, hollow: bool, cache_dir: str | os.PathLike[str] | None, timeout: float
+    fixed: Repaired, threshold: float, hollow: bool, cache_dir: str | os.PathLike[str] | None, ends: float
 ) -> tuple[list[NDArray[np.float64]], dict[str, Any]]:
-    """Convex hulls of all pieces, and CoACD's options where it was needed."""
+    """Convex hulls of all pieces by time `ends` [s] of the clock, and CoACD's options where it was needed."""
     pieces = fixed.pieces if len(fixed.pieces) <= MAX_PIECES else (fixed.solid,)
     whole = float(np.ptp(fixed.solid.vertices, axis=0).max())
     hulls: list[NDArray[np.float64]] = []
@@ -238,7 +262,7 @@ def _decomposed(
         done = decompose(
             piece.vertices,
             piece.faces.astype(np.int32),
-            timeout=timeout,
+            timeout=max(ends - time.monotonic(), LEAST_SECONDS),
             cache_dir=cache_dir,
             threshold=round(relative, 6),
         )

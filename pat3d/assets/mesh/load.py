@@ -222,3 +222,15 @@ def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> A
             raise ValueError(f'"{name}" is not written')
 
     return FolderResolver()
+
+
+def files_beside(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[str, ...]:
+    """Path, size and time of the mesh file and of all that it may draw from; equal for files that have not changed."""
+    found = []
+    for folder in {path.resolve().parent, Path(texture_root or path.parent).resolve()}:
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                if entry.is_file():
+                    status = entry.stat()
+                    found.append(f"{entry.path} {status.st_size} {status.st_mtime_ns}")
+    return str(path.resolve()), *sorted(found)

@@ -1,0 +1,71 @@
+"""Convex pieces that few vertices fit: what a reduced part would stick out of is cut in two, and again.
+
+A polyhedron of 64 triangles around a cylinder has 17 sides, whose corners are 1.7 % of the radius beyond it at best;
+around a ball they are 8 %. A half needs half as many sides, so its part sticks out by a quarter of that.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from pat3d.assets.mesh.reduce import inflation, reduce_hull
+from pat3d.errors import AssetError
+
+MOST, MOST_SHARE, LEAST = 1e-3, 0.01, 2e-4
+"""A part may stick out of its piece by a millimetre [m] and by this share of the object's size, or by the least [m]."""
+
+CUTS = 2
+"""A piece is cut so many times at most, into up to four: parts cost time in every stage and every engine."""
+
+_FLAT = 0.08
+"""Share of the surface from which a face is flat, not part of a curved side."""
+
+
+def allowed(size: float) -> float:
+    """How far parts of an object of longest side `size` may stick out of their pieces, both in metres."""
+    return max(min(MOST, MOST_SHARE * size), LEAST)
+
+
+def fitted(points: NDArray[np.float64], limit: float, cuts: int = CUTS) -> list[NDArray[np.float64]]:
+    """The hull of `points` in pieces, whose reduced parts stick out by at most `limit` if `cuts` suffice.
+
+    Args:
+        points: [m], shape (n, 3).
+        limit: [m].
+        cuts: most times that a piece is cut in two.
+
+    Returns:
+        Points of each piece; their hulls together are the hull of `points`.
+    """
+    if cuts == 0 or inflation(reduce_hull(points), points).distance <= limit:
+        return [points]
+    try:
+        halves = _halves(points)
+        return [piece for half in halves for piece in fitted(half, limit, cuts - 1)]
+    except (QhullError, AssetError):
+        return [points]
+
+
+def _halves(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Both sides of the plane through the middle across the axis along which curved sides turn most."""
+    hull = ConvexHull(points)
+    corners = points[hull.simplices]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    _, plane = np.unique(np.round(hull.equations, 6), axis=0, return_inverse=True)
+    share = np.bincount(plane.reshape(-1), weights=areas) / areas.sum()
+    curved = np.where(share[plane.reshape(-1)] < _FLAT, areas, 0.0)
+    turning = curved @ hull.equations[:, :3] ** 2
+    size = np.ptp(points, axis=0)
+    axis = int(np.argmax(turning * size))
+    at = float(points[:, axis].min() + size[axis] / 2)
+    used = points[hull.vertices]
+    edges = np.unique(np.sort(hull.simplices[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    first, second = points[edges[:, 0]], points[edges[:, 1]]
+    a, b = first[:, axis] - at, second[:, axis] - at
+    crossing = a * b < 0.0
+    t = (a[crossing] / (a[crossing] - b[crossing]))[:, None]
+    seam = first[crossing] + t * (second[crossing] - first[crossing])
+    seam[:, axis] = at
+    return np.concatenate([used[used[:, axis] <= at], seam]), np.concatenate([used[used[:, axis] >= at], seam])
