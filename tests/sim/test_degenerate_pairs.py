@@ -19,8 +19,8 @@ GAPS = (1e-9, 1e-6, 1e-3)
 HAIRS = (0.0, 1e-12, -1e-12)
 
 
-def energies(kind: str, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Value, gradient by q, shape (n, 24), and exact Hessian, shape (n, 24, 24); every pair is a world of its own."""
+def energies(kind: str, points: np.ndarray, exact: bool = True) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Value, gradient by q, shape (n, 24), and Hessian, shape (n, 24, 24); every pair is a world of its own."""
     n = len(points)
     ends = [0, 1, 1, 1] if kind == "pt" else [0, 0, 1, 1]
     body = (2 * np.arange(n)[:, None] + ends).ravel()
@@ -55,8 +55,9 @@ def energies(kind: str, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     gradient = wp.zeros((2 * n, 4), dtype=wp.vec3d, device="cpu")
     hessian = wp.zeros((n, 24, 24), dtype=wp.float64, device="cpu")
     everywhere = wp.full(n, 1, dtype=int, device="cpu")
+    how = wp.full(n, int(exact), dtype=int, device="cpu")
     at = Evaluation(q=position, position=position, active=everywhere)
-    for launch in (*contact.value_launches(at, value, gradient), *contact.hessian_launches(at, everywhere, hessian)):
+    for launch in (*contact.value_launches(at, value, gradient), *contact.hessian_launches(at, how, hessian)):
         launch("cpu")
     return value.numpy(), gradient.numpy().reshape(n, 24), hessian.numpy()
 
@@ -178,3 +179,21 @@ def test_degenerate_pairs_have_ipctk_energies_gradients_and_hessians(kind, cases
         ]
         assert min(errors) < 1, (points.tolist(), distance, errors)
     assert compared > 0.9 * len(cases)
+
+
+@pytest.mark.parametrize("sine", [0.005, 0.02, 0.5])
+def test_the_gauss_newton_hessian_is_the_curvature_along_the_distance(sine):
+    """It is m b'' grad d grad d^T by the state, of crossing edges that the mollifier weighs with little, more, or nothing."""
+    u, v = np.array([0.1, 0, 0]), 0.1 * np.array([np.sqrt(1 - sine**2), sine, 0])
+    start = np.array([0.0, 0, 4e-3])
+    points = np.array([-0.5 * u, 0.5 * u, start - 0.5 * v, start + 0.5 * v])
+    by_state = vertices_by_state("ee", points)
+    squared = ipctk.edge_edge_distance(*points)
+    gradient = np.array(ipctk.edge_edge_distance_gradient(*points)) @ by_state / (2 * np.sqrt(squared))
+    s = np.sqrt(squared) / D_HAT
+    curvature = -STIFFNESS / D_HAT * (2 * np.log(s) + 4 * (s - 1) / s - (s - 1) ** 2 / s**2)
+    mollifier = ipctk.edge_edge_mollifier(*points, float(PARALLEL) * 1e-4)
+    assert (mollifier < 1) == (sine < 0.03)
+    found = energies("ee", points[None], exact=False)[2][0]
+    expected = mollifier * curvature * np.outer(gradient, gradient)
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-10 * np.abs(expected).max())
