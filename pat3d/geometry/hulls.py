@@ -1,4 +1,4 @@
-"""Convex parts from point sets."""
+"""Convex hulls of point sets as convex parts, with exact boxes recognised."""
 
 from __future__ import annotations
 

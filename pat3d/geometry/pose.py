@@ -1,4 +1,4 @@
-"""Rigid placements."""
+"""Poses: rigid transforms of a position and a unit quaternion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Does a body stay up where it rests? Its centre of mass against the hull of its contacts, seen from above."""
+"""Support polygon and static stability: the centre of mass against the hull of the contacts, seen from above."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ends every layout: no two objects intersect and nothing is under the ground."""
+"""Intersection test that ends every layout: no two objects intersect and nothing is under the ground."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is arranged on a surface, seen from above."""
+"""Items, surfaces and lateral relations of a flat arrangement, seen from above: the input of rectangle packing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Regions of an asset in the frame of the layout: at the root's origin, axes parallel to the world's."""
+"""Cavities and support surfaces in the layout's frame: at the root's origin, axes parallel to the world's."""
 
 from __future__ import annotations
 

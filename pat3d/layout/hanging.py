@@ -138,9 +138,9 @@ def _tied(group: Group, carrier: Group, spot: Array, gap: float) -> tuple[Group,
         return None
     rise = min(fall(member, [root], floor=float(root.high[2]), gap=gap, upwards=True) for member in start.members)
     hung = start.shifted(np.array([0.0, 0.0, rise]))
-    room = min(_FREE, 0.25 * float(hung.size.min()))
-    lower = hung.shifted(np.array([0.0, 0.0, -room]))
-    free = all(clear(member, carrier.members, 0.8 * room) for member in lower.members)
+    air = min(_FREE, 0.25 * float(hung.size.min()))
+    lower = hung.shifted(np.array([0.0, 0.0, -air]))
+    free = all(clear(member, carrier.members, 0.8 * air) for member in lower.members)
     held = attachment(hung.root, root)
     grounded = float(hung.low[2]) < float(root.low[2]) + CLEARANCE
     return None if held is None or grounded or not free else (hung, held)

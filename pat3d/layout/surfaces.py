@@ -1,4 +1,4 @@
-"""Arranging things on a flat surface, seen from above: rectangles, and who stands left of whom.
+"""Rectangle packing on a flat surface, seen from above: footprints as rectangles, and who stands left of whom.
 
 Things are placed one after another. Each looks for the cheapest free place among those beside what is
 already there that satisfy its lateral relations; when none is left the search backs up, and when it runs
@@ -86,8 +86,8 @@ def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> b
         return False
     sizes = np.array([item.size for item in items])
     widest = np.full(2, sizes.max()) if strategy.quarters else sizes.max(axis=0)
-    room = 2 * np.array(surface.half_size) + 2 * strategy.overhang * widest + strategy.least
-    return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(room))
+    space = 2 * np.array(surface.half_size) + 2 * strategy.overhang * widest + strategy.least
+    return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(space))
 
 
 def natural_gap(first: Array, second: Array) -> float:
@@ -215,8 +215,8 @@ class _Search:
         if self.surface.limited:
             span = np.maximum(high.max(axis=0), centres + half) - np.minimum(low.min(axis=0), centres - half)
             largest = np.max([other.size for _, _, other in boxes] + [item.size], axis=0)
-            room = 2 * np.array(self.surface.half_size) + 2 * self.strategy.overhang * largest
-            cost[np.any(span > room + 1e-9, axis=1)] = np.inf
+            space = 2 * np.array(self.surface.half_size) + 2 * self.strategy.overhang * largest
+            cost[np.any(span > space + 1e-9, axis=1)] = np.inf
         cost += self._lateral_cost(item, centres)
         cost += self._taste(item, centres, low, high)
         return centres - (item.low + item.high) / 2, cost
@@ -247,7 +247,7 @@ class _Search:
                 cost[distance > min(limit, 1.0)] = np.inf
                 cost += 3.0 * distance
                 if kind == "next_to":
-                    # Beside means left or right of it, in line, unless there is no room.
+                    # Beside means left or right of it, in line, unless there is no free space.
                     cost += 1.5 * in_line[:, 1] + np.where(separation[:, 0] > 0, 0.0, 0.5 * half[1])
                 elif lat.child == item.name:
                     angle = np.arctan2(centres[:, 1] - middle[1], centres[:, 0] - middle[0])

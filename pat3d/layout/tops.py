@@ -58,7 +58,7 @@ def spread(
     """Place `groups` on the regions of `top`; returns them placed, and notes.
 
     Raises:
-        LayoutError: there is no room.
+        LayoutError: there is no free space.
     """
     placed: list[Group] = []
     notes: list[str] = []

@@ -8,7 +8,8 @@ First the layout as given is settled; if every relation holds, that is the answe
 (pat3d.optimize.starts) settles in the worlds of one model. Only if none of them holds, gradients of the semantic loss
 through the rollout refine the best few with Adam. The best settled scene wins: most relations that hold, then the least
 loss; among scenes in which everything holds, those that can be tilted furthest before their certificate fails come
-before those of less loss. If even the best endures little, loads are centred on their supports (pat3d.optimize.steady).
+before those of less loss. If even the best has a small tilt margin, loads are centred on their supports
+(pat3d.optimize.tilt_margin).
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from pat3d.optimize.loss import SemanticLoss, states
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.refine import Epoch, refine
 from pat3d.optimize.starts import Start, make_starts
-from pat3d.optimize.steady import recentred
+from pat3d.optimize.tilt_margin import recentred
 from pat3d.optimize.trial import Optimized, Trial
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Attachment, Relation, Scene, check_tree
@@ -33,7 +34,7 @@ from pat3d.sim.model import ModelBuilder, poses_from_states
 from pat3d.sim.run import SettleOptions
 from pat3d.sim.settling import settle
 
-STEADYING = 4
+RECENTRINGS = 4
 """Times that loads are centred at most."""
 Progress = Callable[[str, int, float], None]
 """Called with the phase ("settling", "settling starts", "epoch"), a step number, and its motion [m] or loss [m^2]."""
@@ -243,12 +244,12 @@ class _Search:
         )
 
     def judged(self, trial: Trial) -> Trial:
-        """`trial` with its steadiness, where everything holds in it."""
+        """`trial` with its tilt margin, where everything holds in it."""
         if not trial.satisfied:
             return trial
         from pat3d.check.certificate import steadiness
 
-        return replace(trial, steadiness=steadiness(self._scene(trial)))
+        return replace(trial, tilt_margin=steadiness(self._scene(trial)))
 
     def _refined(self, trial: Trial, number: int, history: list[Epoch]) -> list[Trial]:
         """Gradient steps from one trial's layout; what its promising iterates settle into."""
@@ -283,7 +284,7 @@ class _Search:
     def _steadied(self, trial: Trial) -> list[Trial]:
         """What `trial` becomes when its loads are centred on their supports, for as long as that helps."""
         found: list[Trial] = []
-        while trial.satisfied and not trial.steady and len(found) < STEADYING:
+        while trial.satisfied and not trial.steady and len(found) < RECENTRINGS:
             placement = self._at(trial)
             poses0 = recentred(placement, self._scene(trial))
             if poses0 is None:

@@ -133,10 +133,10 @@ def balanced(placement: Placement) -> NDArray[np.float64]:
 def shifts(placement: Placement, rng: np.random.Generator) -> NDArray[np.float64]:
     """Random variables, shape (objects, 3): within the parent's box, more often near than far."""
     size = np.array([asset.size[:2] for asset in placement.assets.values()])
-    room = np.array(
+    free = np.array(
         [size[placement.names.index(p)] if p != GROUND else np.full(2, 0.2) for p in placement.parent.values()]
     )
-    reach = np.minimum(0.5 * size, 0.25 * room) * rng.uniform(0.2, 1.0)
+    reach = np.minimum(0.5 * size, 0.25 * free) * rng.uniform(0.2, 1.0)
     turn = placement.radius * rng.uniform(0.0, 0.5)
     spread = np.column_stack([reach, turn])
     return np.where(placement.movable[:, None], spread * rng.uniform(-1.0, 1.0, spread.shape), 0.0)

@@ -1,4 +1,4 @@
-"""What a layout settles into, and the best of several."""
+"""One trial of the optimisation: what a layout settles into, its loss and tilt margin, and the best of several."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pat3d.layout.predicates import RelationResult
 from pat3d.optimize.refine import Epoch
 from pat3d.scene.model import Attachment
 
-STEADY = 2.0
-"""Tilt of the ground [degrees] that a scene should endure, several times what its verification asks for."""
-MORE_THAN_STEADY = 4.0
+LEAST_TILT = 2.0
+"""Tilt of the ground [degrees] that a scene should stand, several times what its verification asks for."""
+ENOUGH_TILT = 4.0
 """Tilt [degrees] beyond which more is not better."""
 
 
@@ -34,8 +34,8 @@ class Trial:
     """Every relation at rest."""
     attachments: tuple[Attachment, ...] = ()
     """What holds the things that hang."""
-    steadiness: float | None = None
-    """Tilt that it endures [degrees], see pat3d.check.certificate.steadiness; None where that made no difference."""
+    tilt_margin: float | None = None
+    """Tilt that it stands [degrees], see pat3d.check.certificate.steadiness; None where that made no difference."""
 
     @property
     def broken(self) -> tuple[RelationResult, ...]:
@@ -50,14 +50,14 @@ class Trial:
     @property
     def steady(self) -> bool:
         """Satisfied, and not about to fall."""
-        return self.satisfied and self.steadiness is not None and self.steadiness >= STEADY
+        return self.satisfied and self.tilt_margin is not None and self.tilt_margin >= LEAST_TILT
 
     @property
     def rank(self) -> tuple[int, bool, float, float]:
         """The least is best."""
         # Where everything holds, what is left of the loss (how far boxes jut out) matters less than standing firmly.
-        steadiness = -min(self.steadiness or 0.0, MORE_THAN_STEADY) if self.satisfied else 0.0
-        return len(self.broken), not self.at_rest, steadiness, self.loss
+        margin = -min(self.tilt_margin or 0.0, ENOUGH_TILT) if self.satisfied else 0.0
+        return len(self.broken), not self.at_rest, margin, self.loss
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -103,14 +103,14 @@ class Optimized:
             "loss_before": self.first.loss,
             "loss_after": self.best.loss,
             "broken": [str(result.relation) for result in self.best.broken],
-            "steadiness_degrees": self.best.steadiness,
+            "steadiness_degrees": self.best.tilt_margin,
             "trials": [
                 {
                     "source": one.source,
                     "loss": one.loss,
                     "broken": len(one.broken),
                     "at_rest": one.at_rest,
-                    "steadiness_degrees": one.steadiness,
+                    "steadiness_degrees": one.tilt_margin,
                 }
                 for one in self.trials
             ],

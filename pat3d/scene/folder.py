@@ -1,4 +1,4 @@
-"""The finished folder: what belongs to it, when it may be replaced, and how it appears all at once."""
+"""The scene folder on disk: what belongs to it, when it may be replaced, its reports, pictures and trajectory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""File and body names from object names."""
+"""Slugs: file and body names from object names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Averaging light along surfaces, over the tile of pixels that shares a sample set."""
+"""Denoising of sampled light: averages along surfaces, over the tile of pixels that shares a sample set."""
 
 from __future__ import annotations
 

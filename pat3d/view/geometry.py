@@ -1,4 +1,4 @@
-"""The triangles of a picture: placed meshes, smooth normals and the ray tracer over them."""
+"""The triangles of a picture: placed meshes with smooth normals and textures, and what view rays see of them."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ class Geometry:
         hits = self._scene.hits(origin, directions)
         face, distance, weights = hits.face, hits.distance, hits.weights
         ray = directions[hits.which]
-        point: NDArray[np.float32] = origin + distance[:, None] * ray
+        point = origin + distance[:, None] * ray
         corner_normals, corners = self._normals[face], self.corners[face]
         normal = unit(hits.at(self._normals))
         flat = self.face_normals[face]
@@ -131,8 +131,8 @@ class Geometry:
             which=hits.which,
             item=self._item[face],
             distance=distance,
-            point=point,
-            outside=point + lift,
+            point=point.astype(np.float32, copy=False),
+            outside=(point + lift).astype(np.float32, copy=False),
             normal=normal * side,
             flat=flat * side,
             colour=self._atlas.colour(self._item[face], hits.at(self._uv), footprint),

@@ -1,4 +1,4 @@
-"""The studio of every picture: a soft key light, a fill, a bright sky with one bounce, a seamless ground.
+"""Lighting of every picture: a soft key light, a fill, ambient occlusion of a bright sky with one bounce, and a ground.
 
 Light is measured so that a white diffuse surface in 1.0 appears white. Sky and bounce light are
 gathered with a few rays a pixel. The rays come from one low-discrepancy set dealt to tiles of 8 x 8 pixels (the key

@@ -1,4 +1,4 @@
-"""Textures of many meshes in one array, with smaller copies for distant surfaces."""
+"""Texture lookup: trilinear in an atlas of mipmaps, or the nearest texel of one image."""
 
 from __future__ import annotations
 

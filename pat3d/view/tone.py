@@ -25,9 +25,9 @@ def encode(values: ArrayLike) -> NDArray[np.float32]:
 
 def compress(light: NDArray[np.float32]) -> NDArray[np.float32]:
     """Map light in [0, inf) to [0, 1): the identity up to the shoulder, then smoothly towards 1."""
-    room = 1.0 - _SHOULDER
+    headroom = 1.0 - _SHOULDER
     excess = np.maximum(light - _SHOULDER, 0.0)
-    return (np.minimum(light, _SHOULDER) + room * (1.0 - np.exp(-excess / room))).astype(np.float32)
+    return (np.minimum(light, _SHOULDER) + headroom * (1.0 - np.exp(-excess / headroom))).astype(np.float32)
 
 
 def quantise(light: NDArray[np.float32], row: NDArray[np.int32], column: NDArray[np.int32]) -> NDArray[np.uint8]:

@@ -1,4 +1,4 @@
-"""From how high to look, so that what lies in a container or behind something is in the picture too."""
+"""Camera elevation by visibility: so high that what lies in a container or behind something is in the picture."""
 
 from __future__ import annotations
 

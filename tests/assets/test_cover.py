@@ -59,3 +59,12 @@ def test_points_outside_all_parts_are_contained_at_the_end():
     assert before == pytest.approx(0.1)
     assert after <= TOLERANCE
     assert outside(far, parts)[0].max() <= TOLERANCE
+
+
+def test_the_part_that_is_nearest_grows_and_the_other_stays():
+    stray = np.array([[0.215, 0.05, 0.05]])
+    parts, before, after = cover([LEFT, RIGHT], stray)
+    assert before == pytest.approx(0.015, abs=1e-6)
+    assert after <= TOLERANCE
+    assert parts[0].bounds.tolist() == [LEFT.min(axis=0).tolist(), LEFT.max(axis=0).tolist()]
+    assert parts[1].bounds[1, 0] == pytest.approx(0.215, abs=TOLERANCE)

@@ -147,3 +147,43 @@ def test_a_fallen_child_has_a_loss_though_it_is_under_its_parent():
 def test_relations_must_name_objects():
     with pytest.raises(SpecError, match="octopus"):
         SemanticLoss({"a": block()}, (rel("octopus", "on", "a"),), {"a": Pose()})
+
+
+@pytest.mark.parametrize(("inside", "missing"), [(0.0005, 0.0005), (0.0015, 0.0), (-0.002, 0.003)])
+def test_the_weight_of_a_child_must_be_over_its_parent_by_the_margin(inside, missing):
+    """A block as wide as its parent, whose middle is `inside` the parent's edge: the margin is 1 mm."""
+    assets = {"shelf": block(0.1, 0.4, 0.05), "a": block(0.3, 0.05, 0.05)}
+    relation = rel("a", "on", "shelf")
+    rest = {"shelf": Pose(), "a": Pose(position=(0.0, 0.0, 0.05))}
+    loss = SemanticLoss(assets, (relation,), rest)
+    moved = {**rest, "a": Pose(position=(0.05 - inside, 0.0, 0.05))}
+    off = loss._off(1, 0, states(assets, moved))
+    assert float(off) == pytest.approx(missing**2, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("kind", "position", "missing"),
+    [
+        # The centre is 0.4 mm to that side, of a margin of 1 mm; the boxes are apart in height and do not overlap.
+        ("right_of", (0.1004, 0.0, 0.0), 0.0),
+        ("right_of", (0.0504, 0.0, 0.0), 0.0006),
+        ("left_of", (-0.0504, 0.0, 0.0), 0.0006),
+        ("behind", (0.0, 0.0504, 0.0), 0.0006),
+        ("in_front_of", (0.0, -0.0512, 0.0), 0.0),
+    ],
+)
+def test_boxes_may_overlap_by_less_than_half_and_the_margin(kind, position, missing):
+    """Two blocks of 10 cm overlap by half where their middles are 5 cm apart."""
+    assets = {"a": block(0.1, 0.1, 0.1), "b": block(0.1, 0.1, 0.1)}
+    poses = {"a": Pose(position=position), "b": Pose()}
+    loss = SemanticLoss(assets, (rel("a", kind, "b"),), poses)
+    assert float(loss(states(assets, poses))) == pytest.approx(missing**2, abs=1e-12)
+
+
+@pytest.mark.parametrize(("gap", "missing"), [(0.248, 0.0), (0.2495, 0.0005), (0.26, 0.011)])
+def test_next_to_must_hold_by_the_margin(gap, missing):
+    """Things of 10 cm are next to one another up to 25 cm apart."""
+    assets = {"a": block(0.1, 0.1, 0.1), "b": block(0.1, 0.1, 0.1)}
+    poses = {"a": Pose(position=(0.1 + gap, 0.0, 0.0)), "b": Pose()}
+    loss = SemanticLoss(assets, (rel("a", "next_to", "b"),), poses)
+    assert float(loss(states(assets, poses))) == pytest.approx(missing**2, abs=1e-12)

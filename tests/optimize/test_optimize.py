@@ -18,7 +18,7 @@ from pat3d.optimize.optimize import Optimized, OptimizeOptions, optimize
 from pat3d.optimize.placement import Placement
 from pat3d.optimize.plot import save_loss_curve
 from pat3d.optimize.starts import balance, balanced, make_starts
-from pat3d.optimize.steady import deepest
+from pat3d.optimize.tilt_margin import deepest
 from pat3d.scene.model import Relation
 from tests.layout.things import asset, ball, block, gap_by_manifold, pen, table, vessel
 from tests.optimize.published import HATS, askew, in_mujoco, objects, sofa_with_a_bear_over_the_edge
@@ -192,9 +192,9 @@ def test_a_load_on_the_edge_is_moved_over_the_middle_of_its_support():
     assert not found.skipped
     assert found.best.source == "recentred"
     assert found.poses0["plank"].position[:2] == pytest.approx((0.0, 0.0), abs=0.025)
-    assert found.first.steadiness is not None
-    assert found.best.steadiness is not None
-    assert found.first.steadiness < 2.0 < found.best.steadiness
+    assert found.first.tilt_margin is not None
+    assert found.best.tilt_margin is not None
+    assert found.first.tilt_margin < 2.0 < found.best.tilt_margin
 
 
 def test_pinned_objects_settle_but_always_start_where_they_are():
@@ -272,8 +272,8 @@ def test_a_stack_of_six_irregular_blocks_stands_after_optimisation_and_collapses
     assert len(found.first.broken) >= 2
     assert in_mujoco(assets, relations, poses, tmp_path / "before").worst_mm > 20.0
     assert found.satisfied
-    assert found.best.steadiness is not None
-    assert found.best.steadiness >= 2.0
+    assert found.best.tilt_margin is not None
+    assert found.best.tilt_margin >= 2.0
     assert in_mujoco(assets, relations, found.poses, tmp_path / "after").worst_mm < 1.0
 
 

@@ -231,3 +231,14 @@ def test_attachments_and_anchors_read_back_and_are_written_only_where_there_are_
     read = load_scene(tmp_path / "hung")
     assert read.attachments == (attachment,)
     assert read["swing"].asset.anchors == swing.anchors
+
+
+def test_a_file_that_is_no_json_or_too_large_is_refused(scene, tmp_path, monkeypatch):
+    path = save_scene(scene, tmp_path / "s")
+    monkeypatch.setattr("pat3d.scene.io.MAX_JSON_BYTES", path.stat().st_size - 1)
+    with pytest.raises(SpecError, match="larger than"):
+        load_scene(tmp_path / "s")
+    monkeypatch.undo()
+    path.write_text(path.read_text()[:-3])
+    with pytest.raises(SpecError, match="not valid JSON"):
+        load_scene(tmp_path / "s")

@@ -1,4 +1,4 @@
-"""How much of a cavity its convex parts leave open."""
+"""Cavity loss: how much of the free space in a mug or bowl its convex parts take away."""
 
 from __future__ import annotations
 

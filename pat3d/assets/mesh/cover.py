@@ -1,4 +1,4 @@
-"""Making a union of convex parts contain the mesh that people see."""
+"""Growing a convex decomposition until the union of its parts contains the visual mesh."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def mesh_height_map(vertices: NDArray[np.float64], faces: NDArray[np.integer[Any
 
 
 def cavity(seen: HeightMap) -> Region | None:
-    """The roomiest disc or rectangle inside a hollow that is open to above, or None."""
+    """The largest disc or rectangle inside a hollow that is open to above, or None."""
     finite = np.isfinite(seen.height)
     low, high = float(seen.height[finite].min()), float(seen.height.max())
     rim = _water_level(seen.height)
@@ -104,7 +104,7 @@ def cavity(seen: HeightMap) -> Region | None:
     depth[finite] = rim[finite] - seen.height[finite]
     least = MIN_DEPTH * max(high, high - low)
     label = _labels(depth > 0.25 * least)
-    best, room = None, 0.0
+    best, largest = None, 0.0
     for index in range(1, int(label.max()) + 1):
         pit = label == index
         if depth[pit].max() < least:
@@ -114,8 +114,8 @@ def cavity(seen: HeightMap) -> Region | None:
         for level in floor_levels + 1e-6:
             shape, centre, half = _largest(seen, pit & (seen.height <= level))
             size = half[0] * half[1] * (np.pi if shape == "disc" else 4.0) * (edge - level)
-            if size > room and min(half) >= MIN_WIDTH * max(np.ptp(seen.x), np.ptp(seen.y)) / 2:
-                room = size
+            if size > largest and min(half) >= MIN_WIDTH * max(np.ptp(seen.x), np.ptp(seen.y)) / 2:
+                largest = size
                 best = Region(
                     kind="in", shape=shape, floor=(*centre, float(level)), half_size=half, height=edge - float(level)
                 )

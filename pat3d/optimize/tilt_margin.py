@@ -1,4 +1,4 @@
-"""Steadying a scene that stands but hardly: every load that is about to tip is moved over the middle of its support.
+"""A larger tilt margin for a scene that hardly stands: loads about to tip are moved over the middle of their support.
 
 Seen from above, an object with everything that it carries tips about an edge of the hull of its contacts. With its
 common centre of mass at height h over the contacts and d inside that edge, it endures a tilt of atan(d / h). Where that
