@@ -58,7 +58,12 @@ def test_an_edit_is_seen_where_the_trajectory_ends_elsewhere(folder):
         pose = replace(obj.pose, position=tuple(np.add(obj.pose.position, offset)))
         objects = tuple(replace(one, pose=pose) if one is obj else one for one in scene.objects)
         assert edited(replace(scene, objects=objects), folder) == names
-    turned = replace(scene["red mug"], pose=replace(scene["red mug"].pose, quat_wxyz=(0.0, 0.0, 0.0, 1.0)))
+    # Turned by 0.3 degrees about its own centre of mass.
+    obj = scene["red mug"]
+    centre = np.array([obj.asset.mass_properties.centre_of_mass])
+    pose = Pose.from_yaw(0.005, (0.0, 0.0, 0.0))
+    shift = obj.pose.apply(centre)[0] - pose.apply(centre)[0]
+    turned = replace(obj, pose=replace(pose, position=tuple(shift)))
     objects = tuple(turned if one.name == "red mug" else one for one in scene.objects)
     assert edited(replace(scene, objects=objects), folder) == {"red mug"}
     (folder / "trajectory.npz").unlink()
