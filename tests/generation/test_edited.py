@@ -178,6 +178,12 @@ def test_what_is_lifted_takes_along_what_it_carries_and_no_further_than_it_has_t
     assert lifts[0] == 0.0
     assert lifts[1] == pytest.approx(0.2 * side + 1e-5 + module.GAP, abs=module.GAP)
     assert lifts[2] == pytest.approx(lifts[1], abs=2 * module.GAP)
+    # What floats over its support keeps its height above it, though it would be clear without.
+    floating = [(0, 0, 1e-5), (0, 0, side - 1e-3), (0, 0, 2 * side + 5e-3)]
+    scene = laid_out_as_posed(stack(block, floating))
+    lifts = [obj.initial_pose.position[2] - before[2] for obj, before in zip(scene.objects, floating, strict=True)]
+    assert lifts[2] == pytest.approx(lifts[1], abs=1e-12)
+    assert lifts[1] > 1e-3
 
 
 def test_of_two_that_intersect_the_edited_one_is_lifted(block):
