@@ -252,7 +252,8 @@ def test_groups_and_commas_name_engines_once_and_unknown_names_are_told():
 def test_the_command_prints_the_table_and_fails_on_what_falls(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("PAT3D_ENGINES", str(tmp_path / "none"))
     save_scene(tower(2), tmp_path / "still")
-    assert main(["check", str(tmp_path / "still"), "--engines", "mujoco,drake", "--seconds", "0.2"]) == 0
+    assert main(["check", str(tmp_path / "still"), "--engines", "mujoco", "--seconds", "0.2"]) == 0
+    assert main(["check", str(tmp_path / "still"), "--engines", "mujoco,drake", "--seconds", "0.2"]) == 1
     shown = capsys.readouterr().out
     assert "box 1" in shown
     assert "pass" in shown

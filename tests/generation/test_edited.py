@@ -58,7 +58,12 @@ def test_an_edit_is_seen_where_the_trajectory_ends_elsewhere(folder):
         pose = replace(obj.pose, position=tuple(np.add(obj.pose.position, offset)))
         objects = tuple(replace(one, pose=pose) if one is obj else one for one in scene.objects)
         assert edited(replace(scene, objects=objects), folder) == names
-    turned = replace(scene["red mug"], pose=replace(scene["red mug"].pose, quat_wxyz=(0.0, 0.0, 0.0, 1.0)))
+    # Turned by 0.3 degrees about its own centre of mass.
+    obj = scene["red mug"]
+    centre = np.array([obj.asset.mass_properties.centre_of_mass])
+    pose = Pose.from_yaw(0.005, (0.0, 0.0, 0.0))
+    shift = obj.pose.apply(centre)[0] - pose.apply(centre)[0]
+    turned = replace(obj, pose=replace(pose, position=tuple(shift)))
     objects = tuple(turned if one.name == "red mug" else one for one in scene.objects)
     assert edited(replace(scene, objects=objects), folder) == {"red mug"}
     (folder / "trajectory.npz").unlink()
@@ -173,6 +178,12 @@ def test_what_is_lifted_takes_along_what_it_carries_and_no_further_than_it_has_t
     assert lifts[0] == 0.0
     assert lifts[1] == pytest.approx(0.2 * side + 1e-5 + module.GAP, abs=module.GAP)
     assert lifts[2] == pytest.approx(lifts[1], abs=2 * module.GAP)
+    # What floats over its support keeps its height above it, though it would be clear without.
+    floating = [(0, 0, 1e-5), (0, 0, side - 1e-3), (0, 0, 2 * side + 5e-3)]
+    scene = laid_out_as_posed(stack(block, floating))
+    lifts = [obj.initial_pose.position[2] - before[2] for obj, before in zip(scene.objects, floating, strict=True)]
+    assert lifts[2] == pytest.approx(lifts[1], abs=1e-12)
+    assert lifts[1] > 1e-3
 
 
 def test_of_two_that_intersect_the_edited_one_is_lifted(block):

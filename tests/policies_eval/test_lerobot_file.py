@@ -187,6 +187,19 @@ def test_a_folder_that_holds_something_is_left_alone(tmp_path, shown):
     assert [file.name for file in tmp_path.rglob("*")] == ["set", "mine"]
 
 
+def test_a_dataset_is_replaced_only_where_that_is_asked_for_and_only_by_a_complete_one(tmp_path, shown):
+    write_lerobot(shown, tmp_path / "set")
+    before = (tmp_path / "set/meta/info.json").read_bytes()
+    with pytest.raises(EvaluationError, match="new folder"):
+        write_lerobot(shown[:1], tmp_path / "set")
+    with pytest.raises(EvaluationError, match="at least one"):
+        write_lerobot([], tmp_path / "set", overwrite=True)
+    assert (tmp_path / "set/meta/info.json").read_bytes() == before
+    write_lerobot(shown[:1], tmp_path / "set", overwrite=True)
+    assert json.loads((tmp_path / "set/meta/info.json").read_text())["total_episodes"] == 1
+    assert [entry.name for entry in tmp_path.iterdir()] == ["set"]
+
+
 @pytest.mark.parametrize(
     ("given", "settings", "said"),
     [

@@ -23,6 +23,8 @@ def test_episode_k_is_the_same_however_many_there_are():
     few, many = episodes_of(settings, 5, seed=3), episodes_of(settings, 50, seed=3)
     assert few == many[:5]
     assert len({one.seed for one in many}) == 50
+    assert [one.task for one in few] == [settings[number % 2].task for number in range(5)]
+    assert [one.index for one in few] == list(range(5))
     assert episodes_of(settings, 5, seed=4)[0].seed != few[0].seed
 
 
