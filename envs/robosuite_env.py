@@ -10,7 +10,6 @@ robosuite compiles it anew at every reset unless hard_reset=False.
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -68,7 +67,8 @@ class PAT3DScene(_Base):
 
         Writing the whole as text, as robosuite would, rounds every number to six digits.
         """
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         text = xml_string or self.model.get_xml()
         for processor in self._xml_processors:
             text = processor(text)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -60,7 +59,8 @@ class BatchedController:
             np.broadcast_to(np.asarray(settings["output_max"], dtype=np.float64), self.size - 1), wp.float64
         )
         self._site = int(model.site(prefix + robot.grip_site).id)
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         base = mujoco.MjData(model)
         mujoco.mj_kinematics(model, base)
         self._base = wp.mat33d(*base.site_xmat[model.site(prefix + robot.base_site).id])

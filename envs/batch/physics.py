@@ -13,7 +13,6 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -65,7 +64,8 @@ def in_single_precision(model: Any) -> Any:
     what a hand holds would creep out of it. Boxes collide by their own routine: the general one loses contacts of
     boxes that overlap by micrometres.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     fit = copy.copy(model)
     fit.geom_margin[:], fit.geom_gap[:] = 0.0, 0.0
     stiff = fit.geom_solref[:, 0] < SOLREF[0]
@@ -271,9 +271,10 @@ def mujoco_warp() -> Any:
         EnvironmentSetupError: it is not installed; says how to install it.
     """
     try:
-        return import_module("mujoco_warp")
+        import mujoco_warp
     except ImportError as error:
         raise EnvironmentSetupError(f'{error}; the GPU environments need pip install "pat3d[gpu]".') from error
+    return mujoco_warp
 
 
 def require_still(

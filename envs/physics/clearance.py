@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -28,7 +27,9 @@ class Clearance:
     """
 
     def __init__(self, env: Any) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self._simulation, self._world = env.simulation, env.simulation.world
         self._model = self._world.model
         self._data = self._mujoco.MjData(self._model)

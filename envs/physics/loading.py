@@ -11,7 +11,6 @@ import json
 import os
 import tempfile
 from dataclasses import dataclass
-from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -128,7 +127,8 @@ def _adopt(fresh: Path, target: Path) -> None:
 
 def _require_settled(mjcf: Path, checksum: str) -> None:
     """Raise UnsettledSceneError unless MuJoCo holds the scene still."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     record = cache_root() / "settled" / f"{checksum[:32]}-{mujoco.__version__}.json"
     drift = _stored(record)
     if drift is None:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,7 +22,9 @@ class Simulation:
     """
 
     def __init__(self, world: World, control: str, control_freq: float, *, sleep: bool = True) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self.world, self.model = world, world.model
         # MuJoCo's sleeping knows no equalities of tendons, which the Robotiq 140 has.
         if sleep and not (self.model.eq_type == self._mujoco.mjtEq.mjEQ_TENDON).any():

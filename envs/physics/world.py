@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +72,8 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
     Raises:
         EnvironmentSetupError: MuJoCo refuses the scene or the combination; the message is MuJoCo's.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
         _attach(mujoco, spec, robot, placement)
@@ -87,7 +87,8 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
 
 def furnish(spec: Any, placement: Placement) -> None:
     """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     if placement.bench is not None:
         _bench(mujoco, spec, placement)
     _pedestal(mujoco, spec, placement)

@@ -152,7 +152,8 @@ def make_robot(name: str) -> Robot:
 @functools.lru_cache(maxsize=len(ROBOTS))
 def robot_model(name: str) -> Any:
     """The compiled MuJoCo model of robot `name` alone, at the origin, in a world without gravity."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     model = mujoco.MjModel.from_xml_string(make_robot(name).xml)
     model.opt.gravity[:] = 0.0
     # The scene's own solver options, under which the fingers will move.
@@ -164,7 +165,8 @@ def robot_model(name: str) -> Any:
 @functools.lru_cache(maxsize=len(ROBOTS))
 def measure_gripper(name: str) -> Gripper:
     """Measure the open gripper of robot `name` on its geoms."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     robot, model = make_robot(name), robot_model(name)
     data = mujoco.MjData(model)
     for joint, value in zip(robot.arm_joints, robot.home, strict=True):

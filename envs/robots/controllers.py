@@ -7,7 +7,6 @@ and the state they need each step is gathered here in one pass instead of one lo
 from __future__ import annotations
 
 import functools
-from importlib import import_module
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -144,7 +143,7 @@ def _controller_class(kind: str) -> type:
         return _made[kind]
     module, name, _ = _CLASSES[kind]
     base: Any = getattr(robosuite_module(module), name)
-    mujoco: Any = import_module("mujoco")
+    import mujoco
 
     def update(self: Any, force: bool = False) -> None:
         if not (self.new_update or force):
@@ -189,7 +188,9 @@ class _Simulation:
         self.jacobian = np.zeros((6, model.nv))
         self.mass = np.zeros((model.nv, model.nv))
         self._sites: dict[str, int] = {}
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
 
     def forward(self) -> None:
         self._mujoco.mj_forward(*self.native)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +34,9 @@ class ArmKinematics:
     """The arm of one robot alone, with its base at the origin facing +x."""
 
     def __init__(self, name: str) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self.robot, self._model = make_robot(name), robot_model(name)
         self._data = self._mujoco.MjData(self._model)
         joints = [self._model.joint(joint) for joint in self.robot.arm_joints]

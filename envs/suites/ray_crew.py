@@ -11,7 +11,6 @@ import shutil
 import socket
 import tempfile
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -38,9 +37,10 @@ class Cluster:
 
     def __enter__(self) -> Cluster:
         try:
-            self.ray: Any = import_module("ray")
+            import ray
         except ImportError as error:
             raise SuiteError("--ray needs Ray: pip install 'pat3d[ray]'.") from error
+        self.ray = ray
         if self.ray.is_initialized():
             return self
         try:

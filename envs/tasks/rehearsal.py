@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -82,7 +80,8 @@ def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:
     shift = next((way for way in ways if planner.clearance.fits(move.name, way)), released)
     first = int(simulation.world.positions[simulation.world.objects.index(move.name)])
     simulation.data.qpos[first : first + 3] += shift
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     mujoco.mj_forward(simulation.model, simulation.data)
     simulation.states.refresh()
 
