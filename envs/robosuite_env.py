@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from pat3d.envs.env import Source, choose
+from pat3d.envs.config import Source
+from pat3d.envs.env import choose
 from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState

@@ -79,9 +79,9 @@ def in_single_precision(model: Any) -> Any:
     return fit
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Room:
-    """Sizes of the buffers, a world."""
+    """Capacity of the buffers, a world."""
 
     contacts: int
     rows: int
