@@ -98,7 +98,7 @@ class BatchConfig(EpisodeConfig):
 
     max_episode_steps: int = MAX_EPISODE_STEPS
     """After which an episode is truncated."""
-    room: tuple[int, int] | None = None
+    capacity: tuple[int, int] | None = None
     """Contacts and rows of constraints that each world has buffers for; measured where None."""
 
     def __post_init__(self) -> None:

@@ -104,7 +104,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
     def __init__(
         self, num_envs: int, device: str = "cuda", *, config: BatchConfig | None = None, **arguments: Any
     ) -> None:
-        from pat3d.envs.batch.physics import BatchedPhysics, Room, require_still, room_for
+        from pat3d.envs.batch.physics import BatchedPhysics, Capacity, capacity_for, require_still
         from pat3d.envs.batch.state import BatchState
 
         num_envs = whole("num_envs", num_envs, 1)
@@ -125,7 +125,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         world = compose(loaded.scene, loaded.mjcf, make_robot(config.robot), placement)
         if not _present(device):
             raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')
-        sizes = room_for(world, control, control_freq) if config.room is None else Room(*config.room)
+        sizes = capacity_for(world, control, control_freq) if config.capacity is None else Capacity(*config.capacity)
         require_still(world, loaded.checksum, control, control_freq, device, sizes)
         self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
         self.state = BatchState(self.physics)

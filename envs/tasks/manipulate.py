@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from pat3d.envs.grasping.free_space import edge_margin, has_free_space
 from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
-from pat3d.envs.grasping.room import has_room, overhang_room
 from pat3d.envs.tasks.task import Goal, Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
@@ -136,15 +136,15 @@ def check_move(scene: Scene, target: str, where: str) -> None:
             raise TaskError(f'"{where}" stands on "{target}".')
     region = scene[where].asset.region("in")
     if region is not None:
-        width, room = narrowest(scene[target]), 2 * min(region.half_size)
-        if width > room:
-            raise TaskError(f'"{target}" ({width:.2f} m) does not fit into "{where}" ({room:.2f} m wide inside).')
+        width, inside = narrowest(scene[target]), 2 * min(region.half_size)
+        if width > inside:
+            raise TaskError(f'"{target}" ({width:.2f} m) does not fit into "{where}" ({inside:.2f} m wide inside).')
         return
     covering = [name for name in standing_on(scene, where) if name != target]
     top = scene[where].asset.region("on")
-    if top is None or min(top.half_size) < overhang_room(scene, target):
+    if top is None or min(top.half_size) < edge_margin(scene, target):
         raise TaskError(f'"{where}" has no top wide enough for "{target}".')
-    if not has_room(scene, target, where, top, covering):
+    if not has_free_space(scene, target, where, top, covering):
         raise TaskError(f'"{covering[0]}" stands on "{where}" already and leaves no room for "{target}".')
 
 

@@ -48,7 +48,7 @@ ABOVE = 0.08
 JOINT_MARGIN = 0.08
 """Least distance of every joint from its limits [rad]."""
 
-ROOM = 40.0
+DISTANCE_WORTH = 40.0
 """Of how much worth it is to stay away from everything [1/m]."""
 
 GRASPS = 4
@@ -75,7 +75,7 @@ class Move:
     floor: float = 0.0
     """Height of that surface [m], above which it may be let go further up than usual."""
     worth: float = 0.0
-    """Of the grasp and of the room around the hand; higher is better."""
+    """Of the grasp and of the distance of the hand from everything; higher is better."""
 
 
 class Planner:
@@ -199,7 +199,7 @@ class Planner:
 
     def _checked(self, move: Move) -> list[tuple[float, Move]]:
         """Largest motion of a joint [rad], and the move with its worth; nothing where the arm cannot do it."""
-        wide, room = np.array(self._gripper.open_joints), math.inf
+        wide, distance = np.array(self._gripper.open_joints), math.inf
         turn = 0.0
         for position in (move.at, move.before):
             joints = self._reached(position, move.rotation)
@@ -209,8 +209,8 @@ class Planner:
             # The hand turns the shorter way, and a joint that would have to go the longer one stops at its limit.
             if turn > math.pi and not move.grasp.lean:
                 return []
-            room = min(room, self.clearance.room(joints, wide, move.name))
-        return [(turn, replace(move, worth=move.grasp.score + ROOM * room))]
+            distance = min(distance, self.clearance.distance(joints, wide, move.name))
+        return [(turn, replace(move, worth=move.grasp.score + DISTANCE_WORTH * distance))]
 
     def _blocked(self, joints: Array, fingers: Array, name: str, shift: Array | None = None) -> bool:
         obstacle = self.clearance.obstacle(joints, fingers, name, shift)

@@ -65,9 +65,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _generate(options: argparse.Namespace) -> int:
-    from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.generate import generate
     from pat3d.envs.suites.suite import Suite
+    from pat3d.envs.suites.worker_pool import worker_count
 
     worker_count(options.workers)
 
@@ -96,8 +96,8 @@ def _generate(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from pat3d.envs.suites.check import check_suite
-    from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.suite import Suite
+    from pat3d.envs.suites.worker_pool import worker_count
 
     suite = Suite.open(options.folder)
     with _counting("checking") as tell:
