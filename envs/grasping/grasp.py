@@ -18,7 +18,7 @@ from scipy import ndimage
 
 from pat3d.assets.mesh.cover import planes
 from pat3d.assets.mesh.regions import height_map
-from pat3d.envs.robots.arms import Gripper
+from pat3d.envs.robots.robot import Gripper
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Scene, SceneObject

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
 from pat3d.envs.physics.world import PREFIX, ROBOT, World
-from pat3d.envs.robots.controllers import RobotController
+from pat3d.envs.robots.controllers import make_controller
 from pat3d.errors import EnvironmentSetupError
 
 Array = NDArray[np.float64]
@@ -49,7 +49,7 @@ class Simulation:
         )
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
-        self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
+        self.controller = make_controller(self.model, self.data, world.robot, PREFIX, control, control_freq)
         self.states = MujocoState(world, self.data)
         """As tasks judge them: one world."""
         self.state = SimState(self.states)

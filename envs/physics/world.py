@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.placement import Placement
-from pat3d.envs.robots.arms import Robot
+from pat3d.envs.robots.robot import Robot
 from pat3d.errors import EnvironmentSetupError
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names
 from pat3d.geometry.pose import Pose
@@ -98,7 +98,7 @@ def furnish(spec: Any, placement: Placement) -> None:
 
 
 def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
-    child = mujoco.MjSpec.from_string(robot.xml)
+    child = robot.new_spec()
     for geom in child.geoms:
         if geom.group == 0:
             geom.group = 3
@@ -212,7 +212,7 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
         placement: of the robot.
         prefix: before every name of the robot; robosuite's own worlds have none.
     """
-    starts = prefix or (robot.naming_prefix, "gripper0_")
+    starts = prefix or robot.owned
     names = body_names(scene)
     bodies = {obj.name: int(model.body(names[obj.name]).id) for obj in scene.objects}
     moving = tuple(obj.name for obj in scene.objects if not obj.fixed)

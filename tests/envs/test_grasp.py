@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pat3d.envs.grasping.grasp import find_grasps, narrowest
-from pat3d.envs.robots.arms import Gripper
+from pat3d.envs.robots.robot import Gripper
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
