@@ -55,6 +55,7 @@ def assemble(told: Description) -> Robot:
     arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
     fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
     _equip(spec, model, parts, grip, torque_limits(model, parts, told))
+    _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
     finished = spec.copy()
     robot = Robot(
         name=told.name,
@@ -98,6 +99,15 @@ def _joined(told: Description) -> Any:
     for body in spec.bodies:
         body.gravcomp = 0.0
     return spec
+
+
+def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
+    """Multiply the stiffness of position actuators, and their damping so that they overshoot no more."""
+    for name in actuators:
+        actuator = spec.actuator(name)
+        actuator.gainprm[0] *= factor
+        actuator.biasprm[1] *= factor
+        actuator.biasprm[2] *= np.sqrt(factor)
 
 
 def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[float]) -> None:

@@ -11,6 +11,7 @@ names what cannot:
     gripper_actuators: [grip]
     torques: [87, 87, 12]       # of the arm's joints [N m], where the MJCF does not limit them
     payload: 3.0                # [kg]
+    grip_stiffness: 100         # factor, where the gripper hardly presses
 """
 
 from __future__ import annotations
@@ -39,8 +40,8 @@ class Description:
     gripper_actuators: tuple[str, ...] = ()
     torques: tuple[float, ...] = ()
     payload: float = PAYLOAD
-    widest: float = 1.0
-    """Share of the range of its actuators up to which the gripper opens."""
+    grip_stiffness: float = 1.0
+    """By how much the gripper's actuators are stiffer than their file says: some press with less than 1 N."""
 
 
 def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
@@ -74,5 +75,5 @@ def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
     if file is not None and not file.is_file():
         raise EnvironmentSetupError(f'{told}: no gripper "{gripper}". Grippers: {", ".join(grippers)}, or a MJCF file.')
     lists = {key: tuple(said[key]) for key in ("arm_joints", "gripper_actuators", "torques") if key in said}
-    rest = {key: said[key] for key in ("attach", "hand", "payload", "widest") if key in said}
+    rest = {key: said[key] for key in ("attach", "hand", "payload", "grip_stiffness") if key in said}
     return Description(name=str(path), mjcf=mjcf, gripper=file, **lists, **rest)
