@@ -1,4 +1,4 @@
-"""Functions compiled by numba, which comes with robosuite; without it they run as they are written."""
+"""Functions compiled by numba, of the extra `robots`; without it they run as they are written."""
 
 from __future__ import annotations
 

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.physics.world import CAMERAS
 from pat3d.envs.registration import MAX_EPISODE_STEPS
+from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.tasks.task import Task
 from pat3d.errors import EnvironmentSetupError
@@ -31,8 +32,9 @@ class EpisodeConfig:
     task: str | Task | None = None
     """"pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task; None for
     picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all."""
-    robot: str = "Panda"
-    """Panda, UR5e, Sawyer or IIWA."""
+    robot: str = ""
+    """"panda", "fr3", "ur5e", "ur10e", "iiwa14", "gen3", "xarm7", ... of MuJoCo Menagerie, PATH.xml for one's own, or
+    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`."""
     suite: str | os.PathLike[str] | None = None
     """A suite folder instead of a scene; every reset draws one of its scenes with that scene's own task."""
     split: str | None = None
@@ -51,6 +53,7 @@ class EpisodeConfig:
     """Standard deviation of the robot's posture at the start [rad]."""
 
     def __post_init__(self) -> None:
+        self._set("robot", self.robot or default_robot())
         one_of("reward", self.reward, REWARDS)
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
         self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))

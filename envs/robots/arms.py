@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 from typing import Any
 
 from pat3d.envs.robots.menagerie import ARMS, described_file, menagerie_robot
@@ -11,8 +12,16 @@ from pat3d.envs.robots.robosuite_arms import measure_robosuite_gripper, robosuit
 from pat3d.envs.robots.robot import Gripper, Robot
 from pat3d.errors import EnvironmentSetupError
 
+ROBOT_VARIABLE = "PAT3D_ROBOT"
+"""Environment variable that names the robot of environments that name none."""
+
 KEPT = 16
 """Robots that a process remembers."""
+
+
+def default_robot() -> str:
+    """The robot of environments that name none: Menagerie's Panda, or what PAT3D_ROBOT says."""
+    return os.environ.get(ROBOT_VARIABLE) or "panda"
 
 
 @functools.lru_cache(maxsize=KEPT)

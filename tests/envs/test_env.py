@@ -312,7 +312,7 @@ def test_a_scene_with_more_objects_than_the_space_is_refused_and_nothing_changes
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"robot": "Optimus"}, "Robots: Panda, UR5e, Sawyer"),
+        ({"robot": "Optimus"}, r"Robots: panda, fr3, .*Panda, UR5e, Sawyer"),
         ({"task": "pick:teapot"}, "Objects that can move: red mug, green apple"),
         ({"task": "juggle"}, "Tasks: pick:OBJECT"),
         ({"task": "place:banana"}, "does not fit"),

@@ -111,7 +111,7 @@ def test_a_folder_with_other_things_is_left_alone(tmp_path):
 
 
 def test_an_unknown_robot_is_answered_before_anything_is_written(tmp_path):
-    with pytest.raises(EnvironmentSetupError, match="Robots: Panda"):
+    with pytest.raises(EnvironmentSetupError, match="Robots: panda"):
         generate(str(tmp_path / "new"), replace(REQUEST, robot="Marvin"), workers=1)
     assert not (tmp_path / "new").exists()
 
