@@ -6,6 +6,7 @@ import functools
 import os
 from typing import Any
 
+from pat3d.envs.robots.kinematics import ArmKinematics
 from pat3d.envs.robots.menagerie import ARMS, described_file, menagerie_robot
 from pat3d.envs.robots.robosuite_arms import ROBOTS as ROBOSUITE
 from pat3d.envs.robots.robosuite_arms import measure_robosuite_gripper, robosuite_robot
@@ -55,6 +56,11 @@ def robot_model(name: str) -> Any:
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     model.opt.cone, model.opt.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
     return model
+
+
+def arm_kinematics(name: str) -> ArmKinematics:
+    """Inverse kinematics of robot `name`."""
+    return ArmKinematics(make_robot(name), robot_model(name))
 
 
 @functools.lru_cache(maxsize=KEPT)

@@ -3,6 +3,9 @@
 osc             f = kp (x* - x) - kd x', the same for the turn, as torques of the joints: see operational_space
 joint_position  torque = M (kp (q* - q) - kd q') + bias
 joint_velocity  torque = M kv (q'* - q') + bias
+
+The bias makes up for gravity, for velocities, and for the damping and the dry friction of the joints, as the drives of
+real arms do: what moves is the arm as if its joints were free.
 """
 
 from __future__ import annotations
@@ -26,6 +29,9 @@ STIFFNESS = {"osc": 150.0, "joint_position": 50.0}
 
 SPEED_GAIN = 25.0
 """kv [1/s]."""
+
+OVERCOME, SHARP = 0.9, 4.0
+"""Share of the dry friction that is made up for, and how steeply about zero."""
 
 LARGEST = {"osc": (0.05, 0.05, 0.05, 0.5, 0.5, 0.5), "joint_velocity": (0.5,), "joint_position": (0.05,)}
 """What an action of 1 asks for: changes of the hand's position [m] and orientation [rad], [rad/s], [rad]."""
@@ -88,6 +94,8 @@ class TorqueController:
         self._reach = finger_targets(model, robot, np.ones(count), prefix) - self._middle
         self._site, self._base = model.site(prefix + robot.grip_site).id, model.site(prefix + robot.base_site).id
         self._scale = np.broadcast_to(np.array(LARGEST[kind]), 6 if kind == "osc" else len(joints))
+        self._bias = np.zeros(model.nv)
+        self._friction = model.dof_frictionloss[self._dofs].copy()
         self._inertia = np.zeros((model.nv, model.nv))
         self._jacobian = np.zeros((6, model.nv))
         self._operational: Any = None
@@ -95,7 +103,9 @@ class TorqueController:
             from pat3d.envs.robots.operational_space import OperationalSpace
 
             ids = [joint.id for joint in joints]
-            self._operational = OperationalSpace(model, data, ids, self._site, self._actuators, self._limits)
+            self._operational = OperationalSpace(
+                model, data, ids, self._site, self._actuators, self._limits, self._bias
+            )
             self._kp = np.full(6, STIFFNESS["osc"])
             self._kd = 2.0 * np.sqrt(self._kp)
         self.reset()
@@ -132,17 +142,31 @@ class TorqueController:
     def control(self) -> None:
         """Write the torques of this physics step; positions and velocities must be up to date."""
         data = self._data
+        np.subtract(data.qfrc_bias, data.qfrc_passive, out=self._bias)
         if self.kind == "osc":
             if not self._operational.apply(self._goal, self._goal_rotation, self._kp, self._kd, self._posture):
                 self._near_singular()
-            return
+        else:
+            self._follow()
+        if self._friction.any():
+            self._overcome_friction()
+
+    def _follow(self) -> None:
+        """Torques towards positions or velocities of the joints."""
+        data = self._data
         speed = data.qvel[self._dofs]
         if self.kind == "joint_position":
             kp = STIFFNESS["joint_position"]
             wanted = kp * (self._goal - data.qpos[self._positions]) - 2.0 * math.sqrt(kp) * speed
         else:
             wanted = SPEED_GAIN * (self._goal - speed)
-        self._write(self._mass() @ wanted + data.qfrc_bias[self._dofs])
+        self._write(self._mass() @ wanted + self._bias[self._dofs])
+
+    def _overcome_friction(self) -> None:
+        """Add what dry friction takes, in the direction in which a joint is pushed."""
+        torques, bias = self._data.ctrl[self._actuators], self._bias[self._dofs]
+        least = np.maximum(self._friction, 1e-9)
+        self._write(torques + OVERCOME * self._friction * np.tanh(SHARP * (torques - bias) / least))
 
     def _near_singular(self) -> None:
         """The same torques with pseudo-inverses: a stretched arm, or one of fewer than six joints."""
@@ -164,7 +188,7 @@ class TorqueController:
         k = POSTURE_STIFFNESS
         wanted = k * (self._posture - data.qpos[self._positions]) - 2.0 * math.sqrt(k) * speed
         free = mass @ wanted - j.T @ (np.linalg.pinv(mobility, rcond=1e-3) @ (j @ wanted))
-        self._write(j.T @ np.concatenate(forces) + free + data.qfrc_bias[self._dofs])
+        self._write(j.T @ np.concatenate(forces) + free + self._bias[self._dofs])
 
     def _mass(self) -> Array:
         inertia_matrix(self._model, self._data, self._inertia)

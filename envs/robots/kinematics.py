@@ -36,18 +36,14 @@ class ArmKinematics:
     """The arm of one robot alone, with its base at the origin facing +x.
 
     Args:
-        robot: or its name.
-        model: of the robot alone; compiled where None.
+        robot: whose arm it is.
+        model: of the robot alone.
     """
 
-    def __init__(self, robot: str | Robot, model: Any = None) -> None:
+    def __init__(self, robot: Robot, model: Any) -> None:
         import mujoco
 
         self._mujoco = mujoco
-        if isinstance(robot, str):
-            from pat3d.envs.robots.arms import make_robot, robot_model
-
-            robot, model = make_robot(robot), robot_model(robot)
         self.robot, self._model = robot, model
         self._data = self._mujoco.MjData(self._model)
         joints = [self._model.joint(joint) for joint in self.robot.arm_joints]
@@ -155,13 +151,13 @@ class PlacedArm:
     """The arm of one robot where it stands in a world.
 
     Args:
-        name: of the robot.
+        arm: alone.
         position: of its base [m], shape (3,).
         yaw: direction in which it faces [rad].
     """
 
-    def __init__(self, name: str, position: Sequence[float], yaw: float) -> None:
-        self._arm, self._origin = ArmKinematics(name), np.array(position)
+    def __init__(self, arm: ArmKinematics, position: Sequence[float], yaw: float) -> None:
+        self._arm, self._origin = arm, np.array(position)
         c, s = np.cos(yaw), np.sin(yaw)
         self._base = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 

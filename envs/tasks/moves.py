@@ -23,7 +23,7 @@ from pat3d.envs.grasping.leaning import LEANING_HOVER, LEANING_PAYLOAD, find_lea
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.grasping.spots import free_spots, spots_over
 from pat3d.envs.physics.clearance import Clearance
-from pat3d.envs.robots.arms import measure_gripper
+from pat3d.envs.robots.arms import arm_kinematics, measure_gripper
 from pat3d.envs.robots.kinematics import PlacedArm
 from pat3d.envs.tasks.task import Goal
 from pat3d.geometry.pose import Pose
@@ -87,7 +87,7 @@ class Planner:
 
     def __init__(self, env: Any) -> None:
         self._env, self._gripper = env, measure_gripper(env.robot)
-        self._arm = PlacedArm(env.robot, env.placement.base_position, env.placement.yaw)
+        self._arm = PlacedArm(arm_kinematics(env.robot), env.placement.base_position, env.placement.yaw)
         self.clearance = Clearance(env)
         self.obstacles: Counter[str] = Counter()
         """How often each object was in the way of a grasp or a spot."""

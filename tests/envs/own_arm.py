@@ -16,7 +16,8 @@ LINKS = (
 FINGER = """
 <body name="{name}" pos="0 {y} 0.08">
   <joint name="{name}" type="slide" axis="0 {sign} 0" range="0 0.04" armature="0.1" damping="20"/>
-  <geom name="{name}_pad" type="box" size="0.01 0.006 0.03" pos="0 0 0.03" mass="0.05" friction="1 0.005 0.0001"/>
+  <geom name="{name}_pad" type="box" size="0.01 0.006 0.03" pos="0 0 0.03" mass="0.05" condim="4"
+    friction="1.5 0.01 0.0001"/>
 </body>"""
 
 
@@ -30,9 +31,7 @@ def own_arm(*, gripper: str = "position", torque: str = 'forcerange="-80 80"', f
     """
     hand = '<geom name="palm" type="box" size="0.03 0.08 0.03" pos="0 0 0.05" mass="0.5"/>'
     if fingers:
-        hand += FINGER.format(name="left", y=-0.006, sign=-1, pad=0.0) + FINGER.format(
-            name="right", y=0.006, sign=1, pad=0.0
-        )
+        hand += FINGER.format(name="left", y=-0.006, sign=-1) + FINGER.format(name="right", y=0.006, sign=1)
     body = hand
     for number, (height, axis) in reversed(list(enumerate(LINKS, start=1))):
         ahead = LINKS[number][0] if number < len(LINKS) else 0.04
