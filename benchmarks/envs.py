@@ -23,7 +23,7 @@ import numpy as np
 import pat3d
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.grasping.scripted import ScriptedPick
-from pat3d.envs.robots.arms import quiet_robosuite
+from pat3d.envs.robots.robosuite_arms import quiet_robosuite
 
 STEPS = 60
 RESETS = 20

@@ -65,7 +65,7 @@ def environments(folder: str | None) -> Any:
         for task in possible_tasks(scene):
             if task.kind == kind:
                 try:
-                    env = TabletopEnv(folder, task)
+                    env = TabletopEnv(folder, task=task)
                 except TaskError:
                     continue
                 yield env

@@ -83,7 +83,7 @@ def measure(folder: str | None, worlds: int, device: str) -> None:
     print(
         f"\n{folder or 'shipped scene'}: {len(together.objects)} moving objects, {model.ngeom} geoms, "
         f"{model.nv} degrees of freedom; {alone.task.spec}\n"
-        f"ready in {time.perf_counter() - begin:.1f} s, still for 5 s; room {physics.room}",
+        f"ready in {time.perf_counter() - begin:.1f} s, still for 5 s; capacity {physics.capacity}",
         flush=True,
     )
     random = np.random.default_rng(0)

@@ -1,15 +1,9 @@
-"""Functions compiled by numba, which comes with robosuite; without it they run as they are written."""
+"""Functions compiled by numba, of the extra `robots`; without it they run as they are written."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from typing import Any
-
-try:
-    numba: Any = import_module("numba")
-except ImportError:
-    numba = None
 
 
 def compiled(function: Callable[..., Any]) -> Any:
@@ -18,7 +12,9 @@ def compiled(function: Callable[..., Any]) -> Any:
     numba keeps what it compiled until the function's own file changes: what calls another compiled function has to be
     in the same file.
     """
-    if numba is None:
+    try:
+        import numba
+    except ImportError:
         return function
     try:
         return numba.njit(cache=True)(function)

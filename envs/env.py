@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Sequence
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.arguments import names, number, one_of, picture_size, whole
+from pat3d.envs.config import RENDER_MODES, Source, TabletopConfig, configured
 from pat3d.envs.grasping.placement import Placement, place
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
-from pat3d.envs.physics.world import CAMERAS, compose
+from pat3d.envs.physics.world import compose
 from pat3d.envs.rendering.pictures import Pictures
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
@@ -24,11 +22,6 @@ from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.task import Judge, Task, Verdict, Verdicts
 from pat3d.errors import EnvironmentSetupError, TaskError
 from pat3d.scene.model import Scene
-
-Source = str | os.PathLike[str] | Scene | None
-
-REWARDS = ("sparse", "dense")
-RENDER_MODES = ("rgb_array", "depth_array")
 
 _KEPT_WORLDS = 4
 """Compiled scenes an environment keeps for the next time one of them is asked for."""
@@ -42,26 +35,9 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     task's progress in [0, 1], see the judge of each task.
 
     Args:
-        scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
-        task: "pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task;
-            None for picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all.
-        robot: Panda, UR5e, Sawyer or IIWA.
-        suite: a suite folder instead of a scene; every reset draws one of its scenes with that scene's own task.
-        split: of the suite: "train", "val", "test", "val/object", ...; None for all.
-        index: of the only scene to use among those chosen by split and kind of task, from 0.
-        obs: "state", "rgb" or "rgbd".
-        control: "osc", "joint_velocity" or "joint_position".
-        reward: "sparse" or "dense".
-        control_freq: actions a second [1/s].
-        cameras: those of the rgb and rgbd observations.
-        image_size: height and width of the pictures [pixel].
-        segmentation: whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object.
-        start_noise: standard deviation of the robot's posture at the start [rad].
-        max_objects: rows of the state's "objects"; None for as many as the scene's moving objects.
-        sleep: leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer).
-        render_mode: "rgb_array", "depth_array" or None.
-        render_camera: for `render`.
-        render_size: height and width for `render` [pixel].
+        scene: see TabletopConfig, whose fields are the keyword arguments.
+        config: all arguments at once, instead.
+        arguments: see TabletopConfig.
 
     Raises:
         UnsettledSceneError: the scene moves when MuJoCo loads it.
@@ -72,61 +48,33 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 20}  # type: ignore[misc]
 
-    def __init__(
-        self,
-        scene: Source = None,
-        task: str | Task | None = None,
-        robot: str = "Panda",
-        suite: str | os.PathLike[str] | None = None,
-        split: str | None = None,
-        index: int | None = None,
-        obs: Literal["state", "rgb", "rgbd"] = "state",
-        control: Literal["osc", "joint_velocity", "joint_position"] = "osc",
-        reward: Literal["sparse", "dense"] = "sparse",
-        control_freq: float = 20.0,
-        cameras: Sequence[str] = ("agentview", "wrist"),
-        image_size: tuple[int, int] = (128, 128),
-        segmentation: bool = False,
-        start_noise: float = 0.02,
-        max_objects: int | None = None,
-        sleep: bool = True,
-        render_mode: str | None = None,
-        render_camera: str = "agentview",
-        render_size: tuple[int, int] = (480, 640),
-    ) -> None:
-        one_of("reward", reward, REWARDS)
-        one_of("camera", render_camera, CAMERAS)
-        if render_mode is not None:
-            one_of("render mode", render_mode, RENDER_MODES)
-        self._start_noise, self._sleep = number("start_noise", start_noise, 0.0, 0.5, "rad"), sleep
-        height, width = picture_size("image_size", image_size)
-        control_freq = number("control_freq", control_freq, 0.1, 1000.0, "actions a second")
-        if max_objects is not None:
-            whole("max_objects", max_objects, 1)
-        self.robot, self.control, self.reward, self.control_freq = robot, control, reward, control_freq
-        self.render_mode, self._render_camera = render_mode, render_camera
-        self._render_size = picture_size("render_size", render_size)
-        self.metadata = {**TabletopEnv.metadata, "render_fps": round(control_freq)}  # type: ignore[misc]
-        make_robot(robot)
+    def __init__(self, scene: Source = None, *, config: TabletopConfig | None = None, **arguments: Any) -> None:
+        given = arguments if scene is None else {"scene": scene, **arguments}
+        self.config = config = configured(TabletopConfig, config, given)
+        self.robot, self.control, self.reward = config.robot, config.control, config.reward
+        self.control_freq, self.render_mode = config.control_freq, config.render_mode
+        self.metadata = {**TabletopEnv.metadata, "render_fps": round(config.control_freq)}  # type: ignore[misc]
+        make_robot(config.robot)
         self._kept: dict[tuple[str, str], tuple[Task, Simulation]] = {}
         self._pictures: Pictures | None = None
-        self._chosen = Selection.of(suite, split, index, scene, task)
+        self._chosen = Selection.of(config.suite, config.split, config.index, config.scene, config.task)
         self._loaded: LoadedScene
         self._task_given: str | Task | None
         if self._chosen is not None:
             self._loaded, self._task_given = self._chosen.first()
             moving = self._chosen.most_objects
         else:
-            self._loaded = load(scene)
-            self._task_given = DEFAULT_TASK if scene is None and task is None else task
+            self._loaded = load(config.scene)
+            self._task_given = DEFAULT_TASK if config.scene is None and config.task is None else config.task
             moving = sum(not obj.fixed for obj in self._loaded.scene.objects)
+        height, width = config.image_size
         self._spec = ObservationSpec(
-            kind=obs,
-            cameras=names("camera", cameras, CAMERAS),
+            kind=config.obs,
+            cameras=tuple(config.cameras),
             height=height,
             width=width,
-            segmentation=segmentation,
-            max_objects=moving if max_objects is None else max_objects,
+            segmentation=config.segmentation,
+            max_objects=moving if config.max_objects is None else config.max_objects,
         )
         self._enter(self._loaded, self._task_given)
         self._judge: Judge | None = None
@@ -171,7 +119,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._loaded, self._task_given = loaded, task
         count = len(self.simulation.world.robot.arm_joints)
         # Three standard deviations at most: a start posture that touches something is no start.
-        noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self._start_noise
+        noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self.config.start_noise
         self.simulation.reset(noise)
         observation, info = self._begin()
         return observation, {**info, "placement": self.placement.describe()}
@@ -217,7 +165,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             gymnasium.logger.warn('render needs a mode: gymnasium.make("PAT3D-v0", render_mode="rgb_array").')
             return None
         depth = self.render_mode == "depth_array"
-        picture = self.pictures.take(self._render_camera, *self._render_size, depth=depth)
+        picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth)
         return picture.depth if depth else picture.image
 
     def close(self) -> None:
@@ -251,7 +199,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         if key not in self._kept:
             chosen, placement = choose(loaded.scene, task, self.robot)
             world = compose(loaded.scene, loaded.mjcf, make_robot(self.robot), placement)
-            self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self._sleep))
+            self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self.config.sleep))
             if len(self._kept) > _KEPT_WORLDS:
                 del self._kept[next(iter(self._kept))]
         chosen, simulation = self._kept[key]

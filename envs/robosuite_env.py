@@ -10,17 +10,18 @@ robosuite compiles it anew at every reset unless hard_reset=False.
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
-from pat3d.envs.env import Source, choose
+from pat3d.envs.config import Source
+from pat3d.envs.env import choose
 from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
 from pat3d.envs.physics.world import furnish, index
-from pat3d.envs.robots.arms import make_robot, robosuite_module
+from pat3d.envs.robots.arms import make_robot
+from pat3d.envs.robots.robosuite_arms import robosuite_module
 from pat3d.envs.tasks.task import Judge, Task, Verdict
 from pat3d.errors import EnvironmentSetupError
 
@@ -55,7 +56,7 @@ class PAT3DScene(_Base):
         self.reward_shaping = reward_shaping
         self._judge: Judge | None = None
         self._verdict = Verdict(success=False)
-        options.setdefault("gripper_types", self._robot.gripper_name)
+        options.setdefault("gripper_types", self._robot.robosuite.gripper_name)
         super().__init__(robots=robots, base_types="NullMount", **options)
 
     def reward(self, action: Any = None) -> float:
@@ -68,7 +69,8 @@ class PAT3DScene(_Base):
 
         Writing the whole as text, as robosuite would, rounds every number to six digits.
         """
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         text = xml_string or self.model.get_xml()
         for processor in self._xml_processors:
             text = processor(text)

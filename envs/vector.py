@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Literal
+from dataclasses import fields
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -10,16 +11,16 @@ from gymnasium.vector import AsyncVectorEnv, AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from pat3d.envs.arguments import number, one_of, whole
-from pat3d.envs.env import REWARDS, Source, choose
+from pat3d.envs.arguments import one_of, whole
+from pat3d.envs.config import BatchConfig, configured
+from pat3d.envs.env import choose
 from pat3d.envs.observations import ObservationSpec, Observer
 from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.world import compose
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
 from pat3d.envs.robots.arms import make_robot
-from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.suites.selection import Selection
-from pat3d.envs.tasks.task import Judge, Task, Verdicts
+from pat3d.envs.tasks.task import Judge, Verdicts
 from pat3d.errors import EnvironmentSetupError
 
 Observations = dict[str, NDArray[np.float32]]
@@ -67,7 +68,11 @@ def _runs_on_gpu(kwargs: dict[str, Any]) -> bool:
     if importlib.util.find_spec("mujoco_warp") is None or kwargs.get("obs", "state") != "state":
         return False
     several = kwargs.get("suite") is not None and kwargs.get("index") is None
-    if several or set(kwargs) - set(BatchedTabletopEnv.PARAMETERS) or kwargs.get("control") == "joint_velocity":
+    if (
+        several
+        or set(kwargs) - {field.name for field in fields(BatchConfig)}
+        or kwargs.get("control") == "joint_velocity"
+    ):
         return False
     import warp as wp
 
@@ -84,19 +89,9 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
     Args:
         num_envs: number of copies.
         device: Warp's name of the device.
-        scene: as for `TabletopEnv`.
-        task: likewise.
-        robot: Panda, Sawyer, ... that MuJoCo Warp supports.
-        suite: with `index`, the scene and the task.
-        split: of the suite.
-        index: of the scene among those of the split.
-        obs: "state".
-        control: "osc" or "joint_position".
-        reward: "sparse" or "dense".
-        control_freq: actions a second [1/s].
-        start_noise: standard deviation of the robot's posture at the start [rad].
-        max_episode_steps: after which an episode is truncated.
-        room: contacts and rows of constraints that each world has buffers for; measured where None.
+        config: all other arguments at once.
+        arguments: see BatchConfig, whose fields are the keyword arguments; a suite needs an `index`, and the controls
+            are "osc" and "joint_position".
 
     Raises:
         UnsettledSceneError: the scene moves when MuJoCo or MuJoCo Warp runs it.
@@ -106,69 +101,36 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
 
     metadata: ClassVar[dict[str, Any]] = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # type: ignore[misc]
 
-    PARAMETERS: ClassVar[tuple[str, ...]] = (
-        "scene",
-        "task",
-        "robot",
-        "suite",
-        "split",
-        "index",
-        "obs",
-        "control",
-        "reward",
-        "control_freq",
-        "start_noise",
-        "max_episode_steps",
-        "room",
-    )
-
     def __init__(
-        self,
-        num_envs: int,
-        device: str = "cuda",
-        scene: Source = None,
-        task: str | Task | None = None,
-        robot: str = "Panda",
-        suite: str | None = None,
-        split: str | None = None,
-        index: int | None = None,
-        obs: str = "state",
-        control: Literal["osc", "joint_position"] = "osc",
-        reward: Literal["sparse", "dense"] = "sparse",
-        control_freq: float = 20.0,
-        start_noise: float = 0.02,
-        max_episode_steps: int = MAX_EPISODE_STEPS,
-        room: tuple[int, int] | None = None,
+        self, num_envs: int, device: str = "cuda", *, config: BatchConfig | None = None, **arguments: Any
     ) -> None:
-        from pat3d.envs.batch.physics import BatchedPhysics, Room, require_still, room_for
+        from pat3d.envs.batch.physics import BatchedPhysics, Capacity, capacity_for, require_still
         from pat3d.envs.batch.state import BatchState
 
-        num_envs, max_episode_steps = whole("num_envs", num_envs, 1), whole("max_episode_steps", max_episode_steps, 1)
-        one_of("reward", reward, REWARDS)
-        one_of("control", control, CONTROLS)
-        start_noise = number("start_noise", start_noise, 0.0, 0.5, "rad")
-        if obs != "state":
-            raise EnvironmentSetupError(f'on a GPU there is no observation "{obs}", only "state".')
-        chosen = Selection.of(suite, split, index, scene, task)
+        num_envs = whole("num_envs", num_envs, 1)
+        config = configured(BatchConfig, config, arguments)
+        control, control_freq = config.control, config.control_freq
+        chosen = Selection.of(config.suite, config.split, config.index, config.scene, config.task)
         if chosen is not None:
-            if index is None:
+            if config.index is None:
                 raise EnvironmentSetupError(
                     "on a GPU all environments have the same scene: give its index in the suite, or use "
                     'vectorization_mode="async".'
                 )
             loaded, given = chosen.first()
         else:
-            loaded, given = load(scene), DEFAULT_TASK if scene is None and task is None else task
-        self.task, placement = choose(loaded.scene, given, robot)
-        world = compose(loaded.scene, loaded.mjcf, make_robot(robot), placement)
+            default = DEFAULT_TASK if config.scene is None and config.task is None else config.task
+            loaded, given = load(config.scene), default
+        self.task, placement = choose(loaded.scene, given, config.robot)
+        world = compose(loaded.scene, loaded.mjcf, make_robot(config.robot), placement)
         if not _present(device):
             raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')
-        sizes = room_for(world, control, control_freq) if room is None else Room(contacts=room[0], rows=room[1])
+        sizes = capacity_for(world, control, control_freq) if config.capacity is None else Capacity(*config.capacity)
         require_still(world, loaded.checksum, control, control_freq, device, sizes)
         self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
         self.state = BatchState(self.physics)
-        self.num_envs, self._reward, self._noise = num_envs, reward, start_noise
-        self._limit = max_episode_steps
+        self.num_envs, self._reward, self._noise = num_envs, config.reward, config.start_noise
+        self._limit = config.max_episode_steps
         spec = ObservationSpec(
             kind="state", cameras=("agentview",), height=8, width=8, segmentation=False, max_objects=len(world.objects)
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -11,8 +10,8 @@ import warp as wp
 
 from pat3d.envs.batch.kernels import aim_hand, aim_joints, move_fingers, torque_kernels
 from pat3d.envs.physics.world import World
-from pat3d.envs.robots.arms import finger_targets
-from pat3d.envs.robots.controllers import part_settings
+from pat3d.envs.robots.controllers import LARGEST, STIFFNESS
+from pat3d.envs.robots.robot import Robot, finger_targets
 from pat3d.errors import EnvironmentSetupError
 
 CONTROLS = ("osc", "joint_position")
@@ -40,15 +39,11 @@ class BatchedController:
         self.kind, self._data = kind, data
         self._worlds = data.nworld
         self._device = data.qpos.device
-        settings = {**part_settings(kind), **(robot.controller if kind == "osc" else {})}
-        if kind == "osc" and not (settings["uncouple_pos_ori"] and settings["input_ref_frame"] == "base"):
-            raise EnvironmentSetupError(f"{robot.name}: its controller couples position and orientation.")
+        self._gain, self._damping, largest = _settings(robot, kind)
         joints = [model.joint(prefix + name) for name in robot.arm_joints]
         count = len(joints)
         self.size = (6 if kind == "osc" else count) + 1
         """Number of values of an action."""
-        self._gain = float(settings["kp"])
-        self._damping = 2.0 * math.sqrt(self._gain) * float(settings["damping_ratio"])
         arm_actuators = [model.actuator(prefix + name).id for name in robot.arm_actuators]
         self._ids = self._array([joint.id for joint in joints], int)
         self._positions = self._array([int(joint.qposadr[0]) for joint in joints], int)
@@ -56,11 +51,10 @@ class BatchedController:
         self._velocities = self._array(dofs, int)
         self._actuators = self._array(arm_actuators, int)
         self._limits = self._array(model.actuator_ctrlrange[arm_actuators].T, wp.float64)
-        self._scale = self._array(
-            np.broadcast_to(np.asarray(settings["output_max"], dtype=np.float64), self.size - 1), wp.float64
-        )
+        self._scale = self._array(np.broadcast_to(np.asarray(largest, dtype=np.float64), self.size - 1), wp.float64)
         self._site = int(model.site(prefix + robot.grip_site).id)
-        mujoco: Any = import_module("mujoco")
+        import mujoco
+
         base = mujoco.MjData(model)
         mujoco.mj_kinematics(model, base)
         self._base = wp.mat33d(*base.site_xmat[model.site(prefix + robot.base_site).id])
@@ -73,7 +67,7 @@ class BatchedController:
         self._goal_position = wp.zeros(self._worlds, dtype=wp.vec3d, device=self._device)
         self._goal_rotation = wp.zeros(self._worlds, dtype=wp.mat33d, device=self._device)
         self._goal = wp.zeros((self._worlds, count), dtype=wp.float64, device=self._device)
-        gripper = robot.new_gripper()
+        gripper = robot.new_drive()
         before = np.array(gripper.current_action, dtype=np.float64)
         stride = np.array(gripper.format_action(np.ones(1))) - before
         fingers = len(robot.gripper_actuators)
@@ -153,6 +147,19 @@ class BatchedController:
 
     def _array(self, values: Any, dtype: Any) -> wp.array:
         return wp.array(np.ascontiguousarray(values), dtype=dtype, device=self._device)
+
+
+def _settings(robot: Robot, kind: str) -> tuple[float, float, Any]:
+    """Stiffness [1/s^2], damping [1/s], and what an action of 1 asks for."""
+    if robot.robosuite is None:
+        return STIFFNESS[kind], 2.0 * math.sqrt(STIFFNESS[kind]), LARGEST[kind]
+    from pat3d.envs.robots.robosuite_controllers import part_settings
+
+    settings = {**part_settings(kind), **(robot.robosuite.controller if kind == "osc" else {})}
+    if kind == "osc" and not (settings["uncouple_pos_ori"] and settings["input_ref_frame"] == "base"):
+        raise EnvironmentSetupError(f"{robot.name}: its controller couples position and orientation.")
+    gain = float(settings["kp"])
+    return gain, 2.0 * math.sqrt(gain) * float(settings["damping_ratio"]), settings["output_max"]
 
 
 def _places(model: Any, data: Any, dofs: list[int]) -> np.ndarray:

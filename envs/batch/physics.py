@@ -13,7 +13,6 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -65,7 +64,8 @@ def in_single_precision(model: Any) -> Any:
     what a hand holds would creep out of it. Boxes collide by their own routine: the general one loses contacts of
     boxes that overlap by micrometres.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     fit = copy.copy(model)
     fit.geom_margin[:], fit.geom_gap[:] = 0.0, 0.0
     stiff = fit.geom_solref[:, 0] < SOLREF[0]
@@ -79,16 +79,16 @@ def in_single_precision(model: Any) -> Any:
     return fit
 
 
-@dataclass(frozen=True, kw_only=True)
-class Room:
-    """Sizes of the buffers, a world."""
+@dataclass(frozen=True)
+class Capacity:
+    """Capacity of the buffers, a world."""
 
     contacts: int
     rows: int
     """Of the constraint matrix."""
 
 
-def room_for(world: World, control: str, control_freq: float) -> Room:
+def capacity_for(world: World, control: str, control_freq: float) -> Capacity:
     """Buffers for a world, from the most that it needs within a second of standing still on the CPU."""
     fit = replace(world, model=in_single_precision(world.model))
     simulation = Simulation(fit, control, control_freq, sleep=False)
@@ -97,7 +97,7 @@ def room_for(world: World, control: str, control_freq: float) -> Room:
     for _ in range(round(control_freq)):
         simulation.step(np.zeros(simulation.controller.size))
         contacts, rows = max(contacts, simulation.data.ncon), max(rows, simulation.data.nefc)
-    return Room(
+    return Capacity(
         contacts=round(SPARE * contacts) + ROBOT_CONTACTS,
         rows=round(SPARE * rows) + ROBOT_CONTACTS * ROWS_PER_CONTACT,
     )
@@ -112,19 +112,25 @@ class BatchedPhysics:
         control: kind of controller.
         control_freq: actions a second [1/s].
         device: Warp's name of it.
-        room: sizes of the buffers; measured where None.
+        capacity: sizes of the buffers; measured where None.
 
     Raises:
         EnvironmentSetupError: MuJoCo Warp is not installed or lacks something that the world has; says what.
     """
 
     def __init__(
-        self, world: World, worlds: int, control: str, control_freq: float, device: str, room: Room | None = None
+        self,
+        world: World,
+        worlds: int,
+        control: str,
+        control_freq: float,
+        device: str,
+        capacity: Capacity | None = None,
     ) -> None:
         self._engine = mujoco_warp()
         self.world = replace(world, model=in_single_precision(world.model))
         model = self.world.model
-        self.room = room_for(world, control, control_freq) if room is None else room
+        self.capacity = capacity_for(world, control, control_freq) if capacity is None else capacity
         single = Simulation(self.world, control, control_freq, sleep=False)
         single.reset()
         home = single.data
@@ -134,7 +140,7 @@ class BatchedPhysics:
             try:
                 self._model = self._engine.put_model(model)
                 self.data = self._engine.put_data(
-                    model, home, nworld=worlds, naconmax=worlds * self.room.contacts, njmax=self.room.rows
+                    model, home, nworld=worlds, naconmax=worlds * self.capacity.contacts, njmax=self.capacity.rows
                 )
             except (NotImplementedError, ValueError) as error:
                 raise EnvironmentSetupError(f"MuJoCo Warp cannot run {world.robot.name} here: {error}") from error
@@ -217,23 +223,23 @@ class BatchedPhysics:
                     self._substep()
                 else:
                     wp.capture_launch(self._graph)
-        self.require_room()
+        self.require_capacity()
 
-    def require_room(self) -> None:
+    def require_capacity(self) -> None:
         """Raise EnvironmentSetupError where the buffers did not hold all contacts since the start."""
         need = self.peaks
-        if need.contacts > self.room.contacts or need.rows > self.room.rows:
+        if need.contacts > self.capacity.contacts or need.rows > self.capacity.rows:
             raise EnvironmentSetupError(
-                f"the worlds need room for {need.contacts} contacts and {need.rows} rows each, and have it for "
-                f"{self.room.contacts} and {self.room.rows}; results from here on would be wrong. "
-                f"Make the environment with room=({2 * need.contacts}, {2 * need.rows})."
+                f"the worlds need a capacity of {need.contacts} contacts and {need.rows} rows each, and have one of "
+                f"{self.capacity.contacts} and {self.capacity.rows}; results from here on would be wrong. "
+                f"Make the environment with capacity=({2 * need.contacts}, {2 * need.rows})."
             )
 
     @property
-    def peaks(self) -> Room:
+    def peaks(self) -> Capacity:
         """The most that the buffers had to hold so far."""
         contacts, pairs, rows = (int(peak) for peak in self._peaks.numpy())
-        return Room(contacts=-(-max(contacts, pairs) // self.worlds), rows=rows)
+        return Capacity(contacts=-(-max(contacts, pairs) // self.worlds), rows=rows)
 
     @property
     def lost(self) -> NDArray[np.bool_]:
@@ -271,9 +277,10 @@ def mujoco_warp() -> Any:
         EnvironmentSetupError: it is not installed; says how to install it.
     """
     try:
-        return import_module("mujoco_warp")
+        import mujoco_warp
     except ImportError as error:
         raise EnvironmentSetupError(f'{error}; the GPU environments need pip install "pat3d[gpu]".') from error
+    return mujoco_warp
 
 
 def require_still(
@@ -282,7 +289,7 @@ def require_still(
     control: str,
     control_freq: float,
     device: str,
-    room: Room,
+    capacity: Capacity,
     seconds: float = STILL_SECONDS,
 ) -> None:
     """Refuse a scene that moves on this device while the robot stands still; known results are not tried again.
@@ -293,7 +300,7 @@ def require_still(
         control: kind of controller.
         control_freq: actions a second [1/s].
         device: Warp's name of it.
-        room: sizes of the buffers.
+        capacity: sizes of the buffers.
         seconds: simulated time [s].
 
     Raises:
@@ -304,7 +311,7 @@ def require_still(
     kept = cache_root() / "settled" / f"{hashlib.sha256(about.encode()).hexdigest()[:32]}-mujoco_warp.json"
     moved = _stored(kept)
     if moved is None:
-        moved = drift(BatchedPhysics(world, 1, control, control_freq, device, room), seconds)
+        moved = drift(BatchedPhysics(world, 1, control, control_freq, device, capacity), seconds)
         store_record(kept, moved)
     wrong = {name: (mm, degrees) for name, (mm, degrees) in moved.items() if mm > MAX_MM or degrees > MAX_DEGREES}
     if wrong:

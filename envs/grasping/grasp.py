@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from pat3d.assets.mesh.regions import height_map
-from pat3d.envs.robots.arms import Gripper
+from pat3d.envs.robots.robot import Gripper
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.planes import planes
 from pat3d.geometry.pose import Pose
@@ -300,12 +300,12 @@ def _through(start: Array, towards: Array, normals: Array, offsets: Array) -> tu
         distances, shape (grasps, heights, sides) each, and the two cosines, shape (2, grasps, heights, sides).
     """
     slope = (towards @ normals.T)[:, None, None]
-    room = offsets - start @ normals.T
+    ahead = offsets - start @ normals.T
     with np.errstate(divide="ignore", invalid="ignore"):
-        cut = room / slope
+        cut = ahead / slope
     entering = np.where(slope < -1e-9, cut, -np.inf)
     leaving = np.where(slope > 1e-9, cut, np.inf)
-    outside = ((np.abs(slope) <= 1e-9) & (room < 0.0)).any(axis=-1)
+    outside = ((np.abs(slope) <= 1e-9) & (ahead < 0.0)).any(axis=-1)
     first, last = entering.argmax(axis=-1), leaving.argmin(axis=-1)
     slopes = np.broadcast_to(slope, cut.shape)
     enter = np.where(outside, np.inf, np.take_along_axis(entering, first[..., None], -1)[..., 0])

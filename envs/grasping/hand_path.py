@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.hand import Hand
+from pat3d.envs.robots.arms import arm_kinematics
 from pat3d.envs.robots.kinematics import PlacedArm
 
 Array = NDArray[np.float64]
@@ -26,7 +27,7 @@ class HandPath:
 
     def __init__(self, env: Any) -> None:
         self._env = env
-        self._arm = PlacedArm(env.robot, env.placement.base_position, env.placement.yaw)
+        self._arm = PlacedArm(arm_kinematics(env.robot), env.placement.base_position, env.placement.yaw)
 
     def through(self, goals: list[Hand]) -> list[Hand] | None:
         """Poses from the present posture through `goals`; None where the arm does not get to one of them."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from pat3d.envs.grasping.grasp import Grasp, apart, search
-from pat3d.envs.robots.arms import Gripper
+from pat3d.envs.robots.robot import Gripper
 from pat3d.scene.model import Scene
 
 LEANS = (math.radians(40.0), math.radians(70.0))

@@ -17,7 +17,7 @@ from pat3d.envs.grasping.grasp import Grasp
 from pat3d.envs.grasping.hand import hand_pose, hand_rotation
 from pat3d.envs.grasping.leaning import LEANING_HOVER, LEANING_MARGIN
 from pat3d.envs.grasping.taking import grasps_of
-from pat3d.envs.robots.arms import measure_gripper
+from pat3d.envs.robots.arms import arm_kinematics, measure_gripper
 from pat3d.envs.robots.kinematics import ArmKinematics
 from pat3d.errors import TaskError
 from pat3d.scene.model import GROUND, Scene
@@ -119,7 +119,7 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     gripper = measure_gripper(robot)
     grasps = grasps_of(scene, needs.grasp, robot, put=bool(needs.visit), cleared=needs.cleared)
     site = _Site.of(scene, needs)
-    arm = ArmKinematics(robot)
+    arm = arm_kinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
     comfortable = float(np.hypot(hand[0], hand[1])) + 0.1
     farthest: dict[str, tuple[float, float, float]] = {}

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasping.room import overhang_room
+from pat3d.envs.grasping.free_space import edge_margin
 from pat3d.scene.asset import Region
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def spots_over(env: Any, name: str, where: str, *, on: bool, more: bool) -> list
         return [state.position(where).copy()]
     radius = _radius(state.points(name))
     # What is in a container has to get between its walls; what is on a top may stick out.
-    margin = radius if region.kind == "in" else overhang_room(env.scene, name)
+    margin = radius if region.kind == "in" else edge_margin(env.scene, name)
     there = [
         state.local(state.points(obj.name), where)[:, :2]
         for obj in env.scene.objects

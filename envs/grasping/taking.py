@@ -11,7 +11,7 @@ import numpy as np
 from pat3d.envs.grasping.grasp import STEADY, Grasp, find_grasps, torque
 from pat3d.envs.grasping.leaning import LEANING_PAYLOAD, find_leaning_grasps
 from pat3d.envs.grasping.refusals import why_not
-from pat3d.envs.robots.arms import PAYLOADS, measure_gripper
+from pat3d.envs.robots.arms import make_robot, measure_gripper
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
@@ -56,9 +56,10 @@ def _grasps(scene: Scene, name: str, robot: str, *, put: bool) -> list[Grasp]:
     """Grasps of an object among everything in the scene, at least one."""
     gripper, properties = measure_gripper(robot), scene[name].asset.mass_properties
     mass = properties.mass
-    if mass > PAYLOADS[robot]:
+    payload = make_robot(robot).payload
+    if mass > payload:
         raise TaskError(
-            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {PAYLOADS[robot]:.1f} kg.'
+            f'"{name}" is too heavy for {robot}: it weighs {mass:.1f} kg, the arm carries {payload:.1f} kg.'
         )
     found = find_grasps(scene, name, gripper)
     if not found and not put and mass <= LEANING_PAYLOAD:

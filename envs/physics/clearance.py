@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -28,7 +27,9 @@ class Clearance:
     """
 
     def __init__(self, env: Any) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self._simulation, self._world = env.simulation, env.simulation.world
         self._model = self._world.model
         self._data = self._mujoco.MjData(self._model)
@@ -63,19 +64,19 @@ class Clearance:
         owners = self._overlaps(name, shift)
         return not ((owners == self._numbers[name]).any(axis=1) & (owners != ROBOT).all(axis=1)).any()
 
-    def room(self, joints: Array, fingers: Array, carried: str = "") -> float:
+    def distance(self, joints: Array, fingers: Array, carried: str = "") -> float:
         """How far the robot would be from all objects but `carried` [m], at most NOTICED; see `obstacle`."""
         self._overlaps(carried, None, joints, fingers)
         model, data, owner = self._model, self._data, self._world.owner
         collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
         others = np.flatnonzero(collides & (owner >= 0) & (owner != self._numbers.get(carried, ROBOT)))
-        room = NOTICED
+        nearest = NOTICED
         for geom in np.flatnonzero(collides & (owner == ROBOT)).tolist():
-            reach = model.geom_rbound[geom] + model.geom_rbound[others] + room
+            reach = model.geom_rbound[geom] + model.geom_rbound[others] + nearest
             near = np.linalg.norm(data.geom_xpos[others] - data.geom_xpos[geom], axis=1) < reach
             for other in others[near].tolist():
-                room = min(room, self._mujoco.mj_geomDistance(model, data, geom, other, room, None))
-        return room
+                nearest = min(nearest, self._mujoco.mj_geomDistance(model, data, geom, other, nearest, None))
+        return nearest
 
     def _overlaps(
         self, carried: str, shift: Array | None, joints: Array | None = None, fingers: Array | None = None

@@ -12,7 +12,6 @@ import os
 import tempfile
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -130,7 +129,8 @@ def _adopt(fresh: Path, target: Path) -> None:
 
 def _require_settled(mjcf: Path, checksum: str) -> None:
     """Raise UnsettledSceneError unless MuJoCo holds the scene still."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     record = cache_root() / "settled" / f"{checksum[:32]}-{mujoco.__version__}.json"
     drift = _stored(record)
     if drift is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,9 @@ class MujocoState(States):
 
     def __init__(self, world: World, data: Any) -> None:
         super().__init__(world, 1)
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self._data = data
         self.qpos, self.xquat, self.site_xmat = data.qpos[None], data.xquat[None], data.site_xmat[None]
         model = world.model

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
 from pat3d.envs.physics.world import PREFIX, ROBOT, World
-from pat3d.envs.robots.controllers import RobotController
+from pat3d.envs.robots.controllers import make_controller
 from pat3d.errors import EnvironmentSetupError
 
 Array = NDArray[np.float64]
@@ -25,7 +22,9 @@ class Simulation:
     """
 
     def __init__(self, world: World, control: str, control_freq: float, *, sleep: bool = True) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self.world, self.model = world, world.model
         # MuJoCo's sleeping knows no equalities of tendons, which the Robotiq 140 has.
         if sleep and not (self.model.eq_type == self._mujoco.mjtEq.mjEQ_TENDON).any():
@@ -50,7 +49,7 @@ class Simulation:
         )
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
-        self.controller = RobotController(self.model, self.data, world.robot, PREFIX, control, control_freq)
+        self.controller = make_controller(self.model, self.data, world.robot, PREFIX, control, control_freq)
         self.states = MujocoState(world, self.data)
         """As tasks judge them: one world."""
         self.state = SimState(self.states)

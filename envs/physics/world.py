@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.placement import Placement
-from pat3d.envs.robots.arms import Robot
+from pat3d.envs.robots.robot import Robot
 from pat3d.errors import EnvironmentSetupError
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names
 from pat3d.geometry.pose import Pose
@@ -73,7 +72,8 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
     Raises:
         EnvironmentSetupError: MuJoCo refuses the scene or the combination; the message is MuJoCo's.
     """
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
         _attach(mujoco, spec, robot, placement)
@@ -87,7 +87,8 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
 
 def furnish(spec: Any, placement: Placement) -> None:
     """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     if placement.bench is not None:
         _bench(mujoco, spec, placement)
     _pedestal(mujoco, spec, placement)
@@ -97,7 +98,7 @@ def furnish(spec: Any, placement: Placement) -> None:
 
 
 def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
-    child = mujoco.MjSpec.from_string(robot.xml)
+    child = robot.new_spec()
     for geom in child.geoms:
         if geom.group == 0:
             geom.group = 3
@@ -211,7 +212,7 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
         placement: of the robot.
         prefix: before every name of the robot; robosuite's own worlds have none.
     """
-    starts = prefix or (robot.naming_prefix, "gripper0_")
+    starts = prefix or robot.owned
     names = body_names(scene)
     bodies = {obj.name: int(model.body(names[obj.name]).id) for obj in scene.objects}
     moving = tuple(obj.name for obj in scene.objects if not obj.fixed)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -20,11 +19,16 @@ class OpenGL:
     """Draws one model through EGL or OSMesa."""
 
     def __init__(self, model: Any) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         kind = "osmesa" if os.environ.get("MUJOCO_GL", "").lower() == "osmesa" else "egl"
         try:
-            context: Any = import_module(f"mujoco.{kind}")
-            self._context = context.GLContext(model.vis.global_.offwidth, model.vis.global_.offheight)
+            if kind == "osmesa":
+                from mujoco.osmesa import GLContext
+            else:
+                from mujoco.egl import GLContext
+            self._context = GLContext(model.vis.global_.offwidth, model.vis.global_.offheight)
             self._context.make_current()
             self._mjr = self._mujoco.MjrContext(model, self._mujoco.mjtFontScale.mjFONTSCALE_100.value)
         except (ImportError, AttributeError, RuntimeError, self._mujoco.FatalError) as error:

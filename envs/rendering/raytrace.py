@@ -7,7 +7,6 @@ camera; there are no shadows.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -54,7 +53,9 @@ class RayTracer:
     """Draws one model."""
 
     def __init__(self, model: Any) -> None:
-        self._mujoco: Any = import_module("mujoco")
+        import mujoco
+
+        self._mujoco = mujoco
         self._model = model
         self._textures: dict[int, Array] = {}
         self._bodies = [body for number in range(model.nbody) if (body := self._body(number)) is not None]

@@ -1,159 +1,56 @@
-"""Robots: robosuite's arms with their grippers, as one MJCF text each, and what is measured on them.
-
-Importing this module is cheap; robosuite (a second or two) is imported when the first robot is made.
-"""
+"""Robots by name: MuJoCo Menagerie's, those of a file of one's own, and robosuite's where it is installed."""
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import logging
 import os
-from collections.abc import Iterator
-from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from pat3d.envs.robots.kinematics import ArmKinematics
+from pat3d.envs.robots.menagerie import ARMS, described_file, menagerie_robot
+from pat3d.envs.robots.robosuite_arms import ROBOTS as ROBOSUITE
+from pat3d.envs.robots.robosuite_arms import measure_robosuite_gripper, robosuite_robot
+from pat3d.envs.robots.robot import Gripper, Robot
 from pat3d.errors import EnvironmentSetupError
 
-Array = NDArray[np.float64]
+ROBOT_VARIABLE = "PAT3D_ROBOT"
+"""Environment variable that names the robot of environments that name none."""
 
-GRIPPERS = {
-    "Panda": "PandaGripper",
-    "UR5e": "Robotiq140Gripper",
-    "Sawyer": "RethinkGripper",
-    "IIWA": "Robotiq140Gripper",
-}
-"""The gripper of every arm, robosuite's own names.
-
-robosuite's Robotiq 85, its default for the UR5e, jams on itself in MuJoCo 3.9: in robosuite's own Lift the pads
-stay 60 mm apart. The Robotiq 140 closes.
-"""
-
-ROBOTS = tuple(GRIPPERS)
-
-PAYLOADS = {"Panda": 3.0, "UR5e": 5.0, "Sawyer": 4.0, "IIWA": 7.0}
-"""What every arm carries by its maker's data sheet [kg]."""
-
-INSTALL_HINT = (
-    'robots need robosuite: "pip install pat3d[robots]", or without its unused dependencies '
-    '"pip install numba opencv-python-headless termcolor" and then "pip install --no-deps robosuite==1.5.2".'
-)
-
-_DRIVE_SECONDS = 0.8
-"""Time after which every gripper is open or closed [s]."""
+KEPT = 16
+"""Robots that a process remembers."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Gripper:
-    """What a parallel gripper can take, measured in the frame of its grip site with the fingers open."""
-
-    opening: float
-    """Free width between the pads [m]."""
-    closed: float
-    """Width that is left between the pads of the closed gripper [m]."""
-    finger_thickness: float
-    """Of a finger, from the pad outwards [m]."""
-    finger_width: float
-    """Of a finger, across the closing direction [m]."""
-    tip: float
-    """How far the fingers reach beyond the grip site along the approach direction [m]."""
-    palm: float
-    """How far the palm is behind the fingertips [m]: the deepest bite."""
-    hand: tuple[float, float]
-    """Width of the hand along and across the closing direction [m]."""
-    pad: float
-    """Height of the pads, from the tips backwards [m]."""
-    closing_axis: tuple[float, float, float]
-    """Direction in which the fingers close, in the frame of the grip site; the approach is +z."""
-    open_joints: tuple[float, ...] = ()
-    """Positions of the gripper's joints when it is open."""
-    closed_joints: tuple[float, ...] = ()
-    """The same when it is closed."""
-
-    def joints(self, width: float) -> Array:
-        """Positions of the gripper's joints when its pads are about `width` [m] apart."""
-        share = min(1.0, max(0.0, (width - self.closed) / (self.opening - self.closed)))
-        return np.array(self.closed_joints) + share * (np.array(self.open_joints) - np.array(self.closed_joints))
+def default_robot() -> str:
+    """The robot of environments that name none: Menagerie's Panda, or what PAT3D_ROBOT says."""
+    return os.environ.get(ROBOT_VARIABLE) or "panda"
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Robot:
-    """One arm with its gripper."""
-
-    name: str
-    gripper_name: str
-    xml: str
-    """MJCF of the arm standing at the origin, facing +x; mesh paths are absolute."""
-    arm_joints: tuple[str, ...]
-    arm_actuators: tuple[str, ...]
-    gripper_joints: tuple[str, ...]
-    gripper_actuators: tuple[str, ...]
-    home: Array
-    """Joint positions at the start [rad], shape (arm joints,)."""
-    gripper_home: Array
-    """Finger joint positions at the start, shape (gripper joints,)."""
-    grip_site: str
-    base_site: str
-    wrist_camera: str
-    pads: tuple[tuple[str, ...], tuple[str, ...]]
-    """Geoms of the left and of the right finger that touch what is held."""
-    fingers: tuple[tuple[str, ...], tuple[str, ...]]
-    """All geoms of the left and of the right finger that collide."""
-    naming_prefix: str
-    controller: dict[str, Any]
-    """robosuite's own settings of the operational-space controller for this arm."""
-
-    def new_gripper(self) -> Any:
-        """A fresh robosuite gripper, which turns actions into finger targets and remembers the last."""
-        return robosuite_module("models.grippers").gripper_factory(self.gripper_name, idn="0_right")
-
-
-@functools.lru_cache(maxsize=len(ROBOTS))
+@functools.lru_cache(maxsize=KEPT)
 def make_robot(name: str) -> Robot:
-    """The robot called `name`.
+    """The robot called `name`: one of ARMS, PATH.xml, or "robosuite:Panda" (or "Panda") for one of robosuite's.
 
     Raises:
-        EnvironmentSetupError: no such robot, or robosuite is not installed; the message says what is valid.
+        EnvironmentSetupError: no such robot, it cannot be had, or its parts are not found; says what is valid.
     """
-    if name not in ROBOTS:
-        raise EnvironmentSetupError(f'no robot "{name}". Robots: {", ".join(ROBOTS)}.')
-    with quiet_robosuite():
-        arm = robosuite_module("models.robots").create_robot(name, idn=0)
-        arm.add_base(robosuite_module("models.bases").robot_base_factory("NullMount", idn=0))
-        gripper_name = GRIPPERS[name]
-        gripper = robosuite_module("models.grippers").gripper_factory(gripper_name, idn="0_right")
-        arm.add_gripper(gripper, arm.eef_name["right"])
-        geoms = gripper.important_geoms
-        settings = robosuite_module("controllers").load_composite_controller_config(robot=name)
-    return Robot(
-        name=name,
-        gripper_name=gripper_name,
-        xml=arm.get_xml(),
-        arm_joints=tuple(arm.joints),
-        arm_actuators=tuple(arm.actuators),
-        gripper_joints=tuple(gripper.joints),
-        gripper_actuators=tuple(gripper.actuators),
-        home=np.array(arm.init_qpos, dtype=np.float64),
-        gripper_home=np.array(gripper.init_qpos, dtype=np.float64),
-        grip_site=gripper.important_sites["grip_site"],
-        base_site=f"{arm.naming_prefix}right_center",
-        wrist_camera=f"{arm.naming_prefix}eye_in_hand",
-        pads=(tuple(geoms["left_fingerpad"]), tuple(geoms["right_fingerpad"])),
-        fingers=(tuple(geoms["left_finger"]), tuple(geoms["right_finger"])),
-        naming_prefix=arm.naming_prefix,
-        controller=dict(settings["body_parts"]["right"]),
+    given = name.removeprefix("robosuite:")
+    if given in ROBOSUITE:
+        return robosuite_robot(given)
+    if name in ARMS:
+        return menagerie_robot(name)
+    if name.endswith((".xml", ".yaml", ".yml")):
+        return described_file(name)
+    raise EnvironmentSetupError(
+        f'no robot "{name}". Robots: {", ".join(ARMS)}; PATH.xml for your own; with robosuite installed '
+        f"{', '.join(ROBOSUITE)}."
     )
 
 
-@functools.lru_cache(maxsize=len(ROBOTS))
+@functools.lru_cache(maxsize=KEPT)
 def robot_model(name: str) -> Any:
     """The compiled MuJoCo model of robot `name` alone, at the origin, in a world without gravity."""
-    mujoco: Any = import_module("mujoco")
-    model = mujoco.MjModel.from_xml_string(make_robot(name).xml)
+    import mujoco
+
+    model = make_robot(name).new_spec().compile()
     model.opt.gravity[:] = 0.0
     # The scene's own solver options, under which the fingers will move.
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
@@ -161,118 +58,15 @@ def robot_model(name: str) -> Any:
     return model
 
 
-@functools.lru_cache(maxsize=len(ROBOTS))
+def arm_kinematics(name: str) -> ArmKinematics:
+    """Inverse kinematics of robot `name`."""
+    return ArmKinematics(make_robot(name), robot_model(name))
+
+
+@functools.lru_cache(maxsize=KEPT)
 def measure_gripper(name: str) -> Gripper:
     """Measure the open gripper of robot `name` on its geoms."""
-    mujoco: Any = import_module("mujoco")
+    from pat3d.envs.robots.fingers import measure
+
     robot, model = make_robot(name), robot_model(name)
-    data = mujoco.MjData(model)
-    for joint, value in zip(robot.arm_joints, robot.home, strict=True):
-        data.joint(joint).qpos[:] = value
-    for joint, value in zip(robot.gripper_joints, robot.gripper_home, strict=True):
-        data.joint(joint).qpos[:] = value
-    ids = [model.actuator(actuator).id for actuator in robot.gripper_actuators]
-    held = [model.joint(joint).dofadr[0] for joint in robot.arm_joints]
-
-    def drive(action: float) -> tuple[float, ...]:
-        """Bring the fingers to rest, and where their joints are then; the arm stands still without gravity."""
-        target = finger_targets(model, robot, _settled_action(robot.new_gripper(), action))
-        for _ in range(round(_DRIVE_SECONDS / model.opt.timestep)):
-            data.ctrl[ids] = target
-            data.qvel[held] = 0.0
-            mujoco.mj_step(model, data)
-        mujoco.mj_kinematics(model, data)
-        return tuple(float(data.joint(joint).qpos[0]) for joint in robot.gripper_joints)
-
-    def points(names: tuple[str, ...] | tuple[int, ...]) -> Array:
-        """Corners of geoms in the frame of the grip site [m]."""
-        site = data.site(robot.grip_site)
-        found = [_geom_points(mujoco, model, data, model.geom(geom).id) for geom in names]
-        return (np.concatenate(found) - site.xpos) @ site.xmat.reshape(3, 3)
-
-    wide = drive(-1.0)
-    pads = [points(names) for names in robot.pads]
-    between = pads[1].mean(axis=0) - pads[0].mean(axis=0)
-    # Across the approach, and along an axis of the site.
-    between[2] = 0.0
-    axis = np.zeros(3)
-    axis[np.argmax(np.abs(between))] = np.sign(between[np.argmax(np.abs(between))])
-    across = np.cross((0.0, 0.0, 1.0), axis)
-    fingers = [points(names) for names in robot.fingers]
-    hand = points(_hand_geoms(model, robot))
-    tip = max(float(finger[:, 2].max()) for finger in fingers)
-    ends = [finger[finger[:, 2] > tip - 0.03] for finger in fingers]
-    narrow = drive(1.0)
-    shut = [points(names) for names in robot.pads]
-    inner = [float((pads[0] @ axis).max()), float((pads[1] @ axis).min())]
-    return Gripper(
-        opening=inner[1] - inner[0],
-        closed=max(0.0, float((shut[1] @ axis).min() - (shut[0] @ axis).max())),
-        finger_thickness=max(inner[0] - float((ends[0] @ axis).min()), float((ends[1] @ axis).max()) - inner[1]),
-        finger_width=max(float(np.ptp(end @ across)) for end in ends),
-        tip=tip,
-        palm=tip - float(hand[:, 2].max()),
-        hand=(2 * float(np.abs(hand @ axis).max()), 2 * float(np.abs(hand @ across).max())),
-        pad=tip - min(float(pad[:, 2].min()) for pad in pads),
-        closing_axis=(float(axis[0]), float(axis[1]), float(axis[2])),
-        open_joints=wide,
-        closed_joints=narrow,
-    )
-
-
-def _settled_action(gripper: Any, action: float) -> Array:
-    """The gripper's own target in [-1, 1] after it was told to move one way for long, shape (gripper actuators,)."""
-    current = np.zeros(1)
-    for _ in range(64):
-        current = np.array(gripper.format_action(np.array([action])), dtype=np.float64)
-    return current
-
-
-def finger_targets(model: Any, robot: Robot, action: Array, prefix: str = "") -> Array:
-    """Controls of the gripper's actuators for a formatted action in [-1, 1], shape (gripper actuators,)."""
-    limits = np.array([model.actuator(prefix + name).ctrlrange for name in robot.gripper_actuators])
-    return limits.mean(axis=1) + 0.5 * np.ptp(limits, axis=1) * action
-
-
-def _hand_geoms(model: Any, robot: Robot) -> tuple[int, ...]:
-    """What collides of the hand, fingers aside."""
-    hand = int(model.site(robot.grip_site).bodyid[0])
-    while model.body_parentid[hand] and not (model.geom_bodyid == hand).any():
-        hand = int(model.body_parentid[hand])
-    return tuple(geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == hand and model.geom_contype[geom])
-
-
-def _geom_points(mujoco: Any, model: Any, data: Any, geom: int) -> Array:
-    """Corners of a geom's surface in the world [m], shape (n, 3)."""
-    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
-        mesh = model.geom_dataid[geom]
-        start = model.mesh_vertadr[mesh]
-        local = model.mesh_vert[start : start + model.mesh_vertnum[mesh]].astype(np.float64)
-    else:
-        centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
-        local = centre + half * np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
-    return local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
-
-
-def robosuite_module(module: str) -> Any:
-    """A module of robosuite."""
-    with quiet_robosuite():
-        try:
-            return import_module(f"robosuite.{module}")
-        except ImportError as error:
-            raise EnvironmentSetupError(f"{error}; {INSTALL_HINT}") from error
-
-
-@contextlib.contextmanager
-def quiet_robosuite() -> Iterator[None]:
-    """Without the messages that robosuite logs while loading, and without its change of MUJOCO_GL."""
-    level, backend = logging.root.manager.disable, os.environ.get("MUJOCO_GL")
-    logging.disable(max(level, logging.WARNING))
-    try:
-        yield
-    finally:
-        logging.disable(level)
-        if backend is None:
-            os.environ.pop("MUJOCO_GL", None)
-        else:
-            os.environ["MUJOCO_GL"] = backend
+    return measure(robot, model) if robot.robosuite is None else measure_robosuite_gripper(robot, model)

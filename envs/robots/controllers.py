@@ -1,229 +1,208 @@
-"""Actions to motor torques: robosuite's controllers on a plain MuJoCo model.
+"""Actions to motor torques: operational-space and joint controllers for any arm that is driven by torques.
 
-robosuite's controllers read the simulation through its own wrapper. A few names of that wrapper are enough for them,
-and the state they need each step is gathered here in one pass instead of one look-up after another.
+osc             f = kp (x* - x) - kd x', the same for the turn, as torques of the joints: see operational_space
+joint_position  torque = M (kp (q* - q) - kd q') + bias
+joint_velocity  torque = M kv (q'* - q') + bias
+
+The bias makes up for gravity, for velocities, and for the damping and the dry friction of the joints, as the drives of
+real arms do: what moves is the arm as if its joints were free.
 """
 
 from __future__ import annotations
 
-import functools
-from importlib import import_module
-from typing import Any, Literal, get_args
+import math
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.robots.arms import Robot, finger_targets, quiet_robosuite, robosuite_module
+from pat3d.envs.robots.inertia import inertia_matrix
+from pat3d.envs.robots.robot import Robot, finger_targets
 from pat3d.errors import EnvironmentSetupError
 
 Array = NDArray[np.float64]
 
-ControlKind = Literal["osc", "joint_velocity", "joint_position"]
-CONTROLS: tuple[str, ...] = get_args(ControlKind)
+CONTROLS = ("osc", "joint_velocity", "joint_position")
 
-_CLASSES = {
-    "osc": ("controllers.parts.arm.osc", "OperationalSpaceController", "osc_pose"),
-    "joint_velocity": ("controllers.parts.generic.joint_vel", "JointVelocityController", "joint_velocity"),
-    "joint_position": ("controllers.parts.generic.joint_pos", "JointPositionController", "joint_position"),
-}
+STIFFNESS = {"osc": 150.0, "joint_position": 50.0}
+"""kp [1/s^2]; damping is critical."""
+
+SPEED_GAIN = 25.0
+"""kv [1/s]."""
+
+OVERCOME, SHARP = 0.9, 4.0
+"""Share of the dry friction that is made up for, and how steeply about zero."""
+
+LARGEST = {"osc": (0.05, 0.05, 0.05, 0.5, 0.5, 0.5), "joint_velocity": (0.5,), "joint_position": (0.05,)}
+"""What an action of 1 asks for: changes of the hand's position [m] and orientation [rad], [rad/s], [rad]."""
 
 
-class RobotController:
-    """Turns actions in [-1, 1] into controls of one robot: arm first, the gripper's opening last.
-
-    osc: changes of the hand's position (5 cm) and orientation (0.5 rad, axis-angle) in the frame of the robot's base.
-    joint_velocity: joint velocities (0.5 rad/s). joint_position: changes of the joint positions (0.05 rad).
-    The last value closes the gripper (positive) or opens it (negative), by a fifth of its way a control step.
-    """
-
-    def __init__(self, model: Any, data: Any, robot: Robot, prefix: str, kind: str, control_freq: float) -> None:
-        if kind not in CONTROLS:
-            raise EnvironmentSetupError(f'no control "{kind}". Controls: {", ".join(CONTROLS)}.')
-        self.kind, self._model, self._data, self._robot, self._prefix = kind, model, data, robot, prefix
-        self._freq = control_freq
-        self._arm_actuators = np.array([model.actuator(prefix + name).id for name in robot.arm_actuators])
-        self._finger_actuators = np.array([model.actuator(prefix + name).id for name in robot.gripper_actuators])
-        self._limits = model.actuator_ctrlrange[self._arm_actuators].T.copy()
-        self._base = model.site(prefix + robot.base_site).id
-        self._gripper = robot.new_gripper()
-        self._untouched = np.array(self._gripper.current_action)
-        self._finger_middle = finger_targets(model, robot, np.zeros(len(robot.gripper_actuators)), prefix)
-        self._finger_reach = (
-            finger_targets(model, robot, np.ones(len(robot.gripper_actuators)), prefix) - self._finger_middle
-        )
-        self._operational: Any = None
-        if kind == "osc":
-            joints = [model.joint(prefix + name).id for name in robot.arm_joints]
-            site = model.site(prefix + robot.grip_site).id
-            self._operational = _operational_space(model, data, joints, site, self._arm_actuators, self._limits)
-        self._arm = self._new_arm()
+class Controller(Protocol):
+    """Turns actions in [-1, 1] into controls of one robot: arm first, the gripper's opening last."""
 
     @property
     def size(self) -> int:
         """Number of values of an action."""
-        return int(self._arm.control_dim) + 1
+        ...
 
     def reset(self) -> None:
         """Forget every earlier action; the present joint positions become the posture to keep."""
-        self._gripper.current_action = self._untouched.copy()
-        # A controller keeps integrals and filters; a new one keeps none.
-        self._arm = self._new_arm()
+        ...
 
     def set_action(self, action: Array) -> None:
         """Take an action, shape (size,), at the start of a control step; positions must be up to date."""
-        arm = self._arm
-        arm.set_goal(action[:-1])
-        if self._operational is not None:
-            # The base is bolted down, so the goal stays where it is in the world until the next action.
-            self._goal = (arm.origin_pos + arm.origin_ori @ arm.goal_pos, arm.origin_ori @ arm.goal_ori)
-            self._gains = (arm.kp, arm.kd, np.ascontiguousarray(arm.initial_joint))
-        fingers = np.asarray(self._gripper.format_action(action[-1:]), dtype=np.float64)
-        self._data.ctrl[self._finger_actuators] = self._finger_middle + self._finger_reach * fingers
+        ...
 
     def control(self) -> None:
         """Write the torques of this physics step; positions and velocities must be up to date."""
-        if self._operational is not None and self._operational.apply(*self._goal, *self._gains):
-            self._arm.new_update = True
-            return
-        torques = np.clip(self._arm.run_controller(), self._limits[0], self._limits[1])
-        self._data.ctrl[self._arm_actuators] = torques
+        ...
 
-    def _new_arm(self) -> Any:
-        robot, model, prefix = self._robot, self._model, self._prefix
+
+def make_controller(model: Any, data: Any, robot: Robot, prefix: str, kind: str, control_freq: float) -> Controller:
+    """The controller of `kind` for a robot in a world: robosuite's own for its arms, else one of this module.
+
+    Raises:
+        EnvironmentSetupError: no such kind; says what there is.
+    """
+    if kind not in CONTROLS:
+        raise EnvironmentSetupError(f'no control "{kind}". Controls: {", ".join(CONTROLS)}.')
+    if robot.robosuite is not None:
+        from pat3d.envs.robots.robosuite_controllers import RobosuiteController
+
+        return RobosuiteController(model, data, robot, prefix, kind, control_freq)
+    return TorqueController(model, data, robot, prefix, kind)
+
+
+class TorqueController:
+    """Actions in [-1, 1] of one robot as torques of its arm and targets of its fingers.
+
+    osc: changes of the hand's position (5 cm) and orientation (0.5 rad, axis-angle) in the frame of the robot's base.
+    joint_velocity: joint velocities (0.5 rad/s). joint_position: changes of the joint positions (0.05 rad).
+    The last value closes the gripper (positive) or opens it (negative), by a tenth of its range a control step.
+    """
+
+    def __init__(self, model: Any, data: Any, robot: Robot, prefix: str, kind: str) -> None:
+        self.kind, self._model, self._data, self._robot = kind, model, data, robot
         joints = [model.joint(prefix + name) for name in robot.arm_joints]
-        indexes = {
-            "joints": [joint.id for joint in joints],
-            "qpos": [int(joint.qposadr[0]) for joint in joints],
-            "qvel": [int(joint.dofadr[0]) for joint in joints],
-        }
-        settings = dict(part_settings(self.kind))
-        if self.kind == "osc":
-            settings.update(robot.controller)
-        for key in ("type", "interpolation", "ramp_ratio", "gripper"):
-            settings.pop(key, None)
-        with quiet_robosuite():
-            arm = _controller_class(self.kind)(
-                _Simulation(model, self._data, slice(indexes["qvel"][0], indexes["qvel"][-1] + 1)),
-                ref_name=prefix + robot.grip_site,
-                joint_indexes=indexes,
-                actuator_range=(self._limits[0], self._limits[1]),
-                policy_freq=self._freq,
-                lite_physics=True,
-                part_name="right",
-                naming_prefix=prefix + robot.naming_prefix,
-                use_torque_compensation=self.kind != "joint_velocity",
-                **settings,
+        self._positions = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._dofs = np.array([int(joint.dofadr[0]) for joint in joints])
+        self._actuators = np.array([model.actuator(prefix + name).id for name in robot.arm_actuators])
+        self._limits = np.ascontiguousarray(model.actuator_ctrlrange[self._actuators].T)
+        self._fingers = np.array([model.actuator(prefix + name).id for name in robot.gripper_actuators], dtype=np.int64)
+        count = len(robot.gripper_actuators)
+        self._middle = finger_targets(model, robot, np.zeros(count), prefix)
+        self._reach = finger_targets(model, robot, np.ones(count), prefix) - self._middle
+        self._site, self._base = model.site(prefix + robot.grip_site).id, model.site(prefix + robot.base_site).id
+        self._scale = np.broadcast_to(np.array(LARGEST[kind]), 6 if kind == "osc" else len(joints))
+        self._bias = np.zeros(model.nv)
+        self._friction = model.dof_frictionloss[self._dofs].copy()
+        self._inertia = np.zeros((model.nv, model.nv))
+        self._jacobian = np.zeros((6, model.nv))
+        self._operational: Any = None
+        if kind == "osc":
+            from pat3d.envs.robots.operational_space import OperationalSpace
+
+            ids = [joint.id for joint in joints]
+            self._operational = OperationalSpace(
+                model, data, ids, self._site, self._actuators, self._limits, self._bias
             )
-        site = self._base
-        arm.update_origin(self._data.site_xpos[site].copy(), self._data.site_xmat[site].reshape(3, 3).copy())
-        arm.update_initial_joints(self._data.qpos[indexes["qpos"]].copy())
-        arm.reset_goal()
-        return arm
+            self._kp = np.full(6, STIFFNESS["osc"])
+            self._kd = 2.0 * np.sqrt(self._kp)
+        self.reset()
+
+    @property
+    def size(self) -> int:
+        """Number of values of an action."""
+        return len(self._scale) + 1
+
+    def reset(self) -> None:
+        """Forget every earlier action; the present joint positions become the posture to keep."""
+        self._drive = self._robot.new_drive()
+        self._posture = self._data.qpos[self._positions].copy()
+        self._aim(np.zeros(len(self._scale)))
+
+    def set_action(self, action: Array) -> None:
+        """Take an action, shape (size,), at the start of a control step; positions must be up to date."""
+        self._aim(action[:-1] * self._scale)
+        targets = np.asarray(self._drive.format_action(action[-1:]), dtype=np.float64)
+        self._data.ctrl[self._fingers] = self._middle + self._reach * targets
+
+    def _aim(self, change: Array) -> None:
+        data = self._data
+        if self.kind == "osc":
+            base = data.site_xmat[self._base].reshape(3, 3)
+            turn = base @ rotation_by(change[3:]) @ base.T
+            self._goal = data.site_xpos[self._site] + base @ change[:3]
+            self._goal_rotation = np.ascontiguousarray(turn @ data.site_xmat[self._site].reshape(3, 3))
+        elif self.kind == "joint_position":
+            self._goal = data.qpos[self._positions] + change
+        else:
+            self._goal = change.copy()
+
+    def control(self) -> None:
+        """Write the torques of this physics step; positions and velocities must be up to date."""
+        data = self._data
+        np.subtract(data.qfrc_bias, data.qfrc_passive, out=self._bias)
+        if self.kind == "osc":
+            if not self._operational.apply(self._goal, self._goal_rotation, self._kp, self._kd, self._posture):
+                self._near_singular()
+        else:
+            self._follow()
+        if self._friction.any():
+            self._overcome_friction()
+
+    def _follow(self) -> None:
+        """Torques towards positions or velocities of the joints."""
+        data = self._data
+        speed = data.qvel[self._dofs]
+        if self.kind == "joint_position":
+            kp = STIFFNESS["joint_position"]
+            wanted = kp * (self._goal - data.qpos[self._positions]) - 2.0 * math.sqrt(kp) * speed
+        else:
+            wanted = SPEED_GAIN * (self._goal - speed)
+        self._write(self._mass() @ wanted + self._bias[self._dofs])
+
+    def _overcome_friction(self) -> None:
+        """Add what dry friction takes, in the direction in which a joint is pushed."""
+        torques, bias = self._data.ctrl[self._actuators], self._bias[self._dofs]
+        least = np.maximum(self._friction, 1e-9)
+        self._write(torques + OVERCOME * self._friction * np.tanh(SHARP * (torques - bias) / least))
+
+    def _near_singular(self) -> None:
+        """The same torques with pseudo-inverses: a stretched arm, or one of fewer than six joints."""
+        import mujoco
+
+        from pat3d.envs.robots.operational_space import POSTURE_STIFFNESS
+
+        model, data = self._model, self._data
+        mujoco.mj_jacSite(model, data, self._jacobian[:3], self._jacobian[3:], self._site)
+        j, speed = self._jacobian[:, self._dofs], data.qvel[self._dofs]
+        mass = self._mass()
+        inverse = np.linalg.inv(mass)
+        rotation = data.site_xmat[self._site].reshape(3, 3)
+        turn = 0.5 * np.cross(rotation.T, self._goal_rotation.T).sum(axis=0)
+        error = np.concatenate([self._goal - data.site_xpos[self._site], turn])
+        wrench = self._kp * error - self._kd * (j @ speed)
+        mobility = j @ inverse @ j.T
+        forces = [np.linalg.pinv(mobility[k : k + 3, k : k + 3], rcond=1e-3) @ wrench[k : k + 3] for k in (0, 3)]
+        k = POSTURE_STIFFNESS
+        wanted = k * (self._posture - data.qpos[self._positions]) - 2.0 * math.sqrt(k) * speed
+        free = mass @ wanted - j.T @ (np.linalg.pinv(mobility, rcond=1e-3) @ (j @ wanted))
+        self._write(j.T @ np.concatenate(forces) + free + self._bias[self._dofs])
+
+    def _mass(self) -> Array:
+        inertia_matrix(self._model, self._data, self._inertia)
+        return self._inertia[np.ix_(self._dofs, self._dofs)]
+
+    def _write(self, torques: Array) -> None:
+        self._data.ctrl[self._actuators] = np.minimum(np.maximum(torques, self._limits[0]), self._limits[1])
 
 
-def _operational_space(*arguments: Any) -> Any:
-    """An `OperationalSpace`; numba, which compiles it, comes with robosuite."""
-    from pat3d.envs.robots.operational_space import OperationalSpace
-
-    return OperationalSpace(*arguments)
-
-
-@functools.lru_cache(maxsize=len(_CLASSES))
-def part_settings(kind: str) -> dict[str, Any]:
-    """The settings that robosuite has for a kind of controller."""
-    name = _CLASSES[kind][2]
-    return robosuite_module("controllers").load_part_controller_config(default_controller=name.upper())
-
-
-_made: dict[str, type] = {}
-
-
-def _controller_class(kind: str) -> type:
-    """The controller of `kind` from robosuite, which reads its state in one pass."""
-    if kind in _made:
-        return _made[kind]
-    module, name, _ = _CLASSES[kind]
-    base: Any = getattr(robosuite_module(module), name)
-    mujoco: Any = import_module("mujoco")
-
-    def update(self: Any, force: bool = False) -> None:
-        if not (self.new_update or force):
-            return
-        model, data = self.sim.native
-        if force:
-            mujoco.mj_forward(model, data)
-        site, dofs = self.sim.site(self.ref_name), self.sim.dofs
-        self.joint_pos, self.joint_vel = data.qpos[self.qpos_index], data.qvel[dofs].copy()
-        self.ref_pos = data.site_xpos[site].copy()
-        self.ref_ori_mat = data.site_xmat[site].reshape(3, 3).copy()
-        jacobian, mass = self.sim.jacobian, self.sim.mass
-        mujoco.mj_jacSite(model, data, jacobian[:3], jacobian[3:], site)
-        self.J_full = jacobian[:, dofs].copy()
-        self.J_pos, self.J_ori = self.J_full[:3], self.J_full[3:]
-        velocity = self.J_full @ self.joint_vel
-        self.ref_pos_vel, self.ref_ori_vel = velocity[:3], velocity[3:]
-        self.sim.full_mass(mass)
-        self.mass_matrix = mass[dofs, dofs].copy()
-        self.new_update = False
-
-    members: dict[str, Any] = {"update": update}
-    if kind == "joint_velocity":
-        # robosuite 1.5.2 assigns to its own read-only property here and would add 1 N m in place of gravity.
-        def run_controller(self: Any) -> Array:
-            return base.run_controller(self) + self.sim.data.qfrc_bias[self.qvel_index]
-
-        members |= {"torque_compensation": False, "run_controller": run_controller}
-    _made[kind] = type(f"Fast{name}", (base,), members)
-    return _made[kind]
-
-
-class _Simulation:
-    """The part of robosuite's simulation wrapper that its controllers use."""
-
-    def __init__(self, model: Any, data: Any, dofs: slice) -> None:
-        self.native = (model, data)
-        self.dofs = dofs
-        """Of the arm, one after the other, as they are in a serial chain."""
-        self.model = _Model(model)
-        self.data = _Data(data)
-        self.jacobian = np.zeros((6, model.nv))
-        self.mass = np.zeros((model.nv, model.nv))
-        self._sites: dict[str, int] = {}
-        self._mujoco: Any = import_module("mujoco")
-
-    def forward(self) -> None:
-        self._mujoco.mj_forward(*self.native)
-
-    def site(self, name: str) -> int:
-        if name not in self._sites:
-            self._sites[name] = int(self.native[0].site(name).id)
-        return self._sites[name]
-
-    def full_mass(self, mass: Array) -> None:
-        """The dense inertia matrix, shape (nv, nv)."""
-        model, data = self.native
-        self._mujoco.mj_fullM(model, mass, data.qM)
-
-
-class _Model:
-    def __init__(self, model: Any) -> None:
-        self._model, self.nv = model, model.nv
-
-    def joint_id2name(self, joint: int) -> str:
-        return self._model.joint(joint).name
-
-
-class _Data:
-    """Arrays of the simulation; the base of the robot is bolted down, so its velocity is zero."""
-
-    def __init__(self, data: Any) -> None:
-        self._data = data
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._data, name)
-
-    def get_site_xvelp(self, name: str) -> Array:
-        return np.zeros(3)
-
-    def get_site_xvelr(self, name: str) -> Array:
-        return np.zeros(3)
+def rotation_by(turn: Array) -> Array:
+    """The matrix of a rotation vector [rad], shape (3, 3) (Rodrigues)."""
+    x, y, z = turn
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < 1e-12:
+        return np.eye(3)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]) / angle
+    return np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)

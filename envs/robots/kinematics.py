@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.robots.arms import make_robot, robot_model
+from pat3d.envs.robots.inertia import inertia_matrix
+from pat3d.envs.robots.robot import Robot
 
 Array = NDArray[np.float64]
 
@@ -33,13 +33,21 @@ _LIMIT_MARGIN = 0.02
 
 
 class ArmKinematics:
-    """The arm of one robot alone, with its base at the origin facing +x."""
+    """The arm of one robot alone, with its base at the origin facing +x.
 
-    def __init__(self, name: str) -> None:
-        self._mujoco: Any = import_module("mujoco")
-        self.robot, self._model = make_robot(name), robot_model(name)
+    Args:
+        robot: whose arm it is.
+        model: of the robot alone.
+    """
+
+    def __init__(self, robot: Robot, model: Any) -> None:
+        import mujoco
+
+        self._mujoco = mujoco
+        self.robot, self._model = robot, model
         self._data = self._mujoco.MjData(self._model)
         joints = [self._model.joint(joint) for joint in self.robot.arm_joints]
+        self._joints = np.array([joint.id for joint in joints])
         self._positions = np.array([int(joint.qposadr[0]) for joint in joints])
         self._dofs = np.array([int(joint.dofadr[0]) for joint in joints])
         limits = np.array([joint.range for joint in joints])
@@ -53,6 +61,37 @@ class ArmKinematics:
         self._data.qpos[self._positions] = joints
         self._mujoco.mj_kinematics(self._model, self._data)
         return self._data.site_xpos[self._site].copy(), self._data.site_xmat[self._site].reshape(3, 3).copy()
+
+    @property
+    def limits(self) -> tuple[Array, Array]:
+        """Least and largest joint positions [rad] that are used, shape (joints,) each."""
+        return self._low, self._high
+
+    @property
+    def length(self) -> float:
+        """Of the stretched arm from its second joint to the grip site, the links' lengths added up [m]."""
+        self.hand(self.robot.home)
+        points = [*self._data.xanchor[self._joints[1:]], self._data.site_xpos[self._site]]
+        return float(sum(np.linalg.norm(b - a) for a, b in zip(points, points[1:], strict=False)))
+
+    def jacobian(self, joints: Array) -> Array:
+        """Of the grip site's velocity and turn, shape (6, joints)."""
+        self.hand(joints)
+        self._mujoco.mj_comPos(self._model, self._data)
+        j = self._jacobian
+        self._mujoco.mj_jacSite(self._model, self._data, j[:3], j[3:], self._site)
+        return j[:, self._dofs].copy()
+
+    def heights(self, joints: Array) -> Array:
+        """Of the arm's joints above the base, from the third on [m]."""
+        self.hand(joints)
+        return self._data.xanchor[self._joints[2:], 2].copy()
+
+    def touches_itself(self, joints: Array) -> bool:
+        """Whether links of the arm are in one another."""
+        self.hand(joints)
+        self._mujoco.mj_collision(self._model, self._data)
+        return bool((self._data.contact.dist < -1e-3).any())
 
     def margin(self, joints: Array) -> float:
         """Least distance of a joint from its limits [rad]."""
@@ -104,7 +143,7 @@ class ArmKinematics:
     def _inverse_inertia(self) -> Array:
         """Of the arm in the present posture [1/(kg m^2)], shape (joints, joints)."""
         self._mujoco.mj_makeM(self._model, self._data)
-        self._mujoco.mj_fullM(self._model, self._inertia, self._data.qM)
+        inertia_matrix(self._model, self._data, self._inertia)
         return np.asarray(np.linalg.inv(self._inertia[np.ix_(self._dofs, self._dofs)]), dtype=np.float64)
 
 
@@ -112,13 +151,13 @@ class PlacedArm:
     """The arm of one robot where it stands in a world.
 
     Args:
-        name: of the robot.
+        arm: alone.
         position: of its base [m], shape (3,).
         yaw: direction in which it faces [rad].
     """
 
-    def __init__(self, name: str, position: Sequence[float], yaw: float) -> None:
-        self._arm, self._origin = ArmKinematics(name), np.array(position)
+    def __init__(self, arm: ArmKinematics, position: Sequence[float], yaw: float) -> None:
+        self._arm, self._origin = arm, np.array(position)
         c, s = np.cos(yaw), np.sin(yaw)
         self._base = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 

@@ -38,10 +38,18 @@ class OperationalSpace:
         site: that is controlled.
         actuators: of the joints, in the same order.
         limits: least and largest torque of every actuator [N m], shape (2, joints).
+        bias: torques that are added, shape (degrees of freedom,), read at every call; MuJoCo's where None.
     """
 
     def __init__(
-        self, model: Any, data: Any, joints: list[int], site: int, actuators: NDArray[np.int64], limits: Array
+        self,
+        model: Any,
+        data: Any,
+        joints: list[int],
+        site: int,
+        actuators: NDArray[np.int64],
+        limits: Array,
+        bias: Array | None = None,
     ) -> None:
         numbers = np.array(joints, dtype=np.int64)
         self._fixed = (
@@ -54,7 +62,7 @@ class OperationalSpace:
             model.jnt_qposadr[numbers].astype(np.int64),
             data.qvel,
             model.jnt_dofadr[numbers].astype(np.int64),
-            data.qfrc_bias,
+            data.qfrc_bias if bias is None else bias,
             data.M,
             model.M_rowadr.astype(np.int64),
             model.M_rownnz.astype(np.int64),

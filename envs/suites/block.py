@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import Any
 
-from pat3d.envs.suites.crew import Unit
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.unit import Making, make_unit
+from pat3d.envs.suites.worker_pool import Unit
 from pat3d.errors import SimulationError
 from pat3d.generation.attempts import Attempt
 from pat3d.generation.settle_stage import SettledScene, settle_scenes

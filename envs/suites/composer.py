@@ -81,9 +81,9 @@ class Composer:
             self.moved.append(name)
         return name
 
-    def container(self, kind: str | None = None, *, room: int = 1, place: bool = False) -> tuple[str, Container]:
-        """Add something that takes `room` items; returns its name and what it is."""
-        fitting = [one for one in CONTAINERS if one.room >= room and kind in (None, one.kind)]
+    def container(self, kind: str | None = None, *, capacity: int = 1, place: bool = False) -> tuple[str, Container]:
+        """Add something that takes `capacity` items; returns its name and what it is."""
+        fitting = [one for one in CONTAINERS if one.capacity >= capacity and kind in (None, one.kind)]
         chosen = fitting[int(self.rng.integers(len(fitting)))]
         free = self.container_colours or tuple(name for name in COLOURS if name not in self.avoid)
         colours = (self._pick(free),) if chosen.coloured else ()

@@ -21,7 +21,6 @@ import re
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -107,7 +106,8 @@ class SuiteFolder:
             ExportError: nothing can be written there.
         """
         # There is none on Windows, where suites can be used but not made.
-        fcntl: Any = import_module("fcntl")
+        import fcntl
+
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             handle = os.open(self.path / LOCK, os.O_RDWR | os.O_CREAT, 0o644)

@@ -11,10 +11,10 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
-from pat3d.envs.suites.crew import Answer, Crew, Unit, worker_count
 from pat3d.envs.suites.folder import LOG, MANIFEST, SuiteFolder, read_document, write_document
 from pat3d.envs.suites.manifest import begin_manifest, finish_manifest
 from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.worker_pool import Answer, Unit, WorkerPool, worker_count
 from pat3d.errors import SuiteError
 
 CANDIDATES = 30
@@ -121,7 +121,7 @@ def generate(
             with _connected(ray) as cluster:
                 count = worker_count(str(workers), None if cluster is None else max(cluster.cores, 1))
                 begin_manifest(folder, request)
-                run.work(_crew(folder, request, cluster), count)
+                run.work(_pool(folder, request, cluster), count)
         finish_manifest(folder, request)
         folder.clear_work()
     return run.status("")
@@ -131,19 +131,19 @@ def _connected(address: str | None) -> Any:
     """The cluster at `address` for as long as a block lasts; None for no address."""
     if address is None:
         return nullcontext()
-    from pat3d.envs.suites.ray_crew import Cluster
+    from pat3d.envs.suites.ray_pool import Cluster
 
     return Cluster(address)
 
 
-def _crew(folder: SuiteFolder, request: Request, cluster: Any) -> Crew:
+def _pool(folder: SuiteFolder, request: Request, cluster: Any) -> WorkerPool:
     if cluster is None:
-        from pat3d.envs.suites.local_crew import LocalCrew
+        from pat3d.envs.suites.local_pool import LocalPool
 
-        return LocalCrew(folder, request)
-    from pat3d.envs.suites.ray_crew import RayCrew
+        return LocalPool(folder, request)
+    from pat3d.envs.suites.ray_pool import RayPool
 
-    return RayCrew(folder, request, cluster)
+    return RayPool(folder, request, cluster)
 
 
 def _check_same(folder: SuiteFolder, request: Request) -> None:
@@ -187,7 +187,7 @@ class _Run:
         """Units of blocks over which a worker died: one of them is the reason."""
         self._failed_starts = 0
         self._began: float | None = None
-        self._crew: Crew | None = None
+        self._pool: WorkerPool | None = None
 
     def status(self, note: str) -> Status:
         """How far the run is."""
@@ -198,26 +198,26 @@ class _Run:
             rejected=self.rejected,
             made=self.made,
             seconds=seconds,
-            workers=self._crew.size if self._crew is not None else 0,
+            workers=self._pool.size if self._pool is not None else 0,
             note=note,
         )
 
-    def work(self, crew: Crew, workers: int) -> None:
+    def work(self, pool: WorkerPool, workers: int) -> None:
         """Until nothing is pending."""
         self._check_candidates()
-        self._crew = crew
-        with crew.dismissed_at_end():
+        self._pool = pool
+        with pool.closed_at_end():
             # The first one compiles the simulator's kernels where that is needed; the others find them compiled.
-            crew.hire()
+            pool.spawn()
             self.tell(self.status("preparing the simulator"))
-            while self.pending or crew.busy():
-                for worker in crew.idle():
+            while self.pending or pool.busy():
+                for worker in pool.idle():
                     if self.pending:
-                        crew.give(worker, self._next_block(workers))
-                answer = crew.answer(_TICK)
+                        pool.assign(worker, self._next_block(workers))
+                answer = pool.answer(_TICK)
                 if answer is not None:
-                    self._take(crew, answer, workers)
-                crew.stop_those_over(self.limit)
+                    self._take(pool, answer, workers)
+                pool.stop_those_over(self.limit)
                 self.tell(self.status("" if self._began is not None else "preparing the simulator"))
 
     def _next_block(self, workers: int) -> list[Unit]:
@@ -228,9 +228,9 @@ class _Run:
             units.append(self.pending.popleft())
         return units
 
-    def _take(self, crew: Crew, answer: Answer, workers: int) -> None:
+    def _take(self, pool: WorkerPool, answer: Answer, workers: int) -> None:
         if answer.ended:
-            self._buried(crew, answer)
+            self._ended(pool, answer)
         elif "fatal" in answer.said:
             raise SuiteError(
                 f"a worker had to stop: {answer.said['fatal']} What is finished is kept; run the same command again."
@@ -240,7 +240,7 @@ class _Run:
             if self._began is None:
                 self._began = time.perf_counter()
                 for _ in range(min(workers, len(self.pending)) - 1):
-                    crew.hire()
+                    pool.spawn()
         elif "place" in answer.said:
             self._log(answer.said)
             if answer.said["reason"]:
@@ -249,7 +249,7 @@ class _Run:
                 self.done += 1
                 self.made += 1
 
-    def _buried(self, crew: Crew, answer: Answer) -> None:
+    def _ended(self, pool: WorkerPool, answer: Answer) -> None:
         """A worker is gone; what it did is done by another, unless that has killed one before."""
         if not answer.units:
             self._failed_starts += 1
@@ -259,7 +259,7 @@ class _Run:
         for unit in reversed(answer.units):
             self._left_behind(unit, answer)
         if self.pending:
-            crew.hire()
+            pool.spawn()
 
     def _left_behind(self, unit: Unit, answer: Answer) -> None:
         """Decide about a unit of a worker that is gone."""

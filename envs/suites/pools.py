@@ -73,7 +73,7 @@ class Container:
     noun: str
     kind: str
     """"in" or "on"."""
-    room: int
+    capacity: int
     """Items at most."""
     width: float
     """Of the widest item [m]."""
@@ -83,13 +83,13 @@ class Container:
 
 
 CONTAINERS = (
-    Container(noun="bowl", kind="in", room=1, width=0.075),
-    Container(noun="fruit bowl", kind="in", room=3, width=0.085, coloured=False),
-    Container(noun="basket", kind="in", room=3, width=0.125, coloured=False, lowest=0.085),
-    Container(noun="pot", kind="in", room=3, width=0.085, lowest=0.095),
-    Container(noun="tray", kind="on", room=4, width=0.15),
-    Container(noun="plate", kind="on", room=2, width=0.075),
-    Container(noun="cutting board", kind="on", room=3, width=0.10, coloured=False),
+    Container(noun="bowl", kind="in", capacity=1, width=0.075),
+    Container(noun="fruit bowl", kind="in", capacity=3, width=0.085, coloured=False),
+    Container(noun="basket", kind="in", capacity=3, width=0.125, coloured=False, lowest=0.085),
+    Container(noun="pot", kind="in", capacity=3, width=0.085, lowest=0.095),
+    Container(noun="tray", kind="on", capacity=4, width=0.15),
+    Container(noun="plate", kind="on", capacity=2, width=0.075),
+    Container(noun="cutting board", kind="on", capacity=3, width=0.10, coloured=False),
 )
 
 HOMES = ("bowl", "pot")

@@ -29,7 +29,7 @@ def _pick_in(c: Composer) -> str:
 
 
 def _pick_beside(c: Composer) -> str:
-    carrier = c.container("on", room=2, place=True)
+    carrier = c.container("on", capacity=2, place=True)
     target = c.into(carrier, moved=True)
     c.into(carrier)
     return f"pick:{target}"
@@ -51,7 +51,7 @@ def _on_tower(c: Composer, height: int) -> str:
 
 def _place_loose(kind: str, companions: int) -> Callable[[Composer], str]:
     def build(c: Composer) -> str:
-        where = c.container(kind, room=companions + 1, place=True)
+        where = c.container(kind, capacity=companions + 1, place=True)
         for _ in range(companions):
             c.into(where)
         return f"place:{c.item(moved=True, width=where[1].width)}:{where[0]}"
@@ -113,7 +113,7 @@ def _sort(first: int, second: int) -> Callable[[Composer], str]:
 
 def _unload(kind: str, count: int) -> Callable[[Composer], str]:
     def build(c: Composer) -> str:
-        where = c.container(kind, room=count, place=True)
+        where = c.container(kind, capacity=count, place=True)
         for _ in range(count):
             c.into(where, moved=True)
         return f"unload:{where[0]}"
@@ -183,7 +183,7 @@ def _side_tower(height: int) -> Callable[[Composer], str]:
 
 def _side_container(kind: str, count: int) -> Callable[[Composer], str]:
     def build(c: Composer) -> str:
-        where = c.container(kind, room=count)
+        where = c.container(kind, capacity=count)
         for _ in range(count):
             c.into(where)
         return where[0]

@@ -14,9 +14,9 @@ from collections.abc import Callable, Iterator
 from queue import SimpleQueue
 from typing import Any, TextIO
 
-from pat3d.envs.suites.crew import Unit
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.worker_pool import Unit
 from pat3d.errors import Pat3dError
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -10,12 +11,15 @@ import numpy as np
 from pat3d.assets.colours import COLOURS
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.manipulate import above, check_move
-from pat3d.envs.tasks.task import Judge, Task, children, movable, origin, present, standing_on
+from pat3d.envs.tasks.task import Goal, Judge, Task, children, movable, origin, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.physics.state import States
+    from pat3d.envs.physics.state import SimState, States
+
+CLEARED = 0.08
+"""What was moved aside by more than this [m] is out of the way."""
 
 BEHIND = 0.15
 """Something this much nearer to the viewer, and in line, is in front [m]."""
@@ -67,6 +71,15 @@ class Sort(Task):
         pairs = {name: home for name, home in self.pairs(scene).items() if scene.parent(name) != home}
         return Needs(grasp=tuple(pairs), visit=tuple(above(scene, home) for home in sorted(set(pairs.values()))))
 
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        pairs = self.pairs(state.scene)
+        homes = list(pairs.values())
+        return [
+            Goal(name=name, where=home, shared=homes.count(home) > 1)
+            for name, home in pairs.items()
+            if not state.inside(name, home)
+        ]
+
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import SortJudge
 
@@ -97,6 +110,13 @@ class Unload(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=children(scene, self.container), cleared=True)
 
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        return [Goal(name=name, where="") for name in graspable if self._there(state, name)]
+
+    def _there(self, state: SimState, name: str) -> bool:
+        at = self.container
+        return state.touch(name, at) or state.inside(name, at) or state.on_top(name, at)
+
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import UnloadJudge
 
@@ -125,10 +145,19 @@ class Retrieve(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(*_upon(scene, self.target), self.target), cleared=True)
 
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        # What stands on the object to be retrieved, in the order in which it can be taken.
+        on = [name for name in graspable if name != self.target and not _cleared(state, name)]
+        return [Goal(name=on[0], where="")] if on else [Goal(name=self.target)]
+
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import RetrieveJudge
 
         return RetrieveJudge(states, self.target)
+
+
+def _cleared(state: SimState, name: str) -> bool:
+    return bool(np.linalg.norm(state.centre(name)[:2] - state.start_centre(name)[:2]) > CLEARED)
 
 
 def colour_of(scene: Scene, name: str) -> str | None:

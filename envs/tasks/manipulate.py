@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from pat3d.envs.grasping.free_space import edge_margin, has_free_space
 from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
-from pat3d.envs.grasping.room import has_room, overhang_room
-from pat3d.envs.tasks.task import Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
+from pat3d.envs.tasks.task import Goal, Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.physics.state import States
+    from pat3d.envs.physics.state import SimState, States
 
 CARRY_HEIGHT = 0.12
 """Above a container or a base, where the hand has to get [m]."""
@@ -27,6 +28,7 @@ class Pick(Task):
 
     kind: ClassVar[str] = "pick"
     form: ClassVar[str] = "pick:OBJECT"
+    from_the_side: ClassVar[bool] = True
 
     target: str
 
@@ -38,6 +40,9 @@ class Pick(Task):
 
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,))
+
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        return [Goal(name=self.target)]
 
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import LiftJudge
@@ -65,6 +70,10 @@ class Place(Task):
 
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.where),))
+
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        there = state.inside if state.scene[self.where].asset.region("in") is not None else state.on_top
+        return [] if there(self.target, self.where) else [Goal(name=self.target, where=self.where)]
 
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import PutJudge
@@ -95,6 +104,10 @@ class Stack(Task):
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.base),))
 
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        there = state.on_top(self.target, self.base)
+        return [] if there else [Goal(name=self.target, where=self.base, on=True)]
+
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.judges import PutJudge
 
@@ -123,15 +136,15 @@ def check_move(scene: Scene, target: str, where: str) -> None:
             raise TaskError(f'"{where}" stands on "{target}".')
     region = scene[where].asset.region("in")
     if region is not None:
-        width, room = narrowest(scene[target]), 2 * min(region.half_size)
-        if width > room:
-            raise TaskError(f'"{target}" ({width:.2f} m) does not fit into "{where}" ({room:.2f} m wide inside).')
+        width, inside = narrowest(scene[target]), 2 * min(region.half_size)
+        if width > inside:
+            raise TaskError(f'"{target}" ({width:.2f} m) does not fit into "{where}" ({inside:.2f} m wide inside).')
         return
     covering = [name for name in standing_on(scene, where) if name != target]
     top = scene[where].asset.region("on")
-    if top is None or min(top.half_size) < overhang_room(scene, target):
+    if top is None or min(top.half_size) < edge_margin(scene, target):
         raise TaskError(f'"{where}" has no top wide enough for "{target}".')
-    if not has_room(scene, target, where, top, covering):
+    if not has_free_space(scene, target, where, top, covering):
         raise TaskError(f'"{covering[0]}" stands on "{where}" already and leaves no room for "{target}".')
 
 

@@ -23,8 +23,9 @@ from pat3d.envs.grasping.leaning import LEANING_HOVER, LEANING_PAYLOAD, find_lea
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.grasping.spots import free_spots, spots_over
 from pat3d.envs.physics.clearance import Clearance
-from pat3d.envs.robots.arms import measure_gripper
+from pat3d.envs.robots.arms import arm_kinematics, measure_gripper
 from pat3d.envs.robots.kinematics import PlacedArm
+from pat3d.envs.tasks.task import Goal
 from pat3d.geometry.pose import Pose
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ ABOVE = 0.08
 JOINT_MARGIN = 0.08
 """Least distance of every joint from its limits [rad]."""
 
-ROOM = 40.0
+DISTANCE_WORTH = 40.0
 """Of how much worth it is to stay away from everything [1/m]."""
 
 GRASPS = 4
@@ -55,9 +56,6 @@ GRASPS = 4
 
 PAIRS = 100
 """Pairs of a grasp and a spot that are tried, at most."""
-
-CLEARED = 0.08
-"""What was moved aside by more than this [m] is out of the way."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +75,7 @@ class Move:
     floor: float = 0.0
     """Height of that surface [m], above which it may be let go further up than usual."""
     worth: float = 0.0
-    """Of the grasp and of the room around the hand; higher is better."""
+    """Of the grasp and of the distance of the hand from everything; higher is better."""
 
 
 class Planner:
@@ -89,7 +87,7 @@ class Planner:
 
     def __init__(self, env: Any) -> None:
         self._env, self._gripper = env, measure_gripper(env.robot)
-        self._arm = PlacedArm(env.robot, env.placement.base_position, env.placement.yaw)
+        self._arm = PlacedArm(arm_kinematics(env.robot), env.placement.base_position, env.placement.yaw)
         self.clearance = Clearance(env)
         self.obstacles: Counter[str] = Counter()
         """How often each object was in the way of a grasp or a spot."""
@@ -100,48 +98,26 @@ class Planner:
         Args:
             failures: how often each object was missed or lost; so many of its grasps are passed over.
         """
-        wanted = self.wanted()
-        for name, where in wanted:
-            move = self.clear(name, where, failures.get(name, 0))
+        goals = self.goals()
+        for goal in goals:
+            move = self.clear(goal, failures.get(goal.name, 0))
             if move is not None:
                 return move
-        return self._anyhow(*wanted[0], failures.get(wanted[0][0], 0)) if wanted else None
+        return self._anyhow(goals[0], failures.get(goals[0].name, 0)) if goals else None
 
-    def wanted(self) -> list[tuple[str, str | None]]:
-        """Objects to move in the order of preference, and where to: "" for somewhere free, None to be held."""
-        env, task, state = self._env, self._env.task, self._env.simulation.state
-        if task.kind == "pick":
-            return [(task.target, None)]
-        if task.kind == "place":
-            there = state.inside if env.scene[task.where].asset.region("in") is not None else state.on_top
-            return [] if there(task.target, task.where) else [(task.target, task.where)]
-        if task.kind == "stack":
-            return [] if state.on_top(task.target, task.base) else [(task.target, task.base)]
-        if task.kind == "sort":
-            pairs = task.pairs(env.scene)
-            return [(name, home) for name, home in pairs.items() if not state.inside(name, home)]
-        if task.kind == "unload":
-            return [(name, "") for name in env.placement.grasps if self._within(name, task.container)]
-        # What stands on the object to be retrieved, in the order in which it can be taken.
-        on = [name for name in env.placement.grasps if name != task.target and not self._cleared(name)]
-        return [(on[0], "")] if on else [(task.target, None)]
+    def goals(self) -> list[Goal]:
+        """Objects to move next, and where to."""
+        env = self._env
+        return env.task.goals(env.simulation.state, tuple(env.placement.grasps))
 
-    def _within(self, name: str, container: str) -> bool:
-        state = self._env.simulation.state
-        return state.touch(name, container) or state.inside(name, container) or state.on_top(name, container)
-
-    def _cleared(self, name: str) -> bool:
-        state = self._env.simulation.state
-        return bool(np.linalg.norm(state.centre(name)[:2] - state.start_centre(name)[:2]) > CLEARED)
-
-    def clear(self, name: str, where: str | None, failures: int = 0) -> Move | None:
+    def clear(self, goal: Goal, failures: int = 0) -> Move | None:
         """A move that the arm can do without touching anything else; None where there is none.
 
         Args:
-            name: of the object.
-            where: see `wanted`.
+            goal: what to move, and where to.
             failures: see `next`.
         """
+        name, where = goal.name, goal.where
         for grasps in self._grasps(name):
             if where is not None:
                 mass, centre = self._env.scene[name].asset.mass_properties.mass, self._env.simulation.state.centre(name)
@@ -152,7 +128,7 @@ class Planner:
             found = found[skipped:] + found[:skipped]
             if where is None and found:
                 return found[0]
-            spots = self._spots(name, where) if where is not None and found else []
+            spots = self._spots(goal) if where is not None and found else []
             # The best spot that any of the grasps can serve.
             pairs = [(move, spot) for spot in spots for move in found]
             for move, spot in pairs[:PAIRS]:
@@ -161,19 +137,18 @@ class Planner:
                     return replace(move, spot=spot + [0.0, 0.0, high], floor=float(spot[2]))
         return None
 
-    def _anyhow(self, name: str, where: str | None, failures: int) -> Move:
+    def _anyhow(self, goal: Goal, failures: int) -> Move:
         """A move of an object for which there is none without a fault."""
+        name, where = goal.name, goal.where
         grasps = next(found for found in (*self._grasps(name), self._moved(name)) if found)
         move = self.as_move(name, grasps[failures % len(grasps)])
-        spots = [] if where is None else self._spots(name, where)
+        spots = [] if where is None else self._spots(goal)
         return replace(move, spot=spots[0] + [0.0, 0.0, HIGHER[-1] if where else 0.0]) if spots else move
 
-    def _spots(self, name: str, where: str) -> list[Array]:
-        if not where:
-            return free_spots(self._env, name)
-        task = self._env.task
-        more = task.kind == "sort" and sum(home == where for home in task.pairs(self._env.scene).values()) > 1
-        return spots_over(self._env, name, where, on=task.kind == "stack", more=more)
+    def _spots(self, goal: Goal) -> list[Array]:
+        if not goal.where:
+            return free_spots(self._env, goal.name)
+        return spots_over(self._env, goal.name, goal.where, on=goal.on, more=goal.shared)
 
     def _grasps(self, name: str) -> Iterator[list[Grasp]]:
         """Grasps of the scene at rest, moved along with the object, and those searched where it is now."""
@@ -187,7 +162,7 @@ class Planner:
         present = replace(self._env.scene, objects=objects)
         found = find_grasps(present, name, self._gripper)
         light = self._env.scene[name].asset.mass_properties.mass <= LEANING_PAYLOAD
-        if not found and light and self._env.task.kind == "pick":
+        if not found and light and self._env.task.from_the_side:
             found = find_leaning_grasps(present, name, self._gripper)
         yield found
 
@@ -224,7 +199,7 @@ class Planner:
 
     def _checked(self, move: Move) -> list[tuple[float, Move]]:
         """Largest motion of a joint [rad], and the move with its worth; nothing where the arm cannot do it."""
-        wide, room = np.array(self._gripper.open_joints), math.inf
+        wide, distance = np.array(self._gripper.open_joints), math.inf
         turn = 0.0
         for position in (move.at, move.before):
             joints = self._reached(position, move.rotation)
@@ -234,8 +209,8 @@ class Planner:
             # The hand turns the shorter way, and a joint that would have to go the longer one stops at its limit.
             if turn > math.pi and not move.grasp.lean:
                 return []
-            room = min(room, self.clearance.room(joints, wide, move.name))
-        return [(turn, replace(move, worth=move.grasp.score + ROOM * room))]
+            distance = min(distance, self.clearance.distance(joints, wide, move.name))
+        return [(turn, replace(move, worth=move.grasp.score + DISTANCE_WORTH * distance))]
 
     def _blocked(self, joints: Array, fingers: Array, name: str, shift: Array | None = None) -> bool:
         obstacle = self.clearance.obstacle(joints, fingers, name, shift)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -56,14 +54,14 @@ def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
     simulation.reset()
     planner = Planner(Workplace(scene=scene, task=task, robot=robot, placement=placement, simulation=simulation))
     done: set[str] = set()
-    while wanted := planner.wanted():
-        again = [name for name, _ in wanted if name in done]
+    while goals := planner.goals():
+        again = [goal.name for goal in goals if goal.name in done]
         if again:
             raise TaskError(f'{robot} can put "{again[0]}" where it should go, but it finds no room to stay there.')
-        moves = (planner.clear(name, where) for name, where in wanted)
+        moves = (planner.clear(goal) for goal in goals)
         move = next((move for move in moves if move is not None), None)
         if move is None:
-            raise TaskError(_refusal(planner, robot, wanted[0][0]))
+            raise TaskError(_refusal(planner, robot, goals[0].name))
         if move.spot is None:
             break
         _put_down(planner, simulation, move)
@@ -82,7 +80,8 @@ def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:
     shift = next((way for way in ways if planner.clearance.fits(move.name, way)), released)
     first = int(simulation.world.positions[simulation.world.objects.index(move.name)])
     simulation.data.qpos[first : first + 3] += shift
-    mujoco: Any = import_module("mujoco")
+    import mujoco
+
     mujoco.mj_forward(simulation.model, simulation.data)
     simulation.states.refresh()
 

@@ -8,7 +8,7 @@ worlds at once.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -21,7 +21,20 @@ from pat3d.errors import TaskError
 from pat3d.scene.model import GROUND, Scene
 
 if TYPE_CHECKING:
-    from pat3d.envs.physics.state import States
+    from pat3d.envs.physics.state import SimState, States
+
+
+@dataclass(frozen=True, kw_only=True)
+class Goal:
+    """An object that a task wants moved next, and where to."""
+
+    name: str
+    where: str | None = None
+    """What to put it in or on; "" for somewhere free, None to hold it."""
+    on: bool = False
+    """Onto the top of `where`, though it has an inside."""
+    shared: bool = False
+    """Others belong there too, so that its middle is left free."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,6 +112,8 @@ class Task(ABC):
     """First word of the task's specification."""
     form: ClassVar[str]
     """How the specification is written, for messages."""
+    from_the_side: ClassVar[bool] = False
+    """Whether an object that cannot be taken from above may be taken by a hand that comes from the side."""
 
     @property
     def spec(self) -> str:
@@ -116,6 +131,15 @@ class Task(ABC):
     @abstractmethod
     def needs(self, scene: Scene) -> Needs:
         """What the robot has to reach."""
+
+    @abstractmethod
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        """Objects to move next in the order of preference; none when nothing is left to do but to wait.
+
+        Args:
+            state: the present one.
+            graspable: objects that the robot can take, in the order of taking them.
+        """
 
     @abstractmethod
     def judge(self, states: States) -> Judge:

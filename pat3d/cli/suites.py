@@ -58,9 +58,9 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
 )
 def generate(options: argparse.Namespace) -> int:
     """`pat3d suite generate`."""
-    from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.generate import generate
     from pat3d.envs.suites.suite import Suite
+    from pat3d.envs.suites.worker_pool import worker_count
 
     worker_count(options.workers)
     tasks = tuple(name.strip() for name in options.tasks.split(","))
@@ -88,8 +88,8 @@ def generate(options: argparse.Namespace) -> int:
 def check(options: argparse.Namespace) -> int:
     """`pat3d suite check`."""
     from pat3d.envs.suites.check import check_suite
-    from pat3d.envs.suites.crew import worker_count
     from pat3d.envs.suites.suite import Suite
+    from pat3d.envs.suites.worker_pool import worker_count
 
     suite = Suite.open(options.folder)
     with _counting("checking") as tell:

@@ -11,6 +11,8 @@ from pat3d.envs.registration import register_with_gymnasium
 
 # The CPU draws the same everywhere; the agreement with GL has a test of its own.
 os.environ.setdefault("PAT3D_RENDERER", "cpu")
+# What these tests say of joints and lifts they say of this arm, which needs no download; test_robots has the others.
+os.environ["PAT3D_ROBOT"] = "Panda"
 
 
 @pytest.fixture(scope="session", autouse=True)

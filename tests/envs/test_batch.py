@@ -19,7 +19,7 @@ from gymnasium.vector import AsyncVectorEnv, AutoresetMode  # noqa: E402
 
 from pat3d.envs.batch import physics as batch_physics  # noqa: E402
 from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
-from pat3d.envs.batch.physics import Room, in_single_precision, require_still  # noqa: E402
+from pat3d.envs.batch.physics import Capacity, in_single_precision, require_still  # noqa: E402
 from pat3d.envs.env import TabletopEnv  # noqa: E402
 from pat3d.envs.physics.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
@@ -260,9 +260,9 @@ def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(bl
 
 def test_buffers_that_overflow_are_an_error_that_says_the_size_needed(block):
     """A book on the ground and a block on it have four contacts each."""
-    small = BatchedTabletopEnv(1, device="cpu", scene=block, room=(2, 60))
+    small = BatchedTabletopEnv(1, device="cpu", scene=block, capacity=(2, 60))
     small.reset()
-    with pytest.raises(EnvironmentSetupError, match=r"room=\(1\d, \d+\)"):
+    with pytest.raises(EnvironmentSetupError, match=r"capacity=\(1\d, \d+\)"):
         small.step(np.zeros((1, 7), dtype=np.float32))
 
 
@@ -278,7 +278,7 @@ def test_a_scene_that_moves_in_single_precision_is_refused_by_name_the_second_ti
     monkeypatch.setattr(batch_physics, "BatchedPhysics", lambda *_: None)
     for _ in range(2):
         with pytest.raises(UnsettledSceneError, match=r'"red mug" by 12 mm and 3 degrees\.'):
-            require_still(env.simulation.world, "0" * 64, "osc", 20.0, "cpu", Room(contacts=9, rows=9))
+            require_still(env.simulation.world, "0" * 64, "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
     assert len(tried) == 1
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pat3d.envs.grasping.grasp import find_grasps, narrowest
-from pat3d.envs.robots.arms import Gripper
+from pat3d.envs.robots.robot import Gripper
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
@@ -116,9 +116,9 @@ def test_the_narrowest_width_of_a_turned_bar_is_its_thickness():
 
 def test_inverse_kinematics_reaches_what_forward_kinematics_left():
     pytest.importorskip("robosuite")
-    from pat3d.envs.robots.kinematics import ArmKinematics
+    from pat3d.envs.robots.arms import arm_kinematics
 
-    arm, random = ArmKinematics("Panda"), np.random.default_rng(0)
+    arm, random = arm_kinematics("Panda"), np.random.default_rng(0)
     solved = 0
     for _ in range(20):
         joints = arm.robot.home + random.uniform(-0.4, 0.4, 7)

@@ -283,3 +283,83 @@ def test_the_next_object_to_sort_is_the_first_that_is_not_at_home(env):
         verdict = found.of(number, states.world.scene)
         assert verdict.target == (missing or list(pairs))[0]
         np.testing.assert_array_equal(verdict.goal, SimState(states, number).position(pairs[verdict.target]))
+
+
+def _resting(env, count: int) -> tuple[Given, int, int]:
+    """Worlds in which everything is as in the scene and touches nothing, with the body and the number of the mug."""
+    states = Given(env.simulation.world, count).put(np.random.default_rng(0))
+    now, scene = states.snapshot, states.world.scene
+    for obj in scene.objects:
+        body = states.world.bodies[obj.name]
+        now.xpos[:, body], now.xmat[:, body] = obj.pose.position, obj.pose.rotation.reshape(9)
+        now.xipos[:, body] = obj.pose.apply(np.array([obj.asset.mass_properties.centre_of_mass]))[0]
+    now.touching[:], now.pinched[:], now.qvel[:] = False, False, 0.0
+    states.take_start(states.everyone)
+    return states, states.world.bodies["red mug"], states.numbers["red mug"]
+
+
+def test_what_touches_the_floor_fell_when_it_is_five_centimetres_below_its_start(env):
+    """Still above the surface of the work: alone the floor's touch decides, beyond the drop and not before it."""
+    states, body, mug = _resting(env, 4)
+    now, floor = states.snapshot, predicates.FLOOR_ROW
+    now.start_centre[:, mug, 2] = now.surface + 1.0
+    now.xipos[:, body, 2] = now.surface + 1.0 - np.array([0.05 - 1e-9, 0.05 + 1e-9, 0.05 + 1e-9, 0.0])
+    now.touching[[0, 1, 3], floor, OWNERS + mug] = now.touching[[0, 1, 3], OWNERS + mug, floor] = True
+    np.testing.assert_array_equal(upsets(now)[1][:, mug], [False, True, False, False])
+
+
+def test_what_is_below_the_surface_of_the_work_fell_unless_it_always_was(env):
+    """By a centimetre of slack under the surface, whether it has reached the floor or not."""
+    states, body, mug = _resting(env, 3)
+    now = states.snapshot
+    assert now.surface == env.placement.surface - 0.01
+    now.start_centre[:, mug, 2] = now.surface + np.array([0.001, 0.001, -0.001])
+    now.xipos[:, body, 2] = now.surface + np.array([1e-9, -1e-9, -0.3])
+    np.testing.assert_array_equal(upsets(now)[1][:, mug], [False, True, False])
+
+
+def test_what_spins_on_the_spot_is_not_at_rest(env):
+    """Five centimetres and half a radian a second, a hair less and a hair more, along and about every axis."""
+    states, _, mug = _resting(env, 12)
+    now, first = states.snapshot, states.snapshot.dofs[mug]
+    for axis in range(3):
+        for k, shift in enumerate((-1e-9, 1e-9)):
+            now.qvel[4 * axis + k, first + axis] = 0.05 + shift
+            now.qvel[4 * axis + 2 + k, first + 3 + axis] = 0.5 + shift
+    found = [bool(predicates.still(now, number, mug)) for number in range(12)]
+    assert found == 6 * [True, False]
+
+
+def test_progress_of_sorting_is_the_share_at_home_and_how_far_the_next_one_is(env):
+    """Two of two at home are all of it; one of two is half, and the way of the other counts for the second half."""
+    states, _, _ = _resting(env, 4)
+    now, bodies, scene = states.snapshot, states.world.bodies, states.world.scene
+    bowl = scene["blue bowl"]
+    inside = bowl.pose.apply(np.array([bowl.asset.region("in").floor]) + [0.0, 0.0, 0.02])[0]
+    away = inside + [0.6, 0.0, 0.3]
+
+    def put(world: int, name: str, at) -> None:
+        shift = at - now.xipos[world, bodies[name]]
+        now.xipos[world, bodies[name]] += shift
+        now.xpos[world, bodies[name]] += shift
+
+    for world, (apple, banana) in enumerate([(inside, inside), (inside, away), (away, away), (inside, away)]):
+        put(world, "green apple", apple)
+        put(world, "banana", banana)
+    hand = states.hand
+    now.sites[:, hand] = [0.0, 0.0, 5.0]
+    now.sites[3, hand] = now.xipos[3, bodies["banana"]]
+    now.pinched[3, :, OWNERS + states.numbers["banana"]] = True
+    judge = SortJudge(states, {"green apple": "blue bowl", "banana": "blue bowl"})
+    progress = judge.update(np.zeros(4)).progress
+
+    def begun(world: int, name: str) -> float:
+        """A fifth for the hand's nearness, a fifth for the grasp, half for the nearness of the home."""
+        centre = now.xipos[world, bodies[name]]
+        near = 1.0 - math.tanh(float(np.linalg.norm(centre - now.sites[world, hand])) / 0.2)
+        home = 1.0 - math.tanh(float(np.linalg.norm(centre - now.xpos[world, bodies["blue bowl"]])) / 0.25)
+        return 0.2 * near + (0.2 if world == 3 else 0.0) + 0.5 * home
+
+    wanted = [1.0, (1 + begun(1, "banana")) / 2, begun(2, "green apple") / 2, (1 + begun(3, "banana")) / 2]
+    np.testing.assert_allclose(progress, wanted, atol=1e-12)
+    assert progress[2] < progress[1] < progress[3] < 1.0

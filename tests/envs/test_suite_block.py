@@ -6,7 +6,6 @@ import json
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -17,16 +16,16 @@ pytest.importorskip("robosuite")
 from pat3d.cli.main import main
 from pat3d.envs.suites.block import make_block
 from pat3d.envs.suites.check import check_suite
-from pat3d.envs.suites.crew import Crew
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder
 from pat3d.envs.suites.generate import generate
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.suite import Suite
+from pat3d.envs.suites.worker_pool import WorkerPool
 from pat3d.errors import SpecError, SuiteError
 from pat3d.generation.attempts import Attempts
 from pat3d.scene.io import load_scene
 from pat3d.sim.compilation import quiet_warp
-from tests.envs.suites import SMALL, files_of
+from tests.envs.suites import SMALL, alive, files_of, wait, workers_of
 
 REQUEST = replace(SMALL, picture=0)
 BLOCK = 4
@@ -84,13 +83,11 @@ def test_the_same_blocks_give_the_same_bits(together, tmp_path):
 def test_a_run_killed_in_the_middle_of_a_block_loses_nothing(alone, tmp_path):
     folder = SuiteFolder(tmp_path / "killed")
     run = subprocess.Popen([sys.executable, "-c", KILLED, str(folder.path)])
-    end = time.monotonic() + 120.0
-    while not folder.done():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.01)
+    wait(lambda: bool(folder.done()), lambda: run.poll() is None)
+    workers = workers_of(run.pid)
     run.send_signal(signal.SIGKILL)
     run.wait()
-    time.sleep(0.2)
+    wait(lambda: not any(alive(pid) for pid in workers))
     kept = {place: (folder.scene(place) / RECORD).stat().st_mtime_ns for place in folder.done()}
     assert 1 <= len(kept) < 4
     status = generate(str(folder.path), REQUEST, workers=1, block=BLOCK)
@@ -122,7 +119,7 @@ def test_a_scene_that_cannot_be_simulated_rejects_only_itself(monkeypatch, tmp_p
     assert not any(folder.work.iterdir())
 
 
-class Brittle(Crew):
+class Brittle(WorkerPool):
     """Workers that end over any block with place 5 in it, after the first two of its scenes."""
 
     def __init__(self, folder):
@@ -132,7 +129,7 @@ class Brittle(Crew):
     def _start(self, number):
         self.spoken.append((number, {"ready": True}, ""))
 
-    def _order(self, number, units):
+    def _assign(self, number, units):
         self.blocks.append(list(units))
         for done, (place, candidate) in enumerate(units):
             if (5, 0) in units and done == min(2, len(units) - 1):
@@ -148,7 +145,7 @@ class Brittle(Crew):
     def _kill(self, number):
         raise AssertionError
 
-    def _dismiss(self):
+    def _close(self):
         pass
 
 
@@ -156,10 +153,10 @@ def test_what_shared_a_block_with_a_deadly_unit_is_made_alone_and_only_that_one_
     from pat3d.envs.suites.generate import _Run
 
     folder = SuiteFolder(tmp_path)
-    crew = Brittle(folder)
+    pool = Brittle(folder)
     run = _Run(folder, Request(scenes=10, picture=0), 60.0, lambda status: None, 8)
-    run.work(crew, 1)
-    assert crew.blocks == [
+    run.work(pool, 1)
+    assert pool.blocks == [
         [(place, 0) for place in range(8)],
         *([(place, 0)] for place in (2, 3, 4, 5, 5)),
         # The candidate in its place goes first in the queue, up to the next that has to be alone.

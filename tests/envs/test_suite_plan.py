@@ -9,9 +9,9 @@ import pytest
 
 from pat3d.assets import catalogue
 from pat3d.envs.suites.composition import draft, structure_splits
-from pat3d.envs.suites.crew import worker_count
 from pat3d.envs.suites.pools import CONTAINERS, ITEMS, partition
 from pat3d.envs.suites.request import SPLITS, TASKS, Request, check_split, in_split
+from pat3d.envs.suites.worker_pool import worker_count
 from pat3d.envs.tasks.registry import TASKS as JUDGED
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.errors import SuiteError

@@ -14,8 +14,8 @@ pytest.importorskip("gymnasium")
 import mujoco
 
 from pat3d.assets.catalogue.lookup import make
+from pat3d.envs.grasping.free_space import NARROWEST_BASE
 from pat3d.envs.grasping.placement import Needs, place
-from pat3d.envs.grasping.room import NARROWEST_BASE
 from pat3d.envs.physics.predicates import pairs_that
 from pat3d.envs.physics.snapshot import floors
 from pat3d.envs.tasks.registry import TASKS, parse_task, possible_tasks

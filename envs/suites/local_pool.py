@@ -14,15 +14,15 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 import pat3d
-from pat3d.envs.suites.crew import Crew, Unit
 from pat3d.envs.suites.folder import SuiteFolder
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.threads import ONE_THREAD
+from pat3d.envs.suites.worker_pool import Unit, WorkerPool
 
 _LOG_TAIL = 2000
 
 
-class LocalCrew(Crew):
+class LocalPool(WorkerPool):
     """A process for every worker, told and heard through pipes."""
 
     def __init__(self, folder: SuiteFolder, request: Request) -> None:
@@ -48,7 +48,7 @@ class LocalCrew(Crew):
         self._send(number, {"folder": str(self._folder.path), "request": self._request.as_dict()})
         threading.Thread(target=self._listen, args=(number, process), daemon=True).start()
 
-    def _order(self, number: int, units: Sequence[Unit]) -> None:
+    def _assign(self, number: int, units: Sequence[Unit]) -> None:
         self._send(number, {"units": units})
 
     def _next(self, seconds: float) -> tuple[int, dict[str, Any], str] | None:
@@ -63,7 +63,7 @@ class LocalCrew(Crew):
     def _kill(self, number: int) -> None:
         self._processes[number].kill()
 
-    def _dismiss(self) -> None:
+    def _close(self) -> None:
         for process in self._processes.values():
             process.kill()
         for process in self._processes.values():

@@ -1,4 +1,4 @@
-"""Whether a top that carries things has room for one more."""
+"""Free space on a top that carries things: whether one more fits there."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pat3d.scene.model import Scene
 
 Array = NDArray[np.float64]
 
-FINGER_ROOM = 0.03
+FINGER_GAP = 0.03
 """Between what stands there and what is put down, for a finger [m]."""
 
 NARROWEST_BASE = 0.4
@@ -21,21 +21,21 @@ _CELL = 0.01
 """Between the spots that are tried [m]."""
 
 
-def overhang_room(scene: Scene, target: str) -> float:
+def edge_margin(scene: Scene, target: str) -> float:
     """How far inside the edge of a top the middle of `target` has to be [m]."""
     return max(0.01, NARROWEST_BASE * narrowest(scene[target]) / 2)
 
 
-def has_room(scene: Scene, target: str, where: str, top: Region, covering: list[str]) -> bool:
+def has_free_space(scene: Scene, target: str, where: str, top: Region, covering: list[str]) -> bool:
     """Whether `target` can be put on `where` beside everything in `covering`, however it is turned."""
-    spots = _spots(top, overhang_room(scene, target))
+    spots = _spots(top, edge_margin(scene, target))
     own = _outline(scene, target, target)
     radius = float(np.linalg.norm(own - (own.min(axis=0) + own.max(axis=0)) / 2, axis=1).max())
     for name in covering:
         points = _outline(scene, name, where)
         low, high = points.min(axis=0), points.max(axis=0)
         away = np.linalg.norm(np.maximum(np.maximum(low - spots, spots - high), 0.0), axis=1)
-        spots = spots[away > radius + FINGER_ROOM]
+        spots = spots[away > radius + FINGER_GAP]
     return len(spots) > 0
 
 

@@ -11,15 +11,14 @@ import shutil
 import socket
 import tempfile
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pat3d.envs.suites.crew import Crew, Unit
 from pat3d.envs.suites.folder import SuiteFolder, scene_name
-from pat3d.envs.suites.local_crew import python_path
+from pat3d.envs.suites.local_pool import python_path
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.threads import ONE_THREAD
+from pat3d.envs.suites.worker_pool import Unit, WorkerPool
 from pat3d.errors import ExportError, Pat3dError, SuiteError
 from pat3d.scene.versions import versions
 
@@ -38,9 +37,10 @@ class Cluster:
 
     def __enter__(self) -> Cluster:
         try:
-            self.ray: Any = import_module("ray")
+            import ray
         except ImportError as error:
             raise SuiteError("--ray needs Ray: pip install 'pat3d[ray]'.") from error
+        self.ray = ray
         if self.ray.is_initialized():
             return self
         try:
@@ -75,7 +75,7 @@ def _knock(address: str) -> None:
     socket.create_connection((host, int(port)), timeout=_KNOCK_SECONDS).close()
 
 
-class RayCrew(Crew):
+class RayPool(WorkerPool):
     """A Ray actor with one core for every worker."""
 
     def __init__(self, folder: SuiteFolder, request: Request, cluster: Cluster) -> None:
@@ -93,7 +93,7 @@ class RayCrew(Crew):
         self._actors[number] = self._worker.remote(self._request.as_dict())
         self._asked[self._actors[number].prepare.remote(versions())] = number
 
-    def _order(self, number: int, units: Sequence[Unit]) -> None:
+    def _assign(self, number: int, units: Sequence[Unit]) -> None:
         # Blocks are for GPUs, on which clusters do not work.
         (unit,) = units
         self._asked[self._actors[number].make.remote(*unit)] = number
@@ -126,7 +126,7 @@ class RayCrew(Crew):
     def _kill(self, number: int) -> None:
         self._ray.kill(self._actors[number])
 
-    def _dismiss(self) -> None:
+    def _close(self) -> None:
         for actor in self._actors.values():
             self._ray.kill(actor)
 

@@ -1,11 +1,11 @@
-"""Whoever makes the units of a run, and what they are asked to do: the bookkeeping that every kind of crew shares."""
+"""A pool of workers that make the units of a run: the bookkeeping that pools of processes and of Ray actors share."""
 
 from __future__ import annotations
 
 import os
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -59,8 +59,11 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class Crew(ABC):
+class WorkerPool(ABC):
     """Workers of one run; each has at most one block of units at a time."""
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """By which the time limit of a unit is measured [s]."""
 
     def __init__(self) -> None:
         self._units: dict[int, list[Unit]] = {}
@@ -70,16 +73,16 @@ class Crew(ABC):
         self._ready: set[int] = set()
         self._stopped: dict[int, float] = {}
         """After how long those were stopped whose unit took too long [s]."""
-        self._hired = 0
+        self._spawned = 0
 
     @property
     def size(self) -> int:
         """Workers that live."""
         return len(self._units)
 
-    def hire(self) -> None:
+    def spawn(self) -> None:
         """Start a worker; it says when it is ready."""
-        number, self._hired = self._hired, self._hired + 1
+        number, self._spawned = self._spawned, self._spawned + 1
         self._units[number] = []
         self._start(number)
 
@@ -87,10 +90,10 @@ class Crew(ABC):
         """Workers that are ready and have nothing to do."""
         return [number for number in self._ready if not self._units[number]]
 
-    def give(self, worker: int, units: Sequence[Unit]) -> None:
+    def assign(self, worker: int, units: Sequence[Unit]) -> None:
         """Let an idle worker make a block of units, together as far as it can."""
-        self._units[worker], self._since[worker] = list(units), time.monotonic()
-        self._order(worker, units)
+        self._units[worker], self._since[worker] = list(units), self.clock()
+        self._assign(worker, units)
 
     def busy(self) -> bool:
         """Whether anybody makes a unit."""
@@ -101,7 +104,7 @@ class Crew(ABC):
 
         One thing is a unit, or a step of a block: a unit's layout, or the settling of all.
         """
-        now = time.monotonic()
+        now = self.clock()
         for number, units in self._units.items():
             if units and number not in self._stopped and now - self._since[number] > limit:
                 self._stopped[number] = limit
@@ -123,7 +126,7 @@ class Crew(ABC):
             return Answer(
                 worker=number, units=units, ended=ended, late=limit is not None, last_words=self._last_words(number)
             )
-        self._since[number] = time.monotonic()
+        self._since[number] = self.clock()
         if "ready" in said:
             self._ready.add(number)
         elif "place" in said:
@@ -131,19 +134,19 @@ class Crew(ABC):
         return Answer(worker=number, units=units, said=said)
 
     @contextmanager
-    def dismissed_at_end(self) -> Iterator[Crew]:
+    def closed_at_end(self) -> Iterator[WorkerPool]:
         """Ends every worker when the block ends, however it ends."""
         try:
             yield self
         finally:
-            self._dismiss()
+            self._close()
 
     @abstractmethod
     def _start(self, number: int) -> None:
         """Start worker `number`."""
 
     @abstractmethod
-    def _order(self, number: int, units: Sequence[Unit]) -> None:
+    def _assign(self, number: int, units: Sequence[Unit]) -> None:
         """Tell a worker its block of units."""
 
     @abstractmethod
@@ -155,8 +158,8 @@ class Crew(ABC):
         """End a worker at once."""
 
     @abstractmethod
-    def _dismiss(self) -> None:
-        """End every worker and release what the crew holds."""
+    def _close(self) -> None:
+        """End every worker and release what the pool holds."""
 
     def _last_words(self, number: int) -> str:
         """The end of an ended worker's log."""

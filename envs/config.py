@@ -1,0 +1,132 @@
+"""The arguments of environments, each declared, documented and checked once: frozen configurations."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
+
+from pat3d.envs.arguments import names, number, one_of, picture_size, whole
+from pat3d.envs.physics.world import CAMERAS
+from pat3d.envs.registration import MAX_EPISODE_STEPS
+from pat3d.envs.robots.arms import default_robot
+from pat3d.envs.robots.controllers import CONTROLS
+from pat3d.envs.tasks.task import Task
+from pat3d.errors import EnvironmentSetupError
+from pat3d.scene.model import Scene
+
+Source = str | os.PathLike[str] | Scene | None
+"""A scene folder or a scene; None for the one that ships with the package."""
+
+REWARDS = ("sparse", "dense")
+RENDER_MODES = ("rgb_array", "depth_array")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EpisodeConfig:
+    """What an episode is about and how the robot is told what to do; the same for one environment and for many."""
+
+    scene: Source = None
+    """A scene folder or a pat3d.Scene; None for the one that ships with the package."""
+    task: str | Task | None = None
+    """"pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task; None for
+    picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all."""
+    robot: str = ""
+    """"panda", "fr3", "ur5e", "ur10e", "iiwa14", "gen3", "xarm7", ... of MuJoCo Menagerie, PATH.xml for one's own, or
+    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`."""
+    suite: str | os.PathLike[str] | None = None
+    """A suite folder instead of a scene; every reset draws one of its scenes with that scene's own task."""
+    split: str | None = None
+    """Of the suite: "train", "val", "test", "val/object", ...; None for all."""
+    index: int | None = None
+    """Of the only scene to use among those chosen by split and kind of task, from 0."""
+    obs: str = "state"
+    """"state", "rgb" or "rgbd"."""
+    control: str = "osc"
+    """"osc", "joint_velocity" or "joint_position"."""
+    reward: str = "sparse"
+    """"sparse" or "dense"."""
+    control_freq: float = 20.0
+    """Actions a second [1/s]."""
+    start_noise: float = 0.02
+    """Standard deviation of the robot's posture at the start [rad]."""
+
+    def __post_init__(self) -> None:
+        self._set("robot", self.robot or default_robot())
+        one_of("reward", self.reward, REWARDS)
+        self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
+        self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))
+
+    def _set(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TabletopConfig(EpisodeConfig):
+    """Arguments of `pat3d.envs.env.TabletopEnv`."""
+
+    cameras: Sequence[str] = ("agentview", "wrist")
+    """Those of the rgb and rgbd observations."""
+    image_size: tuple[int, int] = (128, 128)
+    """Height and width of the pictures [pixel]."""
+    segmentation: bool = False
+    """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
+    max_objects: int | None = None
+    """Rows of the state's "objects"; None for as many as the scene's moving objects."""
+    sleep: bool = True
+    """Leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer)."""
+    render_mode: str | None = None
+    """"rgb_array", "depth_array" or None."""
+    render_camera: str = "agentview"
+    """For `render`."""
+    render_size: tuple[int, int] = (480, 640)
+    """Height and width for `render` [pixel]."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        one_of("camera", self.render_camera, CAMERAS)
+        if self.render_mode is not None:
+            one_of("render mode", self.render_mode, RENDER_MODES)
+        self._set("image_size", picture_size("image_size", self.image_size))
+        if self.max_objects is not None:
+            whole("max_objects", self.max_objects, 1)
+        self._set("render_size", picture_size("render_size", self.render_size))
+        self._set("cameras", names("camera", self.cameras, CAMERAS))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BatchConfig(EpisodeConfig):
+    """Arguments of `pat3d.envs.vector.BatchedTabletopEnv`."""
+
+    max_episode_steps: int = MAX_EPISODE_STEPS
+    """After which an episode is truncated."""
+    capacity: tuple[int, int] | None = None
+    """Contacts and rows of constraints that each world has buffers for; measured where None."""
+
+    def __post_init__(self) -> None:
+        whole("max_episode_steps", self.max_episode_steps, 1)
+        super().__post_init__()
+        one_of("control", self.control, CONTROLS)
+        if self.obs != "state":
+            raise EnvironmentSetupError(f'on a GPU there is no observation "{self.obs}", only "state".')
+
+
+Config = TypeVar("Config", bound=EpisodeConfig)
+
+
+def configured(kind: type[Config], config: Config | None, arguments: Mapping[str, Any]) -> Config:
+    """`config`, or the configuration of `kind` that keyword arguments describe.
+
+    Raises:
+        EnvironmentSetupError: both are given, or an argument is unknown or not valid; says what is.
+    """
+    if config is not None:
+        if arguments:
+            raise EnvironmentSetupError(f"give a config or {', '.join(arguments)}, not both.")
+        return config
+    valid = [field.name for field in fields(kind)]
+    unknown = [name for name in arguments if name not in valid]
+    if unknown:
+        raise EnvironmentSetupError(f'no argument "{", ".join(unknown)}". Arguments: {", ".join(valid)}.')
+    return kind(**arguments)

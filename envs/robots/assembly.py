@@ -1,0 +1,142 @@
+"""Any arm and gripper as the environments take them: driven by torques, with a grip site, a base frame and a camera."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.envs.robots.description import Description
+from pat3d.envs.robots.fingers import GripFrame, find_grip
+from pat3d.envs.robots.robot import Robot, SteadyDrive
+from pat3d.envs.robots.structure import Parts, find_parts, torque_limits
+from pat3d.errors import EnvironmentSetupError
+from pat3d.geometry.pose import Pose
+
+Array = NDArray[np.float64]
+
+GRIP, BASE, CAMERA = "pat3d/grip", "pat3d/base", "pat3d/wrist"
+TORQUE = "pat3d/torque/"
+"""Before the name of a joint: its motor."""
+
+TURNS = 2.0 * np.pi
+"""Joints without a limit get this one, as cables would [rad]."""
+
+CAMERA_BACK, CAMERA_ASIDE = 0.14, 0.07
+"""The wrist camera is so far behind the grip site, and beside it [m]."""
+
+GRIP_FRICTION = 1.0
+"""Least friction of the fingers, as of rubber pads."""
+
+
+def assemble(told: Description) -> Robot:
+    """The robot of a description.
+
+    Raises:
+        EnvironmentSetupError: MuJoCo refuses a file, or a part is not found; says which.
+    """
+    import mujoco
+
+    from pat3d.envs.robots.posture import start_posture
+
+    try:
+        spec = _joined(told)
+        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        keys = {key.name: np.array(key.qpos) for key in spec.keys}
+        for key in list(spec.keys):
+            spec.delete(key)
+        model = spec.compile()
+    except ValueError as error:
+        raise EnvironmentSetupError(f"{told.mjcf}: MuJoCo {mujoco.__version__} refuses it: {error}") from error
+    model.opt.gravity[:] = 0.0
+    parts = find_parts(model, told)
+    grip = find_grip(model, parts, told)
+    arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
+    fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
+    _equip(spec, model, parts, grip, torque_limits(model, parts, told))
+    _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
+    finished = spec.copy()
+    robot = Robot(
+        name=told.name,
+        new_spec=finished.copy,
+        arm_joints=arm_joints,
+        arm_actuators=tuple(TORQUE + name for name in arm_joints),
+        gripper_joints=tuple(model.joint(joint).name for joint in parts.gripper_joints),
+        gripper_actuators=tuple(model.actuator(number).name for number in parts.gripper_actuators),
+        home=np.zeros(len(arm_joints)),
+        gripper_home=grip.open_joints,
+        grip_site=GRIP,
+        base_site=BASE,
+        wrist_camera=CAMERA,
+        fingers=(fingers[0], fingers[1]),
+        payload=told.payload,
+        new_drive=lambda: SteadyDrive(grip.closing),
+    )
+    known = [qpos[: len(arm_joints)] for qpos in keys.values() if len(qpos) >= len(arm_joints)]
+    return start_posture(robot, known)
+
+
+def _joined(told: Description) -> Any:
+    """The arm with its gripper on it, all geoms and actuators named, without sensors and lights."""
+    import mujoco
+
+    spec = mujoco.MjSpec.from_file(str(told.mjcf))
+    if told.gripper is not None:
+        carrier = spec.site(told.attach)
+        if carrier is None:
+            sites = ", ".join(site.name for site in spec.sites) or "none"
+            raise EnvironmentSetupError(f'{told.mjcf}: no site "{told.attach}" to attach a gripper to. Sites: {sites}.')
+        spec.attach(mujoco.MjSpec.from_file(str(told.gripper)), prefix="gripper/", site=carrier)
+    for thing in (*spec.sensors, *spec.lights):
+        spec.delete(thing)
+    for number, geom in enumerate(spec.geoms):
+        geom.name = geom.name or f"pat3d/geom{number}"
+        if geom.group == 0 and not (geom.contype or geom.conaffinity):
+            geom.group = 2
+    for number, actuator in enumerate(spec.actuators):
+        actuator.name = actuator.name or f"pat3d/actuator{number}"
+    for body in spec.bodies:
+        body.gravcomp = 0.0
+    return spec
+
+
+def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
+    """Multiply the stiffness of position actuators, and their damping so that they overshoot no more."""
+    for name in actuators:
+        actuator = spec.actuator(name)
+        actuator.gainprm[0] *= factor
+        actuator.biasprm[1] *= factor
+        actuator.biasprm[2] *= np.sqrt(factor)
+
+
+def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[float]) -> None:
+    """Put motors in the place of the arm's actuators, and add the sites and the camera."""
+    import mujoco
+
+    for number in sorted(parts.arm_actuators, reverse=True):
+        spec.delete(spec.actuator(model.actuator(number).name))
+    for joint, most in zip(parts.arm_joints, torques, strict=True):
+        name = model.joint(joint).name
+        if not model.jnt_limited[joint]:
+            spec.joint(name).limited, spec.joint(name).range = 1, [-TURNS, TURNS]
+        motor = spec.add_actuator(
+            name=TORQUE + name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, ctrllimited=1, ctrlrange=[-most, most]
+        )
+        motor.set_to_motor()
+    for side in grip.fingers:
+        for geom in side:
+            pad = spec.geom(model.geom(geom).name)
+            pad.friction[0] = max(pad.friction[0], GRIP_FRICTION)
+    hand = spec.body(model.body(parts.hand).name)
+    quat = Pose.from_matrix(grip.rotation, np.zeros(3)).quat_wxyz
+    hand.add_site(name=GRIP, pos=grip.position, quat=quat, group=4)
+    spec.worldbody.add_site(name=BASE, group=4)
+    across, _, approach = grip.rotation.T
+    eye = grip.position - CAMERA_BACK * approach + CAMERA_ASIDE * across
+    back = eye - grip.position
+    back /= np.linalg.norm(back)
+    up = across - back * (across @ back)
+    up /= np.linalg.norm(up)
+    frame = np.stack([np.cross(up, back), up, back], axis=1)
+    hand.add_camera(name=CAMERA, pos=eye, quat=Pose.from_matrix(frame, np.zeros(3)).quat_wxyz, fovy=75.0)

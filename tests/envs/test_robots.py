@@ -1,0 +1,251 @@
+"""Robots of a file of one's own, and of MuJoCo Menagerie where its models can be had."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium")
+
+import mujoco
+from gymnasium.utils.env_checker import check_env
+
+from pat3d.envs.env import TabletopEnv
+from pat3d.envs.grasping.scripted import ScriptedPick, Servo
+from pat3d.envs.robots.arms import make_robot, measure_gripper
+from pat3d.envs.robots.inertia import inertia_matrix
+from pat3d.envs.robots.menagerie import ARMS
+from pat3d.envs.robots.robot import SteadyDrive
+from pat3d.errors import EnvironmentSetupError
+from tests.envs.own_arm import own_arm
+
+CLOSE = 0.005
+"""The hand gets this near to where it is sent [m]."""
+
+
+@pytest.fixture(scope="module")
+def own(tmp_path_factory):
+    """The file of an arm with a gripper."""
+    path = tmp_path_factory.mktemp("robots") / "arm.xml"
+    path.write_text(own_arm())
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def made(own):
+    """An environment with that arm."""
+    env = TabletopEnv(robot=own, task="pick:red mug")
+    yield env
+    env.close()
+
+
+def test_the_parts_of_an_arm_are_found_by_its_structure(own):
+    robot = make_robot(own)
+    assert robot.arm_joints == tuple(f"j{n}" for n in range(1, 8))
+    assert robot.gripper_joints == ("left", "right")
+    assert robot.gripper_actuators == ("grip",)
+    assert {frozenset(side) for side in robot.fingers} == {frozenset(["left_pad"]), frozenset(["right_pad"])}
+    model = robot.new_spec().compile()
+    limits = [model.actuator(name).ctrlrange for name in robot.arm_actuators]
+    np.testing.assert_array_equal(limits, 7 * [[-80.0, 80.0]])
+
+
+def test_the_gripper_is_measured_as_it_was_drawn(own):
+    """Pads 12 mm thick, 20 mm wide, 60 mm high, each going 40 mm from where they touch; the palm is 60 mm behind."""
+    gripper = measure_gripper(own)
+    assert gripper.opening == pytest.approx(0.08, abs=2e-3)
+    assert gripper.closed == pytest.approx(0.0, abs=2e-3)
+    assert gripper.finger_thickness == pytest.approx(0.012, abs=1e-4)
+    assert gripper.finger_width == pytest.approx(0.02, abs=1e-4)
+    assert gripper.palm == pytest.approx(0.06, abs=1e-3)
+    assert gripper.pad == pytest.approx(0.06, abs=4e-3)
+    assert gripper.hand == pytest.approx((0.16, 0.08), abs=1e-3)
+
+
+def test_the_grip_site_is_between_the_pads_and_its_axes_are_those_of_the_hand(own):
+    robot = make_robot(own)
+    model = robot.new_spec().compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    site = data.site(robot.grip_site)
+    np.testing.assert_allclose(site.xpos[:2], 0.0, atol=1e-3)
+    np.testing.assert_allclose(site.xmat.reshape(3, 3)[:, 2], [0.0, 0.0, 1.0], atol=1e-6)
+    np.testing.assert_allclose(np.abs(site.xmat.reshape(3, 3)[:, 1]), [0.0, 1.0, 0.0], atol=1e-6)
+
+
+def test_the_arm_starts_in_front_of_its_base_with_the_hand_down(own):
+    robot = make_robot(own)
+    model = robot.new_spec().compile()
+    data = mujoco.MjData(model)
+    data.qpos[[int(model.joint(name).qposadr[0]) for name in robot.arm_joints]] = robot.home
+    mujoco.mj_forward(model, data)
+    site = data.site(robot.grip_site)
+    assert site.xpos[0] > 0.2
+    assert abs(site.xpos[1]) < 5e-3
+    np.testing.assert_allclose(site.xmat.reshape(3, 3)[:, 2], [0.0, 0.0, -1.0], atol=0.03)
+    assert not (data.contact.dist < -1e-3).any()
+
+
+def test_gymnasium_s_checker_accepts_an_environment_with_one_s_own_arm(made):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(made, skip_render_check=True)
+
+
+def _farthest(env) -> float:
+    """How far the hand stays from poses around its start that it is sent to, at most [m]."""
+    worst = 0.0
+    for number, shift in enumerate(
+        np.array([[0.08, 0.0, 0.0], [0.0, 0.1, 0.05], [-0.05, -0.08, 0.1], [0.0, 0.0, -0.05]])
+    ):
+        env.reset(seed=number)
+        state, servo = env.simulation.state, Servo(env)
+        goal, rotation = state.hand + shift, state.hand_rotation.copy()
+        for _ in range(60):
+            env.step(servo.towards(goal, rotation, -1.0)[0])
+        worst = max(worst, float(np.linalg.norm(env.simulation.state.hand - goal)))
+    return worst
+
+
+def _picks(env, episodes: int) -> int:
+    done = 0
+    for seed in range(episodes):
+        env.reset(seed=seed)
+        hand, success, steps = ScriptedPick(env), False, 0
+        while not success and steps < 200:
+            _, _, success, *_ = env.step(hand.action())
+            steps += 1
+        done += success
+    return done
+
+
+def test_the_hand_gets_to_where_it_is_sent(made):
+    assert _farthest(made) < CLOSE
+
+
+def test_one_s_own_arm_picks_up_the_mug(made):
+    assert _picks(made, 3) == 3
+
+
+@pytest.mark.parametrize("control", ["joint_velocity", "joint_position"])
+def test_joint_control_moves_the_joint_it_names_and_holds_the_others(own, control):
+    env = TabletopEnv(robot=own, task="pick:red mug", control=control)
+    before, _ = env.reset(seed=0)
+    action = np.zeros(8, dtype=np.float32)
+    action[0] = 0.5
+    for _ in range(10):
+        after, *_ = env.step(action)
+    moved = after["joint_pos"] - before["joint_pos"]
+    assert moved[0] > 0.03
+    assert np.abs(moved[1:]).max() < 0.02
+
+
+def test_near_a_singular_posture_pseudo_inverses_give_the_same_torques(made):
+    """In regular postures both ways agree, so that the change from one to the other is no jolt."""
+    made.reset(seed=0)
+    simulation, controller = made.simulation, made.simulation.controller
+    random = np.random.default_rng(0)
+    for _ in range(20):
+        simulation.data.qpos[simulation._arm] = made.placement.start + random.normal(0.0, 0.2, 7)
+        simulation.data.qvel[:] = random.normal(0.0, 0.2, simulation.model.nv)
+        mujoco.mj_forward(simulation.model, simulation.data)
+        controller.set_action(random.uniform(-1.0, 1.0, 7))
+        controller._limits[:] = [[-1e6] * 7, [1e6] * 7]
+        controller.control()
+        compiled = simulation.data.ctrl[controller._actuators].copy()
+        controller._near_singular()
+        np.testing.assert_allclose(simulation.data.ctrl[controller._actuators], compiled, rtol=1e-6, atol=1e-6)
+    controller._limits[:] = [[-80.0] * 7, [80.0] * 7]
+
+
+def test_the_inertia_matrix_is_that_of_the_kinetic_energy(own):
+    """V M v is twice the kinetic energy that MuJoCo's energy sensor reports."""
+    model = make_robot(own).new_spec().compile()
+    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    data, matrix = mujoco.MjData(model), np.zeros((model.nv, model.nv))
+    random = np.random.default_rng(0)
+    for _ in range(5):
+        data.qpos[:], data.qvel[:] = random.uniform(0.0, 0.04, model.nq), random.normal(size=model.nv)
+        mujoco.mj_forward(model, data)
+        inertia_matrix(model, data, matrix)
+        np.testing.assert_array_equal(matrix, matrix.T)
+        assert data.qvel @ matrix @ data.qvel == pytest.approx(2.0 * data.energy[1], rel=1e-9)
+
+
+def test_fingers_go_a_tenth_of_their_range_a_step_and_stay_where_they_are_told_nothing():
+    drive = SteadyDrive((1.0, -1.0))
+    np.testing.assert_array_equal(drive.current_action, [-1.0, 1.0])
+    np.testing.assert_allclose(drive.format_action(np.ones(1)), [-0.8, 0.8])
+    np.testing.assert_allclose(drive.format_action(np.zeros(1)), [-0.8, 0.8])
+    for _ in range(20):
+        closed = drive.format_action(np.ones(1))
+    np.testing.assert_array_equal(closed, [1.0, -1.0])
+
+
+@pytest.mark.parametrize(
+    ("file", "told", "message"),
+    [
+        (own_arm(fingers=False), "", "no arm|no fingers: bodies that move on the hand found"),
+        (
+            own_arm(gripper=""),
+            "",
+            r"no actuator .* drives the fingers found\. .* gripper_actuators in arm.yaml",
+        ),
+        (
+            own_arm(torque=""),
+            "",
+            r"no largest torque .* found\. .* torques in arm.yaml\. There are: j1, j2",
+        ),
+        (own_arm(), "arm_joints: [j1, elbow]", r'no joint "elbow"\. There are: j1, j2'),
+        (own_arm(), "colour: red", r"colour is not understood\. Keys: mjcf, gripper, attach"),
+        (own_arm(), "gripper: claw", r'no gripper "claw"\. Grippers: panda_hand, 2f85'),
+        ("<mujoco><worldbody><cube/></worldbody></mujoco>", "", "refuses it"),
+    ],
+)
+def test_what_a_file_lacks_is_said_with_what_it_has(tmp_path, file, told, message):
+    (tmp_path / "arm.xml").write_text(file)
+    if told:
+        (tmp_path / "arm.yaml").write_text(told)
+    with pytest.raises(EnvironmentSetupError, match=message):
+        make_robot(str(tmp_path / "arm.xml"))
+
+
+def test_what_is_missing_can_be_named(tmp_path):
+    (tmp_path / "arm.xml").write_text(own_arm(torque=""))
+    (tmp_path / "arm.yaml").write_text("torques: [80, 80, 80, 80, 80, 80, 80]\npayload: 1.5")
+    robot = make_robot(str(tmp_path / "arm.xml"))
+    assert robot.payload == 1.5
+    model = robot.new_spec().compile()
+    assert [float(model.actuator(name).ctrlrange[1]) for name in robot.arm_actuators] == 7 * [80.0]
+
+
+def test_no_such_robot_or_file_is_answered_with_what_there_is(tmp_path):
+    with pytest.raises(EnvironmentSetupError, match=r"Robots: panda, fr3, .*PATH\.xml for your own"):
+        make_robot("Marvin")
+    with pytest.raises(EnvironmentSetupError, match=r"nothing.xml is no file"):
+        make_robot(str(tmp_path / "nothing.xml"))
+
+
+@pytest.fixture(params=sorted(ARMS))
+def arm(request):
+    """The environment of an arm of the Menagerie; without its model, which is downloaded, there is nothing to test."""
+    try:
+        make_robot(request.param)
+    except EnvironmentSetupError as error:
+        if "cannot be had" in str(error) or "No module named" in str(error):
+            pytest.skip(str(error))
+        raise
+    env = TabletopEnv(robot=request.param, task="pick:red mug")
+    yield env
+    env.close()
+
+
+@pytest.mark.slow
+def test_an_arm_of_the_menagerie_follows_and_picks(arm):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(arm, skip_render_check=True)
+    assert _farthest(arm) < CLOSE
+    assert _picks(arm, 3) == 3
