@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 )
 def evaluate(options: argparse.Namespace) -> int:
     """`pat3d evaluate`."""
-    from pat3d.envs.suites.crew import worker_count
+    from pat3d.envs.suites.worker_pool import worker_count
     from pat3d.policies_eval.run.evaluate import evaluate as run
 
     settings = settings_of(options)
