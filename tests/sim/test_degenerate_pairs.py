@@ -183,7 +183,7 @@ def test_degenerate_pairs_have_ipctk_energies_gradients_and_hessians(kind, cases
 
 @pytest.mark.parametrize("sine", [0.005, 0.02, 0.5])
 def test_the_gauss_newton_hessian_is_the_curvature_along_the_distance(sine):
-    """m b'' grad d grad d^T by the state, of crossing edges that the mollifier weighs little, more, or not at all."""
+    """M b'' grad d grad d^T by the state, of crossing edges that the mollifier weighs little, more, or not at all."""
     u, v = np.array([0.1, 0, 0]), 0.1 * np.array([np.sqrt(1 - sine**2), sine, 0])
     start = np.array([0.0, 0, 4e-3])
     points = np.array([-0.5 * u, 0.5 * u, start - 0.5 * v, start + 0.5 * v])
