@@ -80,6 +80,7 @@ def test_in(case, poses, expected):
         ("clearly right", "right_of", (0.3, 0, 0), True),
         ("left and a little behind", "left_of", (-0.3, 0.2, 0), True),
         ("far behind, slightly left", "left_of", (-0.12, 1.0, 0), False),
+        ("far left, slightly behind", "behind", (-1.0, 0.12, 0), False),
         ("nearer to the viewer", "in_front_of", (0, -0.3, 0), True),
         ("away from the viewer", "in_front_of", (0, 0.3, 0), False),
         ("away from the viewer", "behind", (0, 0.3, 0), True),
