@@ -1,5 +1,6 @@
 import ipctk
 import numpy as np
+import pytest
 import warp as wp
 
 from pat3d.geometry.pose import Pose
@@ -118,3 +119,20 @@ def test_candidates_hold_every_pair_within_reach():
                     close += 1
                     assert (int(EDGE_EDGE), *e, *g) in held
     assert close > 20
+
+
+@pytest.mark.parametrize("depth", [0.5, 0.91, 1.01, 4.0])
+def test_a_fall_towards_the_ground_keeps_a_tenth_of_the_height(depth):
+    """Falls that leave that much are free; others, through the ground or nearly to it, are cut short there."""
+    builder = ModelBuilder()
+    add_hull(builder, box_points(0.1, 0.1, 0.1), Pose(position=(0, 0, 0.06)))
+    model = builder.finalize("cpu")
+    start = model.vertex_rest.numpy() + model.q0[0, 0]
+    end = start - [0, 0, depth * 0.01]
+    x0, x1 = (wp.array(x, dtype=wp.vec3d, device="cpu") for x in (start, end))
+    candidates = Candidates(model)
+    candidates.cover(x0, x1, 1e-3, 1e-4)
+    step = wp.full(1, 1.0, dtype=wp.float64, device="cpu")
+    safe_step(model, candidates, x0, x1, step)
+    lowest = (start + step.numpy()[0] * (end - start))[:, 2].min()
+    assert lowest == pytest.approx(max(0.1, 1 - depth) * 0.01, rel=1e-9)

@@ -138,7 +138,8 @@ def point_triangle_cases() -> np.ndarray:
 def edge_edge_cases() -> np.ndarray:
     """Edges that cross, share an end, are parallel, collinear or nearly so."""
     u = np.array([0.1, 0, 0])
-    directions = [u, -u, 0.3 * u, [0, 0.1, 0], [0.1, 1e-3, 0], [0.1, 0, 1e-3], [0.05, 0.05, 0]]
+    # Of the mollifier's threshold, crosses of 1e-3 are a tenth and of 2.7e-3 three quarters.
+    directions = [u, -u, 0.3 * u, [0, 0.1, 0], [0.1, 1e-3, 0], [0.1, 2.7e-3, 0], [0.1, 0, 1e-3], [0.05, 0.05, 0]]
     starts = [[0, 0], [0.05, 0], [0.1, 0]]
     return np.array(
         [
@@ -183,7 +184,7 @@ def test_degenerate_pairs_have_ipctk_energies_gradients_and_hessians(kind, cases
 
 @pytest.mark.parametrize("sine", [0.005, 0.02, 0.5])
 def test_the_gauss_newton_hessian_is_the_curvature_along_the_distance(sine):
-    """M b'' grad d grad d^T by the state, of crossing edges that the mollifier weighs little, more, or not at all."""
+    """It is m b'' grad d grad d^T by the state; the mollifier weighs the edges with little, more, or nothing."""
     u, v = np.array([0.1, 0, 0]), 0.1 * np.array([np.sqrt(1 - sine**2), sine, 0])
     start = np.array([0.0, 0, 4e-3])
     points = np.array([-0.5 * u, 0.5 * u, start - 0.5 * v, start + 0.5 * v])

@@ -92,3 +92,32 @@ def test_the_contact_force_depends_on_d_hat_as_differences_say(angle):
     w, found = wp.array(adjoint, dtype=wp.vec3d, device="cpu"), wp.zeros_like(energy)
     pull_back_d_hat(potential.contact, potential.vertex_positions, w, found)
     assert -found.numpy()[0] == pytest.approx(numeric, rel=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1 - 1e-9, 1 + 1e-9, 3.0])
+def test_the_energy_of_a_slip_is_coulomb_s_smoothed_below_epsilon(share):
+    """D = mu sum lambda f0(y): y beyond epsilon, below it the cubic that meets it there with the same slope."""
+    model = edge_on_edge(0.3, 4e-4)
+    run = Run(model, SettleOptions(friction=0.4), lambda *_: None)
+    run.set_d_hat(1e-3)
+    run.anchor_friction(np.ones(1, dtype=bool))
+    run.record_friction()
+    potential, friction = run.potential, run.potential.friction
+    friction.epsilon = epsilon = 1e-4
+    y = share * epsilon
+    slipped = model.q0.copy()
+    slipped[1, 0] += y * np.array([0.6, 0.8, 0])
+    energy = wp.zeros(1, dtype=wp.float64, device="cpu")
+    gradient = wp.zeros((2, 4), dtype=wp.vec3d, device="cpu")
+    q = wp.array(slipped, dtype=wp.vec3d, device="cpu")
+    for launch in friction.value_launches(potential.everywhere(q, potential.vertex_positions), energy, gradient):
+        launch("cpu")
+    forces = friction.record.force.numpy()[: friction.count]
+    normals = friction.record.normal.numpy()[: friction.count]
+    np.testing.assert_allclose(np.abs(normals[forces > 0, 2]), 1, atol=1e-6)
+    smoothed = y if y > epsilon else y**2 / epsilon - y**3 / (3 * epsilon**2) + epsilon / 3
+    mobilised = min(1.0, 2 * share - share**2) if share < 1 else 1.0
+    assert energy.numpy()[0] == pytest.approx(0.4 * forces.sum() * smoothed, rel=1e-6)
+    np.testing.assert_allclose(
+        gradient.numpy()[1, 0], 0.4 * forces.sum() * mobilised * np.array([0.6, 0.8, 0]), rtol=1e-6, atol=1e-9
+    )

@@ -9,10 +9,14 @@ import pytest
 import warp as wp
 
 import pat3d.sim.terms
+from pat3d.geometry.pose import Pose
 from pat3d.sim.compilation import settling_modules
 from pat3d.sim.kernel_modules import declared_modules
+from pat3d.sim.model import ModelBuilder
+from pat3d.sim.terms.orthogonality import Orthogonality
 from pat3d.sim.terms.potential import Potential
-from pat3d.sim.terms.term import Launch, Term
+from pat3d.sim.terms.term import Evaluation, Launch, Term
+from tests.sim.builders import add_hull, box_points
 from tests.sim.test_potential import crowded_potential
 
 
@@ -95,3 +99,38 @@ def test_worlds_that_are_not_active_add_nothing(potential):
     assert not potential._energy.numpy().any()
     assert not potential._gradient.numpy().any()
     assert not potential._hessian.numpy().any()
+
+
+@pytest.mark.parametrize("strain", [-0.2, 0.2])
+def test_a_strained_body_has_the_stiffness_of_differences_and_a_convex_stand_in(strain):
+    """Compressed, the exact Hessian is indefinite; scenes strain by 1e-5, where the two hardly differ."""
+    builder = ModelBuilder()
+    add_hull(builder, box_points(0.1, 0.08, 0.06), Pose(position=(0, 0, 1.0)))
+    model = builder.finalize("cpu")
+    term = Orthogonality(model, stiffness=1e4)
+    energy = wp.zeros(1, dtype=wp.float64, device="cpu")
+    state = model.q0.copy()
+    state[:, 1:] = (1 + strain) * np.eye(3) + 0.02 * np.random.default_rng(0).normal(size=(3, 3))
+    mask = wp.full(1, 1, dtype=int, device="cpu")
+
+    def at(q: np.ndarray) -> Evaluation:
+        return Evaluation(q=wp.array(q, dtype=wp.vec3d, device="cpu"), position=energy, active=mask)
+
+    def gradient(q: np.ndarray) -> np.ndarray:
+        found = wp.zeros((1, 4), dtype=wp.vec3d, device="cpu")
+        for launch in term.value_launches(at(q), energy, found):
+            launch("cpu")
+        return found.numpy().ravel()
+
+    def hessian(exact: int) -> np.ndarray:
+        found = wp.zeros((1, 12, 12), dtype=wp.float64, device="cpu")
+        for launch in term.hessian_launches(at(state), wp.full(1, exact, dtype=int, device="cpu"), found):
+            launch("cpu")
+        return found.numpy()[0]
+
+    steps = 1e-6 * np.eye(12).reshape(12, 1, 4, 3)
+    numeric = np.array([(gradient(state + step) - gradient(state - step)) / 2e-6 for step in steps])
+    exact, convex = hessian(1), hessian(0)
+    np.testing.assert_allclose(exact, numeric, atol=1e-7 * np.abs(numeric).max())
+    assert (np.linalg.eigvalsh(exact).min() < -1.0) == (strain < 0)
+    assert np.linalg.eigvalsh(convex).min() > -1e-9
