@@ -46,7 +46,7 @@ def test_a_tray_of_a_given_size_or_with_room_keeps_its_size(prompt):
     [(1.0, 1.0, None), (1.1, 1.0, 1.15), (1.2, 1.0, 1.3), (1.5, 1.0, 1.5), (2.0, 1.0, None), (1.2, 0.8, None)],
 )
 def test_the_smallest_factor_that_lets_things_stand_side_by_side_is_taken(monkeypatch, fits_from, scale, expected):
-    """With assets that are just factors: a load fits from a factor on. Where none helps, or a size was asked, none is."""
+    """With assets that are mere factors: a load fits from one on. Where none helps, or a size was asked, none is."""
     monkeypatch.setattr(sizing, "_side_by_side", lambda carrier, loads: carrier >= fits_from)
     tray = PlannedObject(name="tray", noun="tray", scale=scale)
     cups = [PlannedObject(name=name, noun="cup") for name in ("cup 1", "cup 2")]
