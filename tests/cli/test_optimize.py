@@ -3,6 +3,7 @@
 import json
 import shutil
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from PIL import Image
@@ -26,7 +27,7 @@ from pat3d.layout.bodies import place_all
 from pat3d.layout.clearance import require_clearance
 from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
-from pat3d.scene.model import Scene, SceneObject
+from pat3d.scene.model import Relation, Scene, SceneObject
 from tests.optimize.scenes import overhanging
 
 PICTURES = {"loss.png", "before_after.png"}
@@ -258,3 +259,14 @@ def test_generate_does_without_torch(falling_layouts, tmp_path, monkeypatch):
     assert not report["passed"]
     assert report["optimisation"] is None
     assert "broken: plank on block" in report["failures"][0]
+
+
+def test_lost_are_the_lateral_relations_that_the_layout_had(monkeypatch):
+    """A support that broke is a fault of its own, and what the layout never had cannot be lost."""
+    support = Relation(child="plank", kind="on", parent="block")
+    had, never = (Relation(child="plank", kind=kind, parent="block") for kind in ("left_of", "behind"))
+    monkeypatch.setattr(optimize_stage, "_fulfilled", lambda scene: {support, had})
+    results = tuple(SimpleNamespace(relation=one, holds=False) for one in (support, had, never))
+    assert optimize_stage.lost(overhanging_scene(), results) == (had,)
+    held = tuple(SimpleNamespace(relation=one, holds=True) for one in (support, had))
+    assert optimize_stage.lost(overhanging_scene(), held) == ()

@@ -2,9 +2,12 @@ from dataclasses import replace
 
 import pytest
 
+from pat3d.generation import sizing
 from pat3d.generation.request import objects_of_plan
 from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.progress import silent
+from pat3d.scene.model import Relation
 
 CROWDED = "A tray with a teapot, two cups and a plate."
 
@@ -36,3 +39,18 @@ def test_a_tray_of_a_given_size_or_with_room_keeps_its_size(prompt):
     alone = replace(plan, relations=tuple(rel for rel in plan.relations if not rel.parent.endswith("tray")))
     assert tray.asset.size == pytest.approx(tray_of(alone).asset.size)
     assert not tray.note
+
+
+@pytest.mark.parametrize(
+    ("fits_from", "scale", "expected"),
+    [(1.0, 1.0, None), (1.1, 1.0, 1.15), (1.2, 1.0, 1.3), (1.5, 1.0, 1.5), (2.0, 1.0, None), (1.2, 0.8, None)],
+)
+def test_the_smallest_factor_that_lets_things_stand_side_by_side_is_taken(monkeypatch, fits_from, scale, expected):
+    """With assets that are mere factors: a load fits from one on. Where none helps, or a size was asked, none is."""
+    monkeypatch.setattr(sizing, "_side_by_side", lambda carrier, loads: carrier >= fits_from)
+    tray = PlannedObject(name="tray", noun="tray", scale=scale)
+    cups = [PlannedObject(name=name, noun="cup") for name in ("cup 1", "cup 2")]
+    relations = tuple(Relation(child=cup.name, kind="on", parent="tray") for cup in cups)
+    plan = ScenePlan(prompt="", objects=(tray, *cups), relations=relations)
+    found = sizing.enlarged_trays(plan, dict.fromkeys(("tray", "cup 1", "cup 2"), 1.0), lambda name, factor: factor)
+    assert found == ({} if expected is None else {"tray": (expected, expected)})
