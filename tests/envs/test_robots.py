@@ -13,12 +13,14 @@ import mujoco
 from gymnasium.utils.env_checker import check_env
 
 from pat3d.envs.env import TabletopEnv
-from pat3d.envs.grasping.scripted import ScriptedPick, Servo
+from pat3d.envs.grasping.scripted import Servo
 from pat3d.envs.robots.arms import make_robot, measure_gripper
 from pat3d.envs.robots.inertia import inertia_matrix
 from pat3d.envs.robots.menagerie import ARMS
 from pat3d.envs.robots.robot import SteadyDrive
 from pat3d.errors import EnvironmentSetupError
+from pat3d.policies_eval.policies.policy import EpisodeStart
+from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from tests.envs.own_arm import own_arm
 
 CLOSE = 0.005
@@ -110,12 +112,18 @@ def _farthest(env) -> float:
 
 
 def _picks(env, episodes: int) -> int:
-    done = 0
+    """How many episodes of the scripted policy succeed within the time limit."""
+    policy, done = ScriptedPolicy(), 0
     for seed in range(episodes):
-        env.reset(seed=seed)
-        hand, success, steps = ScriptedPick(env), False, 0
-        while not success and steps < 200:
-            _, _, success, *_ = env.step(hand.action())
+        observation, _ = env.reset(seed=seed)
+        start = EpisodeStart(
+            instruction=env.instruction, task=env.task.spec, seed=seed, robot=env.robot, control=env.control,
+            action_size=env.action_space.shape[0], control_freq=env.control_freq, env=env,
+        )  # fmt: skip
+        policy.reset(start)
+        success, steps = False, 0
+        while not success and steps < 400:
+            observation, _, success, *_ = env.step(policy.act(observation))
             steps += 1
         done += success
     return done
