@@ -213,9 +213,9 @@ def plush_dog(style: Style) -> Build:
     coat = style.colour()
     dark = style.shade(coat, 0.62)
     size, at = (0.098, 0.088, 0.088), (0.0, -0.020, 0.268)
-    head = egg(size, at).cut_above(0.326)
+    head = egg(size, at).cut_above(0.338)
     droop = style.vary(0.115, 0.1)
-    ear = limb((0.082, -0.015, 0.290), (droop, -0.022, 0.205), 0.026, 0.034)
+    ear = limb((0.064, -0.015, 0.290), (droop, -0.022, 0.205), 0.026, 0.034)
     muzzle = egg((0.048, 0.052, 0.037), (0.0, -0.100, 0.243))
     foreleg = limb((0.045, -0.045, 0.155), (0.050, -0.085, 0.032), 0.034, 0.031)
     paw = egg((0.036, 0.050, 0.034), (0.052, -0.105, 0.022))
@@ -236,7 +236,7 @@ def plush_dog(style: Style) -> Build:
             (egg((0.020, 0.017, 0.014), (0.0, -0.148, 0.258)), DARK),
             (eyes(size, at, 0.036, 0.288, 0.011), DARK),
         ],
-        regions=[on_top(head, 0.062)],
+        regions=[on_top(head, 0.045)],
     )
 
 
