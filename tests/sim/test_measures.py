@@ -104,3 +104,34 @@ def test_inertia_damps_steps_that_reverse_one_another(monkeypatch):
     assert weights_of_relax(monkeypatch, [5e-4] * 4, [True, True, False, True]) == [1, 16, 256, 256]
     assert weights_of_relax(monkeypatch, [5e-5] * 3, [True] * 3) == [1, 8, 64]
     assert weights_of_relax(monkeypatch, [5e-4] * 10, [True] * 10)[-1] == MOST_INERTIA
+
+
+def test_friction_is_anchored_once_creep_and_slip_are_slow_and_only_then_can_a_world_rest(monkeypatch):
+    """A step after slow ones keeps the anchor; one whose slip is large moves it, however short the step was."""
+    steps = [(1e-9, 1.0), (1e-9, 0.0), (1e-9, 1.0), (1e-9, 0.0), (1e-9, 0.0), (1e-9, 0.0)]
+    run = Run(boxes(1), SettleOptions(max_polish_steps=len(steps)), lambda *_: None)
+    anchored, residuals = [], iter([1.0, 1e-9, 1.0, 1.0, 1e-9, 1e-9])
+    values = {field.name: np.zeros(1, dtype=bool) for field in fields(NewtonResult)}
+    measures = iter(steps)
+
+    def read():
+        move, slip = next(measures)
+        return np.array([move]), np.array([next(residuals)]), np.array([slip]), np.array([False])
+
+    monkeypatch.setattr(run, "step", lambda *_, **__: NewtonResult(**values))
+    monkeypatch.setattr(run, "anchor_friction", lambda worlds: anchored.append(bool(worlds[0])))
+    monkeypatch.setattr(run._measures, "all", read)
+    rested, residual = run.relax(1e-5, 1e-6, 1e-8, slow=1e-4, fast=1e-3)
+    # Balanced after the second step, whose friction counted from its own start; at rest after the first that did not.
+    assert anchored == [True, True, False, True, False]
+    assert rested[0]
+    assert residual[0] == 1e-9
+
+
+def test_a_drop_ends_after_three_still_frames_in_a_row(monkeypatch):
+    run = Run(boxes(1), SettleOptions(), lambda *_: None)
+    moves = iter([1e-2, 1e-5, 1e-5, 1e-2, 1e-5, 1e-5, 1e-5, 1e-5])
+    monkeypatch.setattr(run, "step", lambda *_, **__: None)
+    monkeypatch.setattr(run._measures, "motion", lambda: np.array([next(moves)]))
+    run.drop()
+    assert run.frames == 7
