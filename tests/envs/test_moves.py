@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from pat3d.envs.grasping.grasp import STEADY, find_grasps, torque
-from pat3d.envs.robots.kinematics import ArmKinematics
+from pat3d.envs.robots.arms import arm_kinematics
 from pat3d.errors import TaskError
 from pat3d.geometry.hulls import convex_part
 from pat3d.scene.model import Relation, Scene, SceneObject
@@ -117,7 +117,7 @@ def test_the_posture_of_the_arm_is_the_one_its_controller_settles_in(env):
     from pat3d.envs.grasping.scripted import Servo
 
     env.reset(seed=0)
-    state, arm = env.simulation.state, ArmKinematics(env.robot)
+    state, arm = env.simulation.state, arm_kinematics(env.robot)
     c, s = math.cos(env.placement.yaw), math.sin(env.placement.yaw)
     base = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     position, rotation = state.hand + base @ [0.12, -0.2, 0.1], state.hand_rotation.copy()
