@@ -141,7 +141,7 @@ class Cutter:
             return self._remark()
         if word in ("there", "there's", "here") and not (word == "here" and follower not in lexicon.COPULAS | {"'s"}):
             return self._there()
-        if word in ("without", "no", "zero") and self._nouns.match([word]) is None:
+        if word in ("without", "no", "zero", "nothing") and self._nouns.match([word]) is None:
             return self._absence()
         if word in ("while", "whereas", "meanwhile", "but"):
             return self._add("clause")
@@ -159,8 +159,15 @@ class Cutter:
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
         )
-        if word == "each" and not of_each and alone and self._last is not None:
-            return self._add("noun", phrase=Phrase(kind="pieces", head="each", words=word, number=token.number))
+        if word in ("each", "both", "all") and not of_each and alone and self._last is not None and not (
+            word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
+        ):  # fmt: skip
+            return self._add("noun", phrase=Phrase(kind="pieces", head=word, words=word, number=token.number))
+        if word in ("do", "does") and (follower == "too" or self._words(3)[1:] == ("as", "well")):
+            self._at += 1
+            return None
+        if word in ("too", "also") or self._words(2) == ("as", "well"):
+            return self._too(1 if word != "as" else 2)
         relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
             return self._add("which")
@@ -455,9 +462,10 @@ class Cutter:
 
     def _absence(self) -> None:
         """Read "without a lid", "no people": set aside with the phrase."""
-        read = self._phrases.read(self._at + 1)
+        read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
         end = read[1] if read else self._at + 1
-        while size := link_at(self._tokens, end):
+        told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
+        while not told and (size := link_at(self._tokens, end)):
             more = self._phrases.read(end + size)
             pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
             if more is None and not pronoun:
@@ -466,6 +474,23 @@ class Cutter:
         if self._last is not None and self._last.kind in ("have", "there"):
             self._made.chunks.pop()
         self._aside(end - self._at)
+
+    def _more_follows(self, at: int) -> bool:
+        """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""
+        while not self._tokens[at].mark or self._tokens[at].text == ",":
+            if self._tokens[at].text in (",", "but"):
+                return True
+            at += 1
+        return False
+
+    def _too(self, size: int) -> None:
+        """Read "(a mug is on the tray) and a bowl (is) too": it stands as what was named before."""
+        before = [piece.kind for piece in self._made.chunks if piece.kind != "verb"]
+        joined = before[-1:] == ["noun"] and before[-2:-1] in (["joint"], ["clause"])
+        if joined and self._tokens[self._at + size].mark:
+            self._add("place", size, text="too")
+        else:
+            self._at += size
 
     def _owned_part(self) -> None:
         """Read "the dog's head": the part places nothing, its owner has been read."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
@@ -17,7 +18,7 @@ from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.references import LATERAL_SIDES, References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, Sided, Step, World
-from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 
 class Interpreter:
@@ -138,10 +139,7 @@ class Interpreter:
             if self._clause.manner == "stack" and len(children) > 1:
                 self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
             if children and parents:
-                several = any(head in self._said.each for head in parent_heads) or any(
-                    each is not None and each.each for each in (self._chunks[head].phrase for head in parent_heads)
-                )
-                if several:
+                if self._said.speaks_of_each(parent_heads):
                     children = multiply(self._world, children, len(parents))
                 if self._clause.verb == "hang" and link.kind == "on":
                     link = Link(kind="hangs_from")
@@ -199,26 +197,29 @@ class Interpreter:
             if not (parents and not children and self._of_everything(child_heads, link, parents)):
                 self._said.not_understood((*child_heads, *parent_heads))
             return
-        first = self._chunks[child_heads[0]].phrase
         phrase = places[0]
-        if first is not None and first.one_of:
-            children = self._said.one_of(children, first)
-        if phrase is not None and phrase.superlative.adjectives:
-            parents = self._said.one_of(parents, phrase)
+        self._check_own(link, child_heads, children, parents)
         group = children[0].group
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
         if loose and link.kind in SUPPORT_KINDS:
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
-        several = any(head in self._said.each for head in (*child_heads, *parent_heads)) or any(
-            each is not None and each.each for each in places
-        )
-        if any(head in self._said.each for head in child_heads) and phrase is not None and len(parents) < len(children):
+        several = self._said.speaks_of_each((*child_heads, *parent_heads))
+        one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
+        if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
         elif several and len(children) < len(parents) and not set(children) & set(parents):
             children = multiply(self._world, children, len(parents))
-        self._relating.relate(children, link, parents, one_of=phrase is not None and phrase.one_of)
+        self._relating.relate(children, link, parents)
+
+    def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
+        """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""
+        named = any(self._chunks[head].phrase.kind == "object" for head in heads)  # type: ignore[union-attr]
+        if named and link.kind in SUPPORT_KINDS and set(parents) < set(children):
+            raise PromptError(
+                f'"{children[0].group.words}" would rest on one of themselves. Say which of them is below.'
+            )
 
     def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
         """Read "Everything is on a table": all that is not yet carried."""
@@ -249,7 +250,7 @@ class Interpreter:
     def _have(self, link: Link, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         world = self._world
         owners = self._said.refs_of(owner_heads)
-        each = any(head in self._said.each for head in owner_heads)
+        each = self._said.speaks_of_each(owner_heads)
         ordered = [(head, self._chunks[head].phrase) for head in child_heads]
         things = [head for head, phrase in ordered if phrase and phrase.kind not in ("part", "pieces", "background")]
         for head, phrase in ordered:
@@ -317,6 +318,9 @@ class Interpreter:
                 self._relating.relate(children, chunk.link, parents)
             return
         side = chunk.text
+        if side == "too":
+            self._alike(children)
+            return
         if side == "both":
             parents = owners or [item for item in implied if item not in children]
             if parents:
@@ -337,6 +341,16 @@ class Interpreter:
             self._relating.relate(children, link, landmark)
             return
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _alike(self, children: list[Item]) -> None:
+        """Put `children` where the thing named before them is."""
+        world = self._world
+        placed = [item for item in world.items() if item in world.supports and item not in children]
+        if placed:
+            edge = world.supports[placed[-1]]
+            world.place(children, edge.kind, [edge.parent])
+        else:
+            world.note(f'"{children[0].group.words}" too: like what is not said.')
 
     def _on(self, parent: Item) -> list[Item]:
         return [item for item in self._world.items() if self._world.support(item) is parent]

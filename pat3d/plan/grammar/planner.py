@@ -23,7 +23,7 @@ from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.plan.telling import tell
-from pat3d.scene.model import Relation
+from pat3d.scene.relations import Relation
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""

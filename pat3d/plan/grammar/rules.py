@@ -13,11 +13,11 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chart import Node, Rule, parse
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexicon import DEMONSTRATIVES
+from pat3d.plan.grammar.lexicon import DEMONSTRATIVES, TELLING
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
-from pat3d.scene.model import SUPPORT_KINDS
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _LEAVES = {
     "noun": "L", "rel": "R", "have": "H", "place": "A", "form": "F", "quality": "Q", "joint": "C", "clause": "X",
@@ -279,6 +279,10 @@ class Grammar:
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._one_of(fact[3], owners):
+                # "A row of cans, with an orange behind the last one"
+                cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
+                placed |= set(fact[2])
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
@@ -324,7 +328,9 @@ class Grammar:
             and not phrase.other
             and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
         )
-        return same or (phrase.head == "each" and len(heads) > 1)
+        told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
+        member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
+        return same or bool(member) or (phrase.head == "each" and len(heads) > 1)
 
     def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
         """What "with a lamp on two books" has: the books."""
@@ -352,6 +358,13 @@ class Grammar:
         plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
         return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
 
+    def _one_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether `heads` is one of `owners` told by its place: "the last one", "the top book"."""
+        phrase = self._phrase(heads[0])
+        told = len(heads) == 1 and phrase.definite and set(phrase.modifiers.adjectives) & TELLING
+        nouns = {self._phrase(owner).noun for owner in owners if self._several(owner)}
+        return bool(told and nouns) and (phrase.kind == "pieces" or phrase.noun in nouns)
+
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
         return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
@@ -374,6 +387,10 @@ class Grammar:
                 return Node("L", first.start, cost, rest.heads, facts, "", first.flags | rest.flags)
             if all(self._phrase(head).kind in _HEADLESS for head in rest.heads):
                 return Node("L", first.start, cost, first.heads, facts, "", first.flags | {"colon"})
+            if (kind := self._kind_named(first.start, rest.start)) is not None:
+                # "Tools on a bench: a hammer and a saw": the two are the tools.
+                heads = tuple(each for head in first.heads for each in (rest.heads if head == kind else (head,)))
+                return Node("L", first.start, cost - 0.3, heads, (*facts, ("bind", kind, rest.heads)), "", first.flags)
             said = ("list", rest.start, first.heads, rest.heads)
             extra = sum(
                 self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head))
@@ -403,6 +420,11 @@ class Grammar:
             cost += 0.4
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+
+    def _kind_named(self, start: int, end: int) -> int | None:
+        """The last phrase from chunk `start` to `end` that names a kind of things, of which a list may follow."""
+        phrases = ((at, self._chunks[at].phrase) for at in range(end - 1, start - 1, -1))
+        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle and not phrase.definite), None)
 
     def _one_more(self, head: int) -> bool:
         """Whether "two green ones" names more objects of a kind and tells nothing of those before."""
