@@ -61,6 +61,8 @@ class Boundaries:
             is_modifier(each) or each in lexicon.PLACES or each in lexicon.TELLING for each in words
         ):
             return False
+        if words and words[-1] in ("one", "ones"):
+            return True
         if word in lexicon.DETERMINERS or (
             (word in lexicon.NUMBERS or word.isdecimal()) and word not in ("set", "single")
         ):

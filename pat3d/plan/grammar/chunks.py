@@ -159,6 +159,13 @@ class Cutter:
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
         )
+        of_them = follower == "of" and self._word(2) in (*lexicon.PRONOUNS, "these", "those")
+        if word in ("each", "both", "all") and of_them:
+            head = "each" if word == "each" else "them"
+            phrase = Phrase(kind="pieces" if word == "each" else "pronoun", head=head, words=head, number=token.number)
+            return self._add("noun", 3, phrase=phrase)
+        if word == "so" and self._opens and follower in lexicon.COPULAS | lexicon.VERBS | {"do", "does"}:
+            return self._so()
         if word in ("each", "both", "all") and not of_each and alone and self._last is not None and not (
             word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
         ):  # fmt: skip
@@ -355,7 +362,8 @@ class Cutter:
                 return True
             if key in LINKS and self._link(key, size):
                 return True
-            whole = key[-1] == "side" or self._tokens[self._at + size].mark or not self._bounds.goes_on(self._at + size)
+            verb = self._word(size) in lexicon.VERBS | lexicon.COPULAS
+            whole = key[-1] == "side" or verb or self._tokens[self._at + size].mark or not self._bounds.goes_on(self._at + size)
             if key in SIDES and whole and self._word(size) != "of":
                 self._add("place", size, text=SIDES[key])
                 return True
@@ -465,7 +473,8 @@ class Cutter:
         read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
         end = read[1] if read else self._at + 1
         told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
-        while not told and (size := link_at(self._tokens, end)):
+        pronoun = False
+        while not told and not pronoun and (size := link_at(self._tokens, end)):
             more = self._phrases.read(end + size)
             pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
             if more is None and not pronoun:
@@ -491,6 +500,14 @@ class Cutter:
             self._add("place", size, text="too")
         else:
             self._at += size
+
+    def _so(self) -> None:
+        """Read "(a laptop is on a desk) and so is a mug"."""
+        read = self._phrases.read(self._at + 2)
+        self._at += 2
+        if read is not None:
+            self._add("noun", read[1] - self._at, phrase=read[0])
+            self._made.chunks.append(Chunk(kind="place", text="too"))
 
     def _owned_part(self) -> None:
         """Read "the dog's head": the part places nothing, its owner has been read."""

@@ -16,7 +16,29 @@ _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_alike(_with_nouns(_from_below(_described(chunks)), nouns)))
+    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(chunks))), nouns)))
+
+
+def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "the first holds a ball, the second a book" as "..., the second holds a book"."""
+    made: list[Chunk] = []
+    for at, piece in enumerate(chunks):
+        phrase, follower = piece.phrase, chunks[at + 1].phrase if at + 1 < len(chunks) else None
+        if piece.link is not None and phrase is None and follower is not None and follower.head == "which":
+            # "a bed on which a pillow lies": a clause of its own.
+            made += [Chunk(kind="joint", text=",")] if made and made[-1].kind == "noun" else []
+        made.append(piece)
+        gap = phrase is not None and follower is not None and phrase.kind == "pieces" and follower.kind == "object"
+        if not gap or not follower.determined:  # type: ignore[union-attr]
+            continue
+        for before in range(at - 2, -1, -1):
+            link, told = chunks[before + 1], chunks[before].phrase
+            if told is not None and told.kind == "pieces" and link.kind in ("have", "rel"):
+                made.append(link)
+                break
+    return made
+
+
 
 
 def _alike(chunks: list[Chunk]) -> list[Chunk]:

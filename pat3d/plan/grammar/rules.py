@@ -233,7 +233,7 @@ class Grammar:
             heads = named.heads if told else modifier.heads
             return Node("L", named.start, cost, heads, (*facts, listed), named.joints, flags | {"included"})
         if link.inverse:
-            made, extra = self._having(at, link, named.heads, modifier)
+            made, extra = self._having(at, link, named, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
         extra = self._arcs(link, named.heads, modifier.heads)
         if link.kind in SUPPORT_KINDS and link.manner == "place":
@@ -255,8 +255,9 @@ class Grammar:
         told = (fact for fact in facts if fact[0] == "rel" and head in fact[2] and len(fact[2]) == 1)
         return 0.25 if any(self._link(fact[1]).kind in SUPPORT_KINDS for fact in told) else 0.0
 
-    def _having(self, at: int, link: Link, owners: tuple[int, ...], modifier: Node) -> tuple[list[tuple], float]:
-        """Facts of `owners` with what `modifier` names: in or on them, or where it says ("a pen inside")."""
+    def _having(self, at: int, link: Link, named: Node, modifier: Node) -> tuple[list[tuple], float]:
+        """Facts of `named` with what `modifier` names: in or on it, or where it says ("a pen inside")."""
+        owners = named.heads
         facts: list[tuple] = []
         placed: set[int] = set()
         cost = 0.0
@@ -275,7 +276,8 @@ class Grammar:
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
                 continue
             apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
-            if apart and self._link(fact[1]).kind not in SUPPORT_KINDS and self._likely.floor(self._noun(fact[3][0])):
+            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._said_of(named, fact[3][0]))
+            if known and self._link(fact[1]).kind not in SUPPORT_KINDS:
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
