@@ -330,7 +330,7 @@ class References:
         before += [self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
-            together = [item for each in reversed(before) for item in each]
+            together = [item for each in reversed(before) for item in each if item not in other]
             candidates.append((0.15, list(dict.fromkeys(together))))
         near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]

@@ -187,6 +187,9 @@ class Grammar:
             cost += 0.1
         if "colon" in named.flags:
             cost += 0.3
+        if "mute" in named.flags and "finite" in modifier.flags:
+            # "Three crates: the first holds a ball": said of the first.
+            cost += 0.5
         inner = kind == "place" or (kind == "link" and self._is_pronoun(modifier.heads) and not self._link(at).inverse)
         if "told" in named.flags and "finite" not in modifier.flags:
             cost += 0.4
@@ -276,7 +279,7 @@ class Grammar:
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
                 continue
             apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
-            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._said_of(named, fact[3][0]))
+            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._named_again(fact[3][0], named))
             if known and self._link(fact[1]).kind not in SUPPORT_KINDS:
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
@@ -313,6 +316,12 @@ class Grammar:
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _named_again(self, head: int, named: Node) -> bool:
+        """Whether `head` speaks of `named`, or of what it stands by: "a knife on a board, with a fork by the board"."""
+        phrase = self._phrase(head)
+        same = phrase.noun and phrase.definite and any(self._phrase(each).noun == phrase.noun for each in named.heads)
+        return bool(same) or self._said_of(named, head)
 
     def _said_of(self, named: Node, parent: int) -> bool:
         """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
@@ -388,7 +397,9 @@ class Grammar:
                 facts = (*facts, *(("bind", head, rest.heads) for head in first.heads))
                 return Node("L", first.start, cost, rest.heads, facts, "", first.flags | rest.flags)
             if all(self._phrase(head).kind in _HEADLESS for head in rest.heads):
-                return Node("L", first.start, cost, first.heads, facts, "", first.flags | {"colon"})
+                mute = any(self._says_nothing(head, rest.facts) for head in rest.heads)
+                flags = first.flags | {"colon"} | ({"mute"} if mute else set())
+                return Node("L", first.start, cost, first.heads, facts, "", flags)
             if (kind := self._kind_named(first.start, rest.start)) is not None:
                 # "Tools on a bench: a hammer and a saw": the two are the tools.
                 heads = tuple(each for head in first.heads for each in (rest.heads if head == kind else (head,)))
@@ -408,8 +419,9 @@ class Grammar:
         ]
         if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
-            flags = first.flags | (rest.flags & {"finite"}) | {"told"}
-            cost += 0.8 * sum(self._says_nothing(head, rest.facts) for head in rest.heads)
+            mute = sum(self._says_nothing(head, rest.facts) for head in rest.heads)
+            flags = first.flags | (rest.flags & {"finite"}) | {"told"} | ({"mute"} if mute else set())
+            cost += 0.8 * mute
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         if any(headless) and not all(headless):
             cost += 0.4
@@ -476,7 +488,8 @@ class Grammar:
         if named.cat == "CL" and not named.joints.startswith(":"):
             facts = (*facts, ("comma front", modifier.start))
         if len(named.heads) > 1:
-            cost -= 0.1
+            bare = link is None and self._chunks[modifier.mod[1]].link is not None  # type: ignore[index]
+            cost -= 0.4 if bare else 0.1
         return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
 
     def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
