@@ -57,8 +57,10 @@ class Boundaries:
         words = [token.text for token in run]
         if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
             return True
-        if word in ("one", "ones") and words and all(
-            is_modifier(each) or each in lexicon.PLACES or each in lexicon.TELLING for each in words
+        if (
+            word in ("one", "ones")
+            and words
+            and all(is_modifier(each) or each in lexicon.PLACES or each in lexicon.TELLING for each in words)
         ):
             return False
         if words and words[-1] in ("one", "ones"):

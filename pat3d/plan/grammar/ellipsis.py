@@ -39,8 +39,6 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
     return made
 
 
-
-
 def _alike(chunks: list[Chunk]) -> list[Chunk]:
     """`chunks` with "a white plate and bowl" as "a white plate and a white bowl"."""
     for at, (first, joint, second) in enumerate(zip(chunks, chunks[1:], chunks[2:], strict=False)):

@@ -9,7 +9,8 @@ from dataclasses import replace
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
-from pat3d.plan.grammar.chunks import Chunk, Cutter
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.cutter import Cutter
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of

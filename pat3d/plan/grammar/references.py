@@ -7,17 +7,15 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, position, same_head, same_noun
 from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Edge, Group, Item, World
 from pat3d.scene.relations import LateralKind
 
-_SAME = {"leftmost": "left", "rightmost": "right"}
 _OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
-_PLACES = {**lexicon.POSITIONS, **lexicon.LEVELS}
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
@@ -71,9 +69,9 @@ class References:
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
-            group.items[0].place = _position(phrase)
+            group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
-            if _position(phrase) in ("left", "right") and len(group.items) == 1:
+            if position(phrase) in ("left", "right") and len(group.items) == 1:
                 self._line_up(group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
@@ -104,16 +102,16 @@ class References:
         if not phrase.definite and not any(group.noun == phrase.noun for group in again):
             return None
         besides = self._besides(at)
-        for same in (_same_noun, _same_head):
+        for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                if group in besides and (same is _same_head or phrase.modifiers.colours != own):
+                if group in besides and (same is same_head or phrase.modifiers.colours != own):
                     continue
-                if same is _same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
+                if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
-        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not _position(phrase):
+        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             storage = [
                 item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
             ]
@@ -137,11 +135,11 @@ class References:
 
     def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
         """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
-        items, where = group.items, _position(phrase)
+        items, where = group.items, position(phrase)
         wanted = phrase.modifiers.colours
         if wanted:
-            own = [item for item in items if _colours(item) and wanted[0] in _colours(item)]
-            blank = [item for item in items if not _colours(item)]
+            own = [item for item in items if colours_of(item) and wanted[0] in colours_of(item)]
+            blank = [item for item in items if not colours_of(item)]
             items = own or (blank if len(items) == len(blank) else [])
         if phrase.count is not None and phrase.count > len(items):
             return []
@@ -162,7 +160,7 @@ class References:
         return items[: phrase.count or 1] if wanted else list(items)
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
-        index = len(items) // 2 if where in ("middle", "center", "centre") else _PLACES[where]
+        index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
         if not -len(items) <= index < len(items):
             self._world.note(f'"{phrase.words}": there are only {len(items)}.')
             return items[-1:]
@@ -191,7 +189,7 @@ class References:
         if phrase.said == "stack":
             towers = [group for group in world.groups if group.height > 1]
             return list(towers[-1].items) if towers and phrase.definite else []
-        words, where = phrase.modifiers, _position(phrase)
+        words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
@@ -250,7 +248,7 @@ class References:
                     return [item]
             groups = [group for group in groups if len(group.items) > 1]
         for group in groups:
-            own = [item for item in group.items if words.colours and words.colours[0] in _colours(item)]
+            own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
                 return own[:count] if phrase.count is not None or not phrase.plural else own
         whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
@@ -263,8 +261,8 @@ class References:
         ):
             tell_colours(self._world, whole, words)
             return list(whole.items)
-        free = [item for item in whole.items if not _colours(item) and not item.told.size_word]
-        known = {colour for item in whole.items for colour in _colours(item)}
+        free = [item for item in whole.items if not colours_of(item) and not item.told.size_word]
+        known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
             more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
@@ -313,7 +311,9 @@ class References:
 
     def _meant(self, head: int) -> tuple[int, ...]:
         """What the grammar says that `head` means, itself where it says nothing."""
-        return tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        return (
+            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        )
 
     def speaks_of_each(self, heads: Sequence[int]) -> bool:
         """Whether one of `heads` speaks of every one of a group."""
@@ -381,7 +381,7 @@ class References:
         told = phrase.superlative
         where = next(iter(told.adjectives), "")
         if where:
-            return self._at(items, _SAME.get(where, where), replace(phrase, modifiers=told))
+            return self._at(items, SAME.get(where, where), replace(phrase, modifiers=told))
         if told.size_word:
             tell(items[0], told)
         return items[:1] if told.size_word or phrase.one_of else list(items)
@@ -392,27 +392,3 @@ class References:
             phrase = self._chunks[head].phrase
             if phrase is not None and not self.ref(head) and phrase.kind in ("items", "pieces", "part", "pronoun"):
                 self._world.note(f'not understood: "{phrase.words}"')
-
-
-def _colours(item: Item) -> tuple[str, ...]:
-    return item.colours if item.colours is not None else item.group.modifiers.colours
-
-
-def _position(phrase: Phrase) -> str:
-    """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
-    found = next((word for word in phrase.modifiers.adjectives if word in _PLACES), "")
-    return _SAME.get(found, found) if phrase.definite else ""
-
-
-def _same_noun(group: Group, phrase: Phrase) -> bool:
-    if phrase.kind == "unknown":
-        return group.proxy and group.said == phrase.head
-    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
-
-
-def _same_head(group: Group, phrase: Phrase) -> bool:
-    """Whether "the ..." may call `group` by its last word: "bowl" for a fruit bowl, "loaf" for a loaf of bread."""
-    wanted = {phrase.said or phrase.head, *singulars(phrase.said or phrase.head)}
-    names = (group.said, group.noun) if not group.proxy else (group.said,)
-    heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
-    return not group.cycle and bool(wanted & heads)
