@@ -16,7 +16,7 @@ from pat3d.envs.suites.pools import (
     item_of,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.scene.model import GROUND, Relation, SupportKind
+from pat3d.scene.relations import GROUND, Relation, SupportKind
 
 STACKED_WIDTH = 0.09
 """Of the widest thing put on top of another [m]."""

@@ -9,8 +9,12 @@ Handbook for Mechanical Engineers, 11th ed., table 3.2.1), rounded down where so
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from pat3d.errors import AssetError
-from pat3d.scene.asset import Material
+
+if TYPE_CHECKING:
+    from pat3d.scene.asset import Material
 
 _TABLE: dict[str, tuple[float, float]] = {
     "wood": (650.0, 0.45),
@@ -85,6 +89,9 @@ def material(name: str) -> Material:
     """
     if name not in _TABLE:
         raise AssetError(f'unknown material "{name}". Known: {", ".join(sorted(_TABLE))}.')
+    # A sentence is read without numpy, which assets are made of.
+    from pat3d.scene.asset import Material
+
     density, friction = _TABLE[name]
     return Material(name=name, density=density, friction=friction)
 

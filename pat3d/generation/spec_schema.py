@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
 from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 KINDS = sorted(SUPPORT_KINDS | LATERAL_KINDS)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pat3d.plan.scene_plan import ScenePlan
-from pat3d.scene.model import GROUND
+from pat3d.scene.relations import GROUND
 
 
 def describe(plan: ScenePlan) -> str:

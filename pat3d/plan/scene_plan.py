@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal, Protocol, get_args
 
 from pat3d.errors import PromptError
-from pat3d.scene.model import Relation, check_tree, parent_of
+from pat3d.scene.relations import Relation, check_tree, parent_of
 
 Axis = Literal["height", "width", "depth", "length", "thickness"]
 

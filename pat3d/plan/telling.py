@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.scene.model import GROUND, Relation
+from pat3d.scene.relations import GROUND, Relation
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
@@ -18,6 +18,13 @@ _PLURAL_ONLY = frozenset({
     "goggles", "shears", "grapes", "dice", "fries", "chopsticks", "shelves", "crackers", "raisins", "noodles",
     "flowers",
 })  # fmt: skip
+_MASSES = frozenset({
+    "flour", "bread", "cheese", "butter", "toothpaste", "soap", "ketchup", "mustard", "sugar", "rice", "tofu", "salmon",
+    "broccoli", "lettuce", "celery", "garlic", "chocolate", "popcorn", "ham", "meat", "pasta", "cereal", "milk", "wine",
+    "tomato soup", "salt", "honey", "jam", "yogurt", "salad", "cauliflower", "spinach", "bacon", "tuna", "sushi",
+    "jewelry", "sandpaper", "tape", "cream cheese", "ginger",
+})  # fmt: skip
+"""What is told of as "some flour" where there is one of it."""
 _WORDS = {
     "on": "on", "in": "in", "hangs_from": "hanging from", "left_of": "to the left of", "right_of": "to the right of",
     "in_front_of": "in front of", "behind": "behind", "next_to": "next to", "around": "around",
@@ -231,6 +238,8 @@ def _some(base: str, count: int) -> str:
         return f"{_count(count)} {plural(base)}"
     if _is_plural(base):
         return base
+    if base.split()[-1] in _MASSES and " of " not in base:
+        return f"some {base}"
     return f"{'an' if re.match(r'[aeio]|u(?!ni|s|k|t)', base) else 'a'} {base}"
 
 

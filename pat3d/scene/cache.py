@@ -8,12 +8,14 @@ import os
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from pat3d.scene.replacement import replaced_file
+
+if TYPE_CHECKING:
+    # Who only asks where the cache is (reading a sentence) waits for no numpy.
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def cache_root(cache_dir: str | os.PathLike[str] | None = None) -> Path:
@@ -27,6 +29,8 @@ def cache_root(cache_dir: str | os.PathLike[str] | None = None) -> Path:
 
 def content_key(arrays: Mapping[str, NDArray[Any]], options: Mapping[str, Any]) -> str:
     """SHA-256 of `arrays` (types and shapes included) and JSON-serialisable `options`, as hex digits."""
+    import numpy as np
+
     digest = hashlib.sha256(json.dumps(options, sort_keys=True).encode())
     for name, array in sorted(arrays.items()):
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
@@ -36,6 +40,8 @@ def content_key(arrays: Mapping[str, NDArray[Any]], options: Mapping[str, Any]) 
 
 def load_points(path: Path) -> list[NDArray[np.float64]] | None:
     """Point sets [m], each of shape (n, 3), from `path`; None where there is none or it is damaged."""
+    import numpy as np
+
     try:
         with np.load(path, allow_pickle=False) as data:
             points, counts = data["points"], data["counts"]
@@ -52,6 +58,8 @@ def load_points(path: Path) -> list[NDArray[np.float64]] | None:
 
 def load_record(path: Path) -> dict[str, Any]:
     """What was stored beside the points at `path`; empty where there is nothing readable."""
+    import numpy as np
+
     try:
         with np.load(path, allow_pickle=False) as data:
             record = json.loads(str(data["record"]))
@@ -63,6 +71,8 @@ def load_record(path: Path) -> dict[str, Any]:
 
 def store_points(path: Path, parts: list[NDArray[np.float64]], record: Mapping[str, Any] | None = None) -> None:
     """Write point sets, and a JSON-serialisable `record`, to `path` atomically; an unwritable folder is left alone."""
+    import numpy as np
+
     counts = np.array([len(points) for points in parts])
     with suppress(OSError), replaced_file(path) as temporary, temporary.open("wb") as file:
         np.savez(file, points=np.concatenate(parts), counts=counts, record=np.array(json.dumps(record or {})))

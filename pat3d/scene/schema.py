@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from pat3d.scene.checksums import MAX_FILES
-from pat3d.scene.model import LATERAL_KINDS, MAX_ANCHORS, SUPPORT_KINDS
+from pat3d.scene.model import MAX_ANCHORS
 from pat3d.scene.naming import SLUG_PATTERN
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 MAX_OBJECTS = 10_000
 MAX_PARTS = 4_096

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from importlib import metadata
 
 VERSION = "0.1.0"
 """Of this PAT3D."""
@@ -15,6 +14,8 @@ MADE_WITH = ("numpy", "scipy", "warp-lang", "mujoco", "trimesh", "manifold3d", "
 @functools.cache
 def version_of(package: str) -> str | None:
     """Version of an installed package, or None."""
+    from importlib import metadata
+
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

@@ -11,7 +11,7 @@ from pat3d.errors import LayoutError, SpecError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_relations, relation_holds
-from pat3d.scene.model import GROUND, LATERAL_KINDS, SUPPORT_KINDS, Relation
+from pat3d.scene.relations import GROUND, LATERAL_KINDS, SUPPORT_KINDS, Relation
 from tests.layout.things import (
     asset,
     ball,

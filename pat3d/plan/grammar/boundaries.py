@@ -57,8 +57,14 @@ class Boundaries:
         words = [token.text for token in run]
         if word in JOINERS or word in lexicon.PRONOUNS or word in lexicon.POSSESSIVES or word in _ALWAYS_BREAK:
             return True
-        if word in ("one", "ones") and words and all(is_modifier(each) or each in lexicon.PLACES for each in words):
+        if (
+            word in ("one", "ones")
+            and words
+            and all(is_modifier(each) or each in lexicon.PLACES or each in lexicon.TELLING for each in words)
+        ):
             return False
+        if words and words[-1] in ("one", "ones"):
+            return True
         if word in lexicon.DETERMINERS or (
             (word in lexicon.NUMBERS or word.isdecimal()) and word not in ("set", "single")
         ):
@@ -90,7 +96,10 @@ class Boundaries:
 
     def _names_a_stand(self, words: list[str], at: int) -> bool:
         """Whether "stand" at token `at` is a noun ("a TV stand") and no verb ("a lamp and a TV stand on a desk")."""
+        follower = self._tokens[at + 1].text
         if self._tokens[at].text not in lexicon.NOUNS_LIKE_VERBS or singulars(words[-1]):
+            return False
+        if follower in lexicon.DETERMINERS or follower in lexicon.NUMBERS:
             return False
         sentence = [token.text for token in self._tokens[:at]]
         sentence = sentence[len(sentence) - sentence[::-1].index(".") :] if "." in sentence else sentence

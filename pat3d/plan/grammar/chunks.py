@@ -1,47 +1,22 @@
-"""A sentence as a row of chunks: noun phrases, relation words, joints. No word is dropped unsaid."""
+"""A sentence as a row of chunks: noun phrases, relation words, joints; and the place up to which it is cut."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
-from pat3d.errors import PromptError
-from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.boundaries import Boundaries, link_at
-from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.grammar.measures import Measure, is_measure
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
+from pat3d.plan.grammar.boundaries import Boundaries
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import LONGEST_LINK, Link
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.phrases import Phrase, PhraseReader
-from pat3d.plan.grammar.plausible import sense
-from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
 ChunkKind = Literal["noun", "rel", "have", "place", "form", "quality", "joint", "clause", "verb", "there", "which"]
 
 MAX_CHUNKS = 64
 """Chunks of one sentence; the chart grows with their cube."""
-
-_JOINED = (
-    ("along", "with"), ("together", "with"), ("as", "well", "as"), ("accompanied", "by"), ("next", "comes"),
-    ("coupled", "with"), ("in", "addition", "to"), ("and", "also"), ("and", "then"),
-)  # fmt: skip
-_AWAY = frozenset({"apart", "away", "from", "off"})
-"""Words after a length that make it a distance."""
-_FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
-"""Words before "in a cross" that make it a shape and no place."""
-_MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
-_EMPTY = frozenset({
-    "for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "than", "both", "either", "of",
-    "a", "an", "the", "some", "them", "to", "it", "its", "do", "does", "did", "about", "all", "at",
-})  # fmt: skip
-"""Words that mean nothing by themselves."""
-_ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
-_BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
-    "beneath",
-                          "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
-"""Relations that may stand without a landmark: "with two pens inside"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +47,8 @@ class Sentence:
     """Content words that are in no chunk."""
 
 
-class Cutter:
-    """Cuts the tokens of one sentence, which end in a stop, into chunks."""
+class Cursor:
+    """The tokens of one sentence, which end in a stop, the next of them, and the chunks so far."""
 
     def __init__(self, text: str, tokens: Sequence[Token], nouns: Nouns, company: Collection[str] = ()) -> None:
         """Cut `tokens` of `text`; `company` are the words of the whole prompt, which tell senses."""
@@ -89,19 +64,6 @@ class Cutter:
         self._at = 0
         self._ahead = NO_MODIFIERS
         """Measures and postures that wait for the phrase they are said of."""
-
-    def cut(self) -> Sentence:
-        """The sentence in chunks."""
-        while self._at < self._end:
-            before = self._at
-            self._step()
-            self._at += self._at == before
-        if len(self._made.chunks) > MAX_CHUNKS:
-            raise PromptError(
-                f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "
-                "read. Say it in several sentences."
-            )
-        return self._made
 
     @property
     def _last(self) -> Chunk | None:
@@ -125,382 +87,17 @@ class Cutter:
         at = self._at + ahead
         return self._tokens[at].text if 0 <= at < len(self._tokens) else ""
 
-    def _step(self) -> None:
-        token = self._tokens[self._at]
-        word, follower = token.text, self._word(1)
-        if word in (",", ":", "-", "and", "or", "plus"):
-            return self._joint()
-        if token.mark:
-            self._at += 1
-            return None
-        if self._unsaid(word, follower):
-            return None
-        if is_marked(word):
-            return self._mark()
-        if word in lexicon.MOOD_VERBS and self._made.chunks and not (word == "lit" and follower != "by"):
-            return self._remark()
-        if word in ("there", "there's", "here") and not (word == "here" and follower not in lexicon.COPULAS | {"'s"}):
-            return self._there()
-        if word in ("without", "no", "zero") and self._nouns.match([word]) is None:
-            return self._absence()
-        if word in ("while", "whereas", "meanwhile", "but"):
-            return self._add("clause")
-        for key in _JOINED:
-            if self._words(len(key)) == key:
-                return self._add("joint", len(key), text="and")
-        if word in _MODALS and follower == "be":
-            self._at += 1
-            return None
-        if self._relation():
-            return None
-        of_each = follower == "of" and self._last is not None and self._last.kind == "rel"
-        alone = (
-            follower in (*lexicon.COPULAS, "of", "and", "or")
-            or link_at(self._tokens, self._at + 1) > 0
-            or self._tokens[self._at + 1].mark
-        )
-        if word == "each" and not of_each and alone and self._last is not None:
-            return self._add("noun", phrase=Phrase(kind="pieces", head="each", words=word, number=token.number))
-        relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
-        if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
-            return self._add("which")
-        owned = word == "'s" and not link_at(self._tokens, self._at + 1)
-        if owned and follower not in lexicon.DETERMINERS:
-            return self._owned_part()
-        if word in lexicon.COPULAS:
-            self._add("verb")
-            return self._quality()
-        if word in lexicon.VERBS and not (self._opens and follower == "of") and not self._names(word, follower):
-            return self._add("verb")
-        if self._meaningless(word, follower):
-            return self._drop()
-        if word == "both" and follower in ("a", "an", "the") and self._correlative():
-            self._at += 1
-            return None
-        if word == "both" and (follower in ("a", "an") or self._tokens[self._at + 1].mark):
-            return self._pronoun("them")
-        read = self._phrases.read(self._at)
-        if read is None:
-            return self._pronoun(word) if word in lexicon.PRONOUNS else self._drop()
-        phrase, after = read
-        if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
-            return self._aside(after + 1 - self._at)
-        if phrase.kind == "object":
-            phrase = self._sense(phrase)
-        if phrase.kind in ("object", "unknown"):
-            phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
-        self._add("noun", after - self._at, phrase=phrase)
-        while phrase.substance and self._word(0) in ("and", ",") and self._word(1) in lexicon.SUBSTANCES:
-            # "a bowl of cereal and milk"
-            self._made.unread.append(self._word(1))
-            self._at += 2
-
-    def _unsaid(self, word: str, follower: str) -> bool:
-        """Name what no scene has and go on behind it: purposes, directions, the viewer."""
-        number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
-        if word == "at" and follower in ("least", "most") and number:
-            return self._leave(2)
-        if word in _ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
-            self._at += 1
-            return True
-        if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
-            return self._leave(read[1] - self._at)
-        if word == "which" and follower in ("means", "ensures", "makes"):
-            self._remark()
-            return True
-        if word in lexicon.DIRECTIONS:
-            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
-            return self._leave(3 if to else 1)
-        size = link_at(self._tokens, self._at)
-        if (
-            size
-            and self._word(size) in lexicon.VIEWERS
-            and (self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or"))
-        ):
-            return self._leave(size + 1)
-        return False
-
     def _leave(self, size: int) -> bool:
         words = self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end]
         self._made.unread.append(words)
         self._at += size
         return True
 
-    def _correlative(self) -> bool:
-        """Whether "both the soup and the sauce" begins here, and not "both the mugs"."""
-        for ahead in range(2, 8):
-            word = self._word(ahead)
-            if word == "and":
-                return self._word(ahead + 1) in (*lexicon.DETERMINERS, *lexicon.NUMBERS)
-            if self._tokens[self._at + ahead].mark or link_at(self._tokens, self._at + ahead):
-                return False
-        return False
-
-    def _sense(self, phrase: Phrase) -> Phrase:
-        """`phrase` as what its company tells it to be, where its word alone has several meanings."""
-        bare = phrase.said == phrase.head or phrase.said in singulars(phrase.head)
-        meanings = lexicon.SENSES.get(phrase.head) or lexicon.SENSES.get(phrase.said)
-        if not bare or meanings is None:
-            return phrase
-        senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]
-        noun = sense(phrase.noun, self._company, senses)
-        said = phrase.head if noun == "sunglasses" else noun if noun != phrase.noun else phrase.said
-        return replace(
-            phrase, noun=noun, said=said, count=1 if noun == "sunglasses" and phrase.count is None else phrase.count
-        )
-
     def _names(self, word: str, follower: str) -> bool:
         return self._nouns.match([word, follower]) is not None
-
-    def _pronoun(self, head: str) -> None:
-        number = self._tokens[self._at].number
-        self._add("noun", phrase=Phrase(kind="pronoun", head=head, words=self._word(0), number=number))
-
-    def _joint(self) -> None:
-        word = self._word(0)
-        if word == "or":
-            self._made.unread.append("or")
-        text = {"-": ":", "or": "and", "plus": "and"}.get(word, word)
-        last = self._last
-        if last is not None and last.kind == "joint":
-            self._made.chunks[-1] = replace(last, text="and" if "and" in (text, last.text) else last.text)
-            if text == "and" and last.text == ",":
-                self._made.chunks[-1] = replace(last, text=", and")
-            self._at += 1
-        elif last is None:
-            self._at += 1
-        else:
-            self._add("joint", text=text)
-
-    def _there(self) -> None:
-        skip = 1
-        while self._word(skip) in lexicon.COPULAS | lexicon.VERBS | {"also", "stand", "sit"}:
-            skip += 1
-        self._add("there", skip)
-
-    def _finite_at(self, at: int) -> bool:
-        keys = (tuple(token.text for token in self._tokens[at : at + size]) for size in range(1, LONGEST_LINK + 1))
-        return any(key in LINKS and LINKS[key].finite for key in keys)
-
-    def _mark(self) -> None:
-        """Read a measure or a posture outside a noun phrase: "a vase 20 cm tall", "is upside down"."""
-        word, after = self._word(0), self._at + 1
-        said = read_modifiers([word])
-        away = self._tokens[after].text in _AWAY or link_at(self._tokens, after) > 0
-        if away and is_measure(word) and said.measures[0].axis is None:
-            # A distance is no size.
-            said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
-        elif self._last is not None and self._last.kind == "verb":
-            return self._add("quality", modifiers=said)
-        self._at += 2 if self._tokens[after].text == "apart" else 1
-        chunks = self._made.chunks
-        for index in range(len(chunks) - 1, -1, -1):
-            piece = chunks[index]
-            if piece.kind == "clause":
-                break
-            nearest = index == len(chunks) - 1
-            told = nearest and piece.phrase is not None and piece.phrase.kind == "pieces"
-            if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or told):
-                whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
-                chunks[index] = replace(piece, phrase=whole)
-                return None
-        self._ahead = self._ahead.marked_as(said)
-        return None
-
-    def _drop(self) -> None:
-        """Leave out the next word, and say so where it has a meaning."""
-        word = self._word(0)
-        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word not in empty:
-            self._made.unread.append(word)
-        self._at += 1
-
-    def _meaningless(self, word: str, follower: str) -> bool:
-        """Whether the word may be dropped: a posture before its preposition, an adverb, a command."""
-        if follower == "of" or self._nouns.match([word]) or self._names(word, follower):
-            return False
-        if self._opens and word in lexicon.COMMANDS:
-            return True
-        after_phrase = self._last is not None and self._last.kind not in ("joint", "rel", "have")
-        moving = bool(
-            link_at(self._tokens, self._at + 1)
-            or self._tokens[self._at + 1].mark
-            or follower in lexicon.ADVERBS
-            or follower in ("out", "off", "away")
-            or follower.endswith("ly")
-        )
-        if word in lexicon.PARTICIPLES or (word in lexicon.COMMANDS and after_phrase and moving):
-            return moving or after_phrase
-        if word in lexicon.ADVERBS or (word.endswith("ly") and moving):
-            return True
-        participle = word.endswith(("ing", "ed")) and word not in lexicon.NOT_VERBS and not is_modifier(word)
-        return after_phrase and participle and moving
-
-    def _relation(self) -> bool:
-        """Read the longest relation, side or form that begins here, if one does."""
-        if self._shape() or self._several():
-            return True
-        for size in range(LONGEST_LINK, 0, -1):
-            key = self._words(size)
-            if len(key) < size:
-                continue
-            if key in EACH_OTHER and self._forms(key, size):
-                return True
-            if key in LINKS and self._link(key, size):
-                return True
-            whole = key[-1] == "side" or self._tokens[self._at + size].mark or not self._bounds.goes_on(self._at + size)
-            if key in SIDES and whole and self._word(size) != "of":
-                self._add("place", size, text=SIDES[key])
-                return True
-        return False
-
-    def _forms(self, key: tuple[str, ...], size: int) -> bool:
-        fronted = EACH_OTHER[key] in ("order", "reverse")
-        last = self._last
-        after = last is not None and last.kind in ("noun", "joint", "rel", "verb", "form", "place")
-        noun_follows = size == 1 and last is not None and last.kind in ("joint", "rel", "have") and not (
-            link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
-        )  # fmt: skip
-        if fronted or (after and not noun_follows):
-            self._add("form", size, text=EACH_OTHER[key])
-            return True
-        return False
-
-    def _link(self, key: tuple[str, ...], size: int) -> bool:
-        link = LINKS[key]
-        if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
-            apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
-            if link.kind != "next_to" and not apart:
-                self._made.unread.append(" ".join(self._words(size + 2)))
-            self._add("form", size + 2, text=apart or "beside", link=link)
-            return True
-        if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
-            return False
-        # Verbs that are also nouns ("bears", "houses") open no clause.
-        plain = ("has", "have", "contains", "holds")
-        if link.finite and len(key) == 1 and self._opens and key[0] not in plain:
-            return False
-        if self._names(key[-1], self._word(size)) and size == 1 and link.finite:
-            return False
-        inverse = link.inverse
-        follows = self._tokens[self._at + size]
-        after_noun = self._last is not None and self._last.kind == "noun"
-        bare = " ".join(key) in _BARE_PLACES and (
-            follows.mark
-            or follows.text in ("and", "while", "which", "that", "there", "but", "or")
-            or follows.text in lexicon.COPULAS | lexicon.VERBS
-            or (link_at(self._tokens, self._at + size) > 0 and after_noun)
-        )
-        if bare:
-            self._add("place", size, text=" ".join(key), link=link)
-        else:
-            self._add("have" if inverse else "rel", size, link=link)
-        return True
-
-    def _shape(self) -> bool:
-        """Read "in a circle".
-
-        Raises:
-            PromptError: objects stand in a shape that no plan expresses.
-        """
-        words = self._words(3)
-        shape = shape_said(words[-1])
-        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
-            return False
-        previous = self._word(-1)
-        if shape in PLACES and previous not in _FORMED:
-            return False
-        after = self._at + 3
-        if self._bounds.goes_on(after) and not self._tokens[after].mark:
-            return False
-        if words[-1] not in RINGS:
-            raise refuse(words[-1], self._tokens[after - 1].number)
-        around = self._tokens[after].text in ("around", "surrounding")
-        surrounded = any(piece.link is not None and piece.link.manner == "surround" for piece in self._made.chunks)
-        if around or surrounded:
-            self._at = after
-        else:
-            self._add("form", 3, text="circle")
-        return True
-
-    def _several(self) -> bool:
-        """Read "in two rows", "in three stacks of four"."""
-        preposition, number, what = (*self._words(3), "", "")[:3]
-        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
-        kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
-        kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
-        if preposition not in ("in", "into") or count < 1 or kind is None:
-            return False
-        tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
-        of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())
-        each = (lexicon.NUMBERS.get(tail[1]) or int(tail[1][:3])) if of_each else 0
-        self._add("form", 5 if of_each else 3, text=kind, size=count, each=each)
-        return True
-
-    def _remark(self) -> None:
-        """Set aside the rest of the sentence, which tells of light or mood."""
-        size = 0
-        while self._at + size < self._end:
-            token, after = self._tokens[self._at + size], self._tokens[self._at + size + 1]
-            if shape_said(token.text) and self._word(size - 1) in ("a", "an") and after.mark:
-                raise refuse(token.text, token.number)
-            size += 1
-        self._aside(size)
 
     def _aside(self, size: int) -> None:
         self._made.aside.append(self._text[self._tokens[self._at].start : self._tokens[self._at + size - 1].end])
         self._at += size
         while self._made.chunks and self._made.chunks[-1].kind == "joint" and self._at >= self._end:
             self._made.chunks.pop()
-
-    def _absence(self) -> None:
-        """Read "without a lid", "no people": set aside with the phrase."""
-        read = self._phrases.read(self._at + 1)
-        end = read[1] if read else self._at + 1
-        while size := link_at(self._tokens, end):
-            more = self._phrases.read(end + size)
-            pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
-            if more is None and not pronoun:
-                break
-            end = more[1] if more is not None else end + size + 1
-        if self._last is not None and self._last.kind in ("have", "there"):
-            self._made.chunks.pop()
-        self._aside(end - self._at)
-
-    def _owned_part(self) -> None:
-        """Read "the dog's head": the part places nothing, its owner has been read."""
-        read = self._phrases.read(self._at + 1)
-        self._at += 1
-        if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
-            if read[0].said in ("side", "corner", "edge", "end"):
-                self._made.unread.append(read[0].words)
-            self._at = read[1]
-
-    def _quality(self) -> None:
-        """Read "(is) plain white": modifiers without a noun."""
-        start = self._at
-        while self._word(0) in lexicon.ADVERBS:
-            self._at += 1
-        word = self._word(0)
-        leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.PARTICIPLES
-        if word in leads or link_at(self._tokens, self._at):
-            self._at = start
-            return
-        if word in lexicon.VERBS or self._tokens[self._at].mark or is_marked(word):
-            return
-        words: list[str] = []
-        size = 0
-        while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
-            if token.text in ("and", "or"):
-                if not is_modifier(self._word(size + 1)):
-                    break
-            elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
-                break
-            else:
-                words.append(token.text)
-            size += 1
-        if {"as", "than", "like"} & set(words):
-            last = max(at for at, word in enumerate(words) if word in ("as", "than", "like"))
-            self._add("rel", last + 1, link=Link(manner="than", said=" ".join(words[: last + 1])))
-        elif words and (is_modifier(words[-1]) or not self._nouns.longest(words)):
-            self._add("quality", size, modifiers=read_modifiers(words))

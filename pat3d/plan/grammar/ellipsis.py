@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexicon import SIZES
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, is_modifier
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -16,7 +16,40 @@ _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_with_nouns(_from_below(_described(chunks)), nouns))
+    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(chunks))), nouns)))
+
+
+def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "the first holds a ball, the second a book" as "..., the second holds a book"."""
+    made: list[Chunk] = []
+    for at, piece in enumerate(chunks):
+        phrase, follower = piece.phrase, chunks[at + 1].phrase if at + 1 < len(chunks) else None
+        if piece.link is not None and phrase is None and follower is not None and follower.head == "which":
+            # "a bed on which a pillow lies": a clause of its own.
+            made += [Chunk(kind="joint", text=",")] if made and made[-1].kind == "noun" else []
+        made.append(piece)
+        gap = phrase is not None and follower is not None and phrase.kind == "pieces" and follower.kind == "object"
+        if not gap or not follower.determined:  # type: ignore[union-attr]
+            continue
+        for before in range(at - 2, -1, -1):
+            link, told = chunks[before + 1], chunks[before].phrase
+            if told is not None and told.kind == "pieces" and link.kind in ("have", "rel"):
+                made.append(link)
+                break
+    return made
+
+
+def _alike(chunks: list[Chunk]) -> list[Chunk]:
+    """`chunks` with "a white plate and bowl" as "a white plate and a white bowl"."""
+    for at, (first, joint, second) in enumerate(zip(chunks, chunks[1:], chunks[2:], strict=False)):
+        one, other = first.phrase, second.phrase
+        pair = one is not None and other is not None and one.kind == other.kind == "object" and joint.text == "and"
+        if pair and one.determined and one.count is None and not (other.determined or other.plural or one.plural):  # type: ignore[union-attr]
+            colours = one.modifiers.colours  # type: ignore[union-attr]
+            if other.modifiers == NO_MODIFIERS:  # type: ignore[union-attr]
+                alike = replace(other, modifiers=replace(NO_MODIFIERS, colours=colours))  # type: ignore[type-var]
+                chunks[at + 2] = replace(second, phrase=alike)
+    return chunks
 
 
 def _from_below(chunks: list[Chunk]) -> list[Chunk]:
@@ -62,7 +95,8 @@ def _described(chunks: Sequence[Chunk]) -> list[Chunk]:
     for piece in chunks:
         phrase, before = piece.phrase, made[-1].phrase if made else None
         if phrase is not None and before is not None and _bare(before) and _colour_alone(phrase):
-            whole = replace(before, modifiers=phrase.modifiers, words=f"{before.words} {phrase.words}")
+            told = replace(phrase.modifiers, adjectives=(*before.modifiers.adjectives, *phrase.modifiers.adjectives))
+            whole = replace(before, modifiers=told, words=f"{before.words} {phrase.words}")
             made[-1] = replace(made[-1], phrase=whole, text=whole.words)
         else:
             made.append(piece)
@@ -70,8 +104,9 @@ def _described(chunks: Sequence[Chunk]) -> list[Chunk]:
 
 
 def _bare(phrase: Phrase) -> bool:
-    headless = phrase.kind == "pieces" and not phrase.said
-    return headless and phrase.count is not None and phrase.modifiers == NO_MODIFIERS
+    headless, words = phrase.kind == "pieces" and not phrase.said, phrase.modifiers
+    told = phrase.definite and bool(words.adjectives) and words == Modifiers(adjectives=words.adjectives)
+    return headless and (told or (phrase.count is not None and words == NO_MODIFIERS))
 
 
 def _colour_alone(phrase: Phrase) -> bool:

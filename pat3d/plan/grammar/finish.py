@@ -12,7 +12,7 @@ from pat3d.plan.grammar.postures import is_natural, kind_of
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
-from pat3d.scene.model import GROUND, LateralKind, Relation
+from pat3d.scene.relations import GROUND, LateralKind, Relation
 
 _ORDER = {
     "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
@@ -35,6 +35,8 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         like = [other for other in world.items() if other.group.noun == item.group.noun]
         if item.place and len(like) == 1:
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
+        if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
+            world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
     gone = {item for group in world.groups if group.replaced for item in group.items}
     world.groups = [group for group in world.groups if not group.replaced]
     world.supports = {c: e for c, e in world.supports.items() if c not in gone and e.parent not in gone}
@@ -133,13 +135,14 @@ def _side_alone(world: World, told: Sided) -> None:
 
 def _share_supports(world: World) -> None:
     """What stands beside something on a table stands on that table, unless it belongs on the floor."""
-    pairs = [(edge.child, edge.parent) for edge in world.laterals]
-    for _ in range(len(pairs)):
+    edges = list(world.laterals)
+    for _ in range(len(edges)):
         known = len(world.supports)
-        for pair in pairs:
-            for one, other in (pair, pair[::-1]):
+        for edge in edges:
+            for one, other in ((edge.child, edge.parent), (edge.parent, edge.child)):
                 lowest = [other, *world.ancestors(other)][-1]
-                surface = _surface_below(world, one)
+                # "A teapot with two cups on a tray": what is only said to be with it is on the tray too.
+                surface = _surface_below(world, one, dishes=edge.weak)
                 taken = (one, surface, *world.ancestors(one))
                 if surface is None or world.on_floor(lowest) or lowest in taken:
                     continue
@@ -149,15 +152,16 @@ def _share_supports(world: World) -> None:
             break
 
 
-def _surface_below(world: World, item: Item) -> Item | None:
-    """The table, shelf or seat that `item` stands on, directly or in a vessel; None where there is none."""
+def _surface_below(world: World, item: Item, *, dishes: bool) -> Item | None:
+    """The table, shelf, seat or tray that `item` stands on, directly or in a vessel; None where there is none."""
     for carrier in (item, *world.ancestors(item)):
         edge = world.supports.get(carrier)
         if edge is None:
             continue
         if edge.kind == "hangs_from":
             return None
-        wide = world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(edge.parent, lexicon.DISHES)
+        wide = world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS)
+        wide = wide and (dishes or not world.is_a(edge.parent, lexicon.DISHES))
         if edge.kind == "on" and wide and edge.parent.group.height == 1:
             return edge.parent
     return None

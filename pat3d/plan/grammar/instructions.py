@@ -16,7 +16,7 @@ from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Item, Manner, Step, World
-from pat3d.scene.model import SUPPORT_KINDS
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",

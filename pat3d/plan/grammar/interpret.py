@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
@@ -13,23 +14,18 @@ from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.plausible import LARGE
-from pat3d.plan.grammar.references import LATERAL_SIDES, References
-from pat3d.plan.grammar.relating import Relating
-from pat3d.plan.grammar.world import Group, Item, Sided, Step, World
-from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.plan.grammar.world import Item, Step, World
+from pat3d.scene.relations import SUPPORT_KINDS
 
 
-class Interpreter:
+class Interpreter(Placing):
     """Adds one reading of a sentence to a world."""
 
     def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, clause: Clause) -> None:
-        self._world = world
-        self._chunks = chunks
+        super().__init__(world, chunks, maker)
         self._clause = clause
-        self._maker = maker
-        self._relating = Relating(world)
-        self._said = References(world, chunks, maker, self._relating)
         self._sides: dict[int, str] = {}
         """On which side of what they flank things are, by chunk."""
         self._handled: set[int] = set()
@@ -138,10 +134,7 @@ class Interpreter:
             if self._clause.manner == "stack" and len(children) > 1:
                 self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
             if children and parents:
-                several = any(head in self._said.each for head in parent_heads) or any(
-                    each is not None and each.each for each in (self._chunks[head].phrase for head in parent_heads)
-                )
-                if several:
+                if self._said.speaks_of_each(parent_heads):
                     children = multiply(self._world, children, len(parents))
                 if self._clause.verb == "hang" and link.kind == "on":
                     link = Link(kind="hangs_from")
@@ -199,26 +192,29 @@ class Interpreter:
             if not (parents and not children and self._of_everything(child_heads, link, parents)):
                 self._said.not_understood((*child_heads, *parent_heads))
             return
-        first = self._chunks[child_heads[0]].phrase
         phrase = places[0]
-        if first is not None and first.one_of:
-            children = self._said.one_of(children, first)
-        if phrase is not None and phrase.superlative.adjectives:
-            parents = self._said.one_of(parents, phrase)
+        self._check_own(link, child_heads, children, parents)
         group = children[0].group
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
         if loose and link.kind in SUPPORT_KINDS:
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
-        several = any(head in self._said.each for head in (*child_heads, *parent_heads)) or any(
-            each is not None and each.each for each in places
-        )
-        if any(head in self._said.each for head in child_heads) and phrase is not None and len(parents) < len(children):
+        several = self._said.speaks_of_each((*child_heads, *parent_heads))
+        one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
+        if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
         elif several and len(children) < len(parents) and not set(children) & set(parents):
             children = multiply(self._world, children, len(parents))
-        self._relating.relate(children, link, parents, one_of=phrase is not None and phrase.one_of)
+        self._relating.relate(children, link, parents)
+
+    def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
+        """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""
+        named = any(self._chunks[head].phrase.kind == "object" for head in heads)  # type: ignore[union-attr]
+        if named and link.kind in SUPPORT_KINDS and set(parents) < set(children):
+            raise PromptError(
+                f'"{children[0].group.words}" would rest on one of themselves. Say which of them is below.'
+            )
 
     def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
         """Read "Everything is on a table": all that is not yet carried."""
@@ -249,7 +245,7 @@ class Interpreter:
     def _have(self, link: Link, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         world = self._world
         owners = self._said.refs_of(owner_heads)
-        each = any(head in self._said.each for head in owner_heads)
+        each = self._said.speaks_of_each(owner_heads)
         ordered = [(head, self._chunks[head].phrase) for head in child_heads]
         things = [head for head, phrase in ordered if phrase and phrase.kind not in ("part", "pieces", "background")]
         for head, phrase in ordered:
@@ -289,120 +285,3 @@ class Interpreter:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)
-
-    def _placed(self, at: int, heads: Sequence[int], owner_heads: Sequence[int]) -> None:
-        """Read "a plate with a fork on the left", "a mug, and a bowl nearby"."""
-        world = self._world
-        chunk = self._chunks[at]
-        children = self._said.refs_of(heads)
-        owners = self._said.refs_of(owner_heads)
-        if not children:
-            return
-        begun = self._begun(at, heads)
-        implied = begun or self._previous(at)
-        if chunk.link is not None:
-            depth = chunk.link.kind in ("in_front_of", "behind") and not set(self._relating.landmark[0]) & set(children)
-            parents = owners or (self._relating.landmark[0] if depth else []) or implied
-            lateral = chunk.link.kind in LATERAL_KINDS
-            if owners and lateral and world.is_table(owners[0]) and not world.on_floor(children[0]):
-                others = [item for item in self._on(owners[0]) if item not in children]
-                world.place(children, "on", owners, weak=True)
-                parents = others[:1] or owners
-            if not parents and chunk.link.kind in ("in_front_of", "behind"):
-                side = "front" if chunk.link.kind == "in_front_of" else "back"
-                world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
-            elif not parents:
-                world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
-            else:
-                self._relating.relate(children, chunk.link, parents)
-            return
-        side = chunk.text
-        if side == "both":
-            parents = owners or [item for item in implied if item not in children]
-            if parents:
-                self._relating.both_sides(children, parents[:1])
-            return
-        if owners:
-            world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
-            level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
-            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
-                world.place(children, world.containment(owners[0]), owners, weak=True)
-            return
-        landmark, surface = (
-            self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
-        )
-        if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
-            half = surface or side == "centre"
-            link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
-            self._relating.relate(children, link, landmark)
-            return
-        world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
-
-    def _on(self, parent: Item) -> list[Item]:
-        return [item for item in self._world.items() if self._world.support(item) is parent]
-
-    def _begun(self, at: int, heads: Sequence[int]) -> list[Item]:
-        """What the clause begins with, besides what the place is said of."""
-        start = max((start for start in self._said.clauses if start <= at), default=0)
-        first = next((head for head in self._said.clauses[start] if head not in heads), None)
-        if first is None or first > min(heads, default=at):
-            return []
-        return self._said.ref(first)
-
-    def _previous(self, at: int) -> list[Item]:
-        starts = [start for start in sorted(self._said.clauses) if start <= at]
-        for start in reversed(starts[:-1]):
-            if items := self._said.ref(self._said.clauses[start][0]):
-                return items
-        return self._world.subject
-
-    def _formed(self, at: int, heads: Sequence[int]) -> None:
-        chunk = self._chunks[at]
-        world = self._world
-        groups = list(dict.fromkeys(item.group for item in self._said.refs_of(heads)))
-        if not groups:
-            world.note(f'"{chunk.text}": of what is not said.')
-            return
-        whole = groups[0] if len(groups) == 1 and len(groups[0].items) > 1 else None
-        items = [item for group in groups for item in group.items]
-        if chunk.text in ("rows", "stacks"):
-            plural = next((group for group in groups if len(group.items) > 1), None)
-            if plural is None:
-                world.note(f'"{chunk.size} {chunk.text}": of what is not said.')
-                return
-            before = set(plural.items)
-            recount(world, plural, chunk.size * chunk.each)
-            for head, items in self._said.known.items():
-                if set(items) == before:
-                    self._said.known[head] = list(plural.items)
-            if chunk.text == "rows":
-                plural.rows = chunk.size
-            else:
-                plural.height = -(-len(plural.items) // chunk.size)
-        elif chunk.text in ("stack", "tower"):
-            self._stacked(groups, tall=whole is not None or chunk.text == "tower")
-        elif chunk.link is not None and chunk.text != "beside":
-            kind = chunk.link.says or "far_from"
-            world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
-        elif chunk.text == "circle":
-            world.arrange("circle", items, (), f'"{groups[0].words}" in a circle')
-        elif whole is not None:
-            whole.rows = 1
-            world.arrange("row", items)
-        else:
-            ordered = items[::-1] if chunk.text == "reverse" else items
-            world.arrange("row", ordered)
-            for left, right in zip(ordered, ordered[1:], strict=False):
-                if chunk.text == "beside":
-                    world.beside([right], "next_to", [left])
-                else:
-                    world.beside([left], "left_of", [right])
-
-    def _stacked(self, groups: list[Group], *, tall: bool) -> None:
-        """Put each of `groups` on the one before, or where they are several objects each on one another."""
-        for group in groups:
-            if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
-                group.height = len(group.items)
-        if tall or any(len(each.items) == 1 for each in groups):
-            for lower, upper in zip(groups, groups[1:], strict=False):
-                self._world.place(upper.items, "on", lower.items)

@@ -281,7 +281,7 @@ NOT_ON_DISH = (
     "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher", "tray",
 )  # fmt: skip
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
-        "cutting board", "table", "towel", "pillow", "cushion", "yoga mat", "mouse pad",
+        "cutting board", "table", "towel", "napkin", "pillow", "cushion", "yoga mat", "mouse pad",
         "trivet", "chessboard")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
@@ -490,3 +490,12 @@ POSITIONS: dict[str, int] = {
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,
 }  # fmt: skip
 """Words for one of several by its place, and its index."""
+LEVELS: dict[str, int] = {
+    "bottom": 0, "lower": 0, "lowest": 0, "lowermost": 0, "bottommost": 0, "top": -1, "upper": -1, "uppermost": -1,
+    "topmost": -1, "highest": -1,
+}  # fmt: skip
+"""Words for one of a stack by its height, and its index."""
+BENEATH_CUPS = ("saucer", "coaster")
+"""What a cup "with" it stands on."""
+TELLING = frozenset({*POSITIONS, *LEVELS, *SUPERLATIVES})
+"""Words before "one" that tell it from its like."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from pat3d.plan.scene_plan import ArrangementKind
-from pat3d.scene.model import RelationKind
+from pat3d.scene.relations import RelationKind
 
 Manner = Literal[
     "place", "with", "hold", "flank", "surround", "between", "sides", "gaze", "include", "under", "of", "half", "edge",

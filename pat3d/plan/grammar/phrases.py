@@ -17,6 +17,7 @@ from pat3d.plan.grammar.vocabulary import Nouns
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
 _ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""
+_THESE = frozenset({"these", "those"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +87,7 @@ class PhraseReader:
                 return None
             rest = tokens[after - 1].text == "other"
             phrase = Phrase(kind="pieces" if count is not None or rest else "pronoun", head=tokens[after - 1].text)
-            if tokens[after].text == "of" and tokens[after + 1].text in (*lexicon.PRONOUNS, "these", "those"):
+            if tokens[after].text == "of" and tokens[after + 1].text in lexicon.PRONOUNS | _THESE:
                 after += 2
             if (
                 count is not None
@@ -106,21 +107,8 @@ class PhraseReader:
         else:
             if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
-            if run[-1].text in _ORDINALS and len(run) == 1 and flags.get("definite"):
-                told = Modifiers(adjectives=(run[0].text,))
-                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
-                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
-                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
-                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
-                              determined=True, definite=True, modifiers=told), after  # fmt: skip
-            if run[-1].text in lexicon.SUPERLATIVES and len(run) == 1 and flags.get("definite"):
-                size, scale = lexicon.SUPERLATIVES[run[0].text]
-                told = Modifiers(size_word=size, scale=scale)
-                if tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
-                    words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
-                    return replace(inner[0], words=words, one_of=True, superlative=told), inner[1]
-                return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=f"the {run[0].text}",
-                              determined=True, definite=True, modifiers=told), after  # fmt: skip
+            if flags.get("definite") and (told := _telling(run)) is not None:
+                return self._told(start, after, run[0], told, depth)
             if run[-1].text == "one" and flags.get("determined"):
                 count = count or 1
             phrase = self._simple(run, count)
@@ -131,6 +119,18 @@ class PhraseReader:
         return replace(
             phrase, words=words, count=count if count is not None else phrase.count, number=number, **merged
         ), after
+
+    def _told(self, start: int, after: int, word: Token, told: Modifiers, depth: int) -> tuple[Phrase, int]:
+        """The phrase of "the second", "the top one", "the smallest of three boxes", "the last of them"."""
+        tokens = self._tokens
+        if tokens[after].text == "of" and tokens[after + 1].text in lexicon.PRONOUNS | _THESE:
+            after += 2
+        elif tokens[after].text == "of" and depth < 3 and (inner := self.read(after + 1, depth + 1)):
+            words = self._text[tokens[start].start : tokens[inner[1] - 1].end]
+            return replace(inner[0], words=words, definite=False, superlative=told), inner[1]
+        words = self._text[tokens[start].start : tokens[after - 1].end]
+        return Phrase(kind="pieces", head=word.text, number=word.number, words=words, determined=True, definite=True,
+                      modifiers=told), after  # fmt: skip
 
     def _opening(self, at: int) -> tuple[int, int | None, dict[str, bool]]:
         """Determiners and numbers from token `at`: the token after them, the count and the flags of Phrase."""
@@ -328,3 +328,18 @@ class PhraseReader:
 
     def _known(self, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in names if self._nouns.resolve(name))
+
+
+def _telling(run: Sequence[Token]) -> Modifiers | None:
+    """What "first", "top one" or "smallest" tells one of several by; None where the run says anything else."""
+    word = run[0].text
+    one = len(run) == 2 and run[1].text in ("one", "ones")
+    if len(run) > 1 and not one:
+        return None
+    if word in lexicon.SUPERLATIVES:
+        size, scale = lexicon.SUPERLATIVES[word]
+        return Modifiers(size_word=size, scale=scale)
+    places = lexicon.POSITIONS.keys() if one else _ORDINALS
+    return Modifiers(adjectives=(word,)) if word in places or word in lexicon.LEVELS.keys() - {"top", "bottom"} or (
+        one and word in lexicon.LEVELS
+    ) else None  # fmt: skip

@@ -9,7 +9,8 @@ from dataclasses import replace
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
-from pat3d.plan.grammar.chunks import Chunk, Cutter
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.cutter import Cutter
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
@@ -23,7 +24,7 @@ from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.plan.telling import tell
-from pat3d.scene.model import Relation
+from pat3d.scene.relations import Relation
 
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""

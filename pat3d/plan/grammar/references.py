@@ -7,15 +7,14 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, position, same_head, same_noun
 from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Edge, Group, Item, World
-from pat3d.scene.model import LateralKind
+from pat3d.scene.relations import LateralKind
 
-_SAME = {"leftmost": "left", "rightmost": "right"}
 _OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
@@ -53,11 +52,16 @@ class References:
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
         """Make, or find, what chunk `at` speaks of."""
         world = self._world
+        if phrase.each:
+            self.each.add(at)
         if phrase.kind in ("object", "unknown"):
+            if at in self.bound:
+                # "Tools: a hammer and a saw": the two are the tools.
+                return
             if (found := self._refer(at, phrase)) is not None:
                 self.known[at] = found
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
-                    self._maker.note_adjectives(world, phrase)
+                    self._note_adjectives(phrase)
                 return
             generic = self.known.get(kind) if kind is not None else None
             owner = generic[0].group if generic and generic[0].group.cycle else None
@@ -65,15 +69,16 @@ class References:
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
-            group.items[0].place = _position(phrase)
-            self.known[at] = list(group.items)
-            if _position(phrase) in ("left", "right") and len(group.items) == 1:
+            group.items[0].place = position(phrase)
+            self.known[at] = self._the_one(group.items, phrase)
+            if position(phrase) in ("left", "right") and len(group.items) == 1:
                 self._line_up(group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
-            self._maker.note_adjectives(world, phrase)
+            self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            self.cost += 0.0 if self.known[at] or at in self.bound else 0.5
         elif phrase.kind == "items":
             self.known[at] = []
         elif phrase.kind == "background":
@@ -96,18 +101,17 @@ class References:
         ]
         if not phrase.definite and not any(group.noun == phrase.noun for group in again):
             return None
-        partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}
-        besides = {item.group for head in partners if head < at for item in self.known.get(head, ())}
-        for same in (_same_noun, _same_head):
+        besides = self._besides(at)
+        for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                if group in besides and (same is _same_head or phrase.modifiers.colours != own):
+                if group in besides and (same is same_head or phrase.modifiers.colours != own):
                     continue
-                if same is _same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
+                if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
-        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not _position(phrase):
+        if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             storage = [
                 item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
             ]
@@ -117,13 +121,25 @@ class References:
             return storage[-1:] or None
         return None
 
+    def _note_adjectives(self, phrase: Phrase) -> None:
+        """Name what describes `phrase` and makes no difference to it; "top" tells which one."""
+        words = phrase.modifiers
+        kept = tuple(word for word in words.adjectives if word not in lexicon.LEVELS)
+        self._maker.note_adjectives(self._world, phrase, replace(words, adjectives=kept))
+
+    def _besides(self, at: int) -> set[Group]:
+        """Groups that other phrases name, to which chunk `at` is related."""
+        partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}
+        named = [head for head in partners if head < at and self._chunks[head].phrase.kind in ("object", "unknown")]  # type: ignore[union-attr]
+        return {item.group for head in named for item in self.known.get(head, ())}
+
     def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
         """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
-        items, where = group.items, _position(phrase)
+        items, where = group.items, position(phrase)
         wanted = phrase.modifiers.colours
         if wanted:
-            own = [item for item in items if _colours(item) and wanted[0] in _colours(item)]
-            blank = [item for item in items if not _colours(item)]
+            own = [item for item in items if colours_of(item) and wanted[0] in colours_of(item)]
+            blank = [item for item in items if not colours_of(item)]
             items = own or (blank if len(items) == len(blank) else [])
         if phrase.count is not None and phrase.count > len(items):
             return []
@@ -134,7 +150,7 @@ class References:
             if len(items) == 1:
                 return []
             items = [item for item in items if not item.place]
-        if where and len(items) > 1 and not phrase.plural and group.height == 1:
+        if where and len(items) > 1 and not phrase.plural and (group.height > 1 or where not in lexicon.LEVELS):
             return self._at(items, where, phrase)
         size = phrase.modifiers.size_word
         if size and group.modifiers.size_word and size != group.modifiers.size_word:
@@ -144,14 +160,14 @@ class References:
         return items[: phrase.count or 1] if wanted else list(items)
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
-        index = len(items) // 2 if where in ("middle", "center", "centre") else lexicon.POSITIONS[where]
+        index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
         if not -len(items) <= index < len(items):
             self._world.note(f'"{phrase.words}": there are only {len(items)}.')
             return items[-1:]
         item = items[index]
         item.place = where
         tell(item, phrase.modifiers)
-        if not item.group.rows:
+        if not item.group.rows and item.group.height == 1:
             self._line_up(item)
         return [item]
 
@@ -173,10 +189,15 @@ class References:
         if phrase.said == "stack":
             towers = [group for group in world.groups if group.height > 1]
             return list(towers[-1].items) if towers and phrase.definite else []
-        words, where = phrase.modifiers, _position(phrase)
+        words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
+        if where or (not words.colours and (words.size_word or phrase.head == "one")):
+            besides = self._besides(at)
+            groups = [group for group in groups if group not in besides]
         rest = phrase.head in _REST
+        if phrase.head in ("both", "all"):
+            return self._before(at)
         if phrase.head == "each":
             self.each.add(at)
             plural = self._plural_before(at)
@@ -187,6 +208,11 @@ class References:
             world.telling = world.telling[len(told) :]
             return told
         count = phrase.count or 1
+        if where in lexicon.LEVELS:
+            # What is stacked is often said after it is named.
+            several = [group for group in groups if len(group.items) > 1]
+            tower = next((group for group in several if group.height > 1), next(iter(several), None))
+            return self._at(tower.items, where, phrase) if tower is not None else []
         if words.colours or words.palette or words.size_word:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:
@@ -222,7 +248,7 @@ class References:
                     return [item]
             groups = [group for group in groups if len(group.items) > 1]
         for group in groups:
-            own = [item for item in group.items if words.colours and words.colours[0] in _colours(item)]
+            own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
                 return own[:count] if phrase.count is not None or not phrase.plural else own
         whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
@@ -235,8 +261,8 @@ class References:
         ):
             tell_colours(self._world, whole, words)
             return list(whole.items)
-        free = [item for item in whole.items if not _colours(item) and not item.told.size_word]
-        known = {colour for item in whole.items for colour in _colours(item)}
+        free = [item for item in whole.items if not colours_of(item) and not item.told.size_word]
+        known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
             more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
@@ -274,7 +300,7 @@ class References:
     ) -> list[Item]:
         """What `heads` speak of; of a pronoun, what makes `link` to or from (`child`) the `other` heads likely."""
         made: list[Item] = []
-        for head in heads:
+        for head in (inner for each in heads for inner in self._meant(each)):
             phrase = self._chunks[head].phrase
             pronoun = phrase is not None and (phrase.kind == "pronoun" or (phrase.kind == "part" and phrase.possessive))
             if pronoun and head not in self.bound and head not in self.known:
@@ -282,6 +308,16 @@ class References:
                 self.known[head] = self._pronoun(head, link, others, child=child)
             made += [item for item in self.ref(head) if item not in made]
         return [item for item in made if not item.group.replaced]
+
+    def _meant(self, head: int) -> tuple[int, ...]:
+        """What the grammar says that `head` means, itself where it says nothing."""
+        return (
+            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        )
+
+    def speaks_of_each(self, heads: Sequence[int]) -> bool:
+        """Whether one of `heads` speaks of every one of a group."""
+        return any(inner in self.each for head in heads for inner in self._meant(head))
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
@@ -292,6 +328,10 @@ class References:
         starts = [start for start in sorted(self.clauses) if start < at]
         before = [list(self.ref(self.clauses[start][0])) for start in reversed(starts)]
         before += [self._world.subject]
+        if plural and len([each for each in before if each]) > 1:
+            # "A lamp is on the left, a plant on the right, and between them a radio."
+            together = [item for each in reversed(before) for item in each if item not in other]
+            candidates.append((0.15, list(dict.fromkeys(together))))
         near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
         if meant and not plural:
@@ -336,16 +376,15 @@ class References:
         phrase = self._chunks[at].phrase
         return phrase is not None and phrase.kind == "pronoun"
 
-    @staticmethod
-    def one_of(items: list[Item], phrase: Phrase) -> list[Item]:
-        """The one of `items` that "the smallest of", "the second of" means."""
-        where = phrase.superlative.adjectives[:1]
-        at = lexicon.POSITIONS.get(where[0], 0) if where else 0
-        if where and where[0] == "middle":
-            at = len(items) // 2
-        item = items[at] if -len(items) <= at < len(items) else items[-1]
-        tell(item, phrase.superlative)
-        return [item]
+    def _the_one(self, items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that "the smallest of", "the second of" means; all where it tells none."""
+        told = phrase.superlative
+        where = next(iter(told.adjectives), "")
+        if where:
+            return self._at(items, SAME.get(where, where), replace(phrase, modifiers=told))
+        if told.size_word:
+            tell(items[0], told)
+        return items[:1] if told.size_word or phrase.one_of else list(items)
 
     def not_understood(self, heads: Sequence[int]) -> None:
         """Name those of `heads` that speak of nothing."""
@@ -353,27 +392,3 @@ class References:
             phrase = self._chunks[head].phrase
             if phrase is not None and not self.ref(head) and phrase.kind in ("items", "pieces", "part", "pronoun"):
                 self._world.note(f'not understood: "{phrase.words}"')
-
-
-def _colours(item: Item) -> tuple[str, ...]:
-    return item.colours if item.colours is not None else item.group.modifiers.colours
-
-
-def _position(phrase: Phrase) -> str:
-    """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
-    found = next((word for word in phrase.modifiers.adjectives if word in lexicon.POSITIONS), "")
-    return _SAME.get(found, found) if phrase.definite else ""
-
-
-def _same_noun(group: Group, phrase: Phrase) -> bool:
-    if phrase.kind == "unknown":
-        return group.proxy and group.said == phrase.head
-    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
-
-
-def _same_head(group: Group, phrase: Phrase) -> bool:
-    """Whether "the ..." may call `group` by its last word: "bowl" for a fruit bowl, "loaf" for a loaf of bread."""
-    wanted = {phrase.said or phrase.head, *singulars(phrase.said or phrase.head)}
-    names = (group.said, group.noun) if not group.proxy else (group.said,)
-    heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
-    return not group.cycle and bool(wanted & heads)

@@ -10,7 +10,7 @@ from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.objects import forget_count, multiply
 from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Sided, World
-from pat3d.scene.model import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
 
 
 class Relating:
@@ -23,7 +23,7 @@ class Relating:
         self.cost = 0.0
         """Of what can only be arranged in part."""
 
-    def relate(self, children: list[Item], link: Link, parents: list[Item], *, one_of: bool = False) -> None:
+    def relate(self, children: list[Item], link: Link, parents: list[Item]) -> None:
         """Record that `children` stand in relation `link` to `parents`."""
         world = self.world
         said = f'"{children[0].group.words}" {{}} "{parents[0].group.words}"'
@@ -61,7 +61,7 @@ class Relating:
         elif link.manner in ("source", "goal") and link.kind != "next_to":
             self.relate(children, Link(kind=world.containment(parents[0])), parents)
         elif link.kind in SUPPORT_KINDS:
-            self._carried(children, link, parents, said, one_of=one_of)
+            self._carried(children, link, parents, said)
         elif link.kind in LATERAL_KINDS:
             if link.kind not in ("next_to", "around"):
                 self.landmark = (parents, False)
@@ -83,6 +83,8 @@ class Relating:
         weak = link.manner == "with" and link.kind is None
         if link.manner == "surround":
             world.beside(children, "around", owners)
+        elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
+            world.place(owners, "on", children, weak=True)
         elif link.kind == "on":
             world.place(children, "on", owners)
         elif (
@@ -118,7 +120,7 @@ class Relating:
                 other.replaced = True
                 forget_count(world, other)
 
-    def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str, *, one_of: bool) -> None:
+    def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str) -> None:
         world, kind = self.world, link.kind
         parent = parents[0]
         if kind == "in" and not world.is_a(parent, lexicon.HOLLOW):
@@ -133,7 +135,7 @@ class Relating:
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
         tops = world.tops(parents)
-        if len(world.bases(children)) < len(tops) and not one_of and parents[0].group.height == 1:
+        if len(world.bases(children)) < len(tops) and parents[0].group.height == 1:
             exact = parents[0].group.exact or len({item.group for item in parents}) > 1
             if exact and kind == "in":
                 raise PromptError(

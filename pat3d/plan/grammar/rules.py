@@ -13,17 +13,16 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chart import Node, Rule, parse
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexicon import DEMONSTRATIVES
+from pat3d.plan.grammar.goals import Goals
+from pat3d.plan.grammar.judging import HEADLESS
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
-from pat3d.scene.model import SUPPORT_KINDS
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _LEAVES = {
     "noun": "L", "rel": "R", "have": "H", "place": "A", "form": "F", "quality": "Q", "joint": "C", "clause": "X",
     "verb": "V", "there": "E", "which": "W",
 }  # fmt: skip
-_HEADLESS = ("pieces", "part")
 
 
 def _list_cost(joints: str) -> float:
@@ -36,12 +35,11 @@ def _list_cost(joints: str) -> float:
     return cost + (0.15 if joints == ";" else 0.0)
 
 
-class Grammar:
+class Grammar(Goals):
     """The rules over the chunks of one sentence."""
 
     def __init__(self, chunks: Sequence[Chunk], likely: Plausible) -> None:
-        self._chunks = chunks
-        self._likely = likely
+        super().__init__(chunks, likely)
         self._rules: dict[tuple[str, str], list[Rule]] = {
             # Modifiers
             ("R", "L"): [self._relation], ("H", "L"): [self._relation], ("V", "M"): [self._predicate],
@@ -82,53 +80,6 @@ class Grammar:
                  ("IM", "M"): [self._further], ("IM", "CM"): [self._further]}  # fmt: skip
         made = parse(leaves, rules, self._unary, ("IM", "L", "S"))
         return [node for node in made if node.cat == "IM"] or made
-
-    def _goals(self, first: Node, second: Node) -> Node:
-        """Read "the forks in the drawer" + ", the plates on the rack"."""
-        return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
-
-    def _further(self, goal: Node, modifier: Node) -> Node | None:
-        """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
-        if modifier.mod[0] != "link":  # type: ignore[index]
-            return None
-        extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
-        return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
-
-    def _goal(self, named: Node, modifier: Node) -> Node | None:
-        """Read "the mug" + "on the plate", where it is to go."""
-        kind, at = modifier.mod  # type: ignore[misc]
-        if kind == "place" and self._chunks[at].link is not None:
-            facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, ()))
-            return Node("IM", named.start, named.cost + modifier.cost, named.heads, facts, named.joints, named.flags)
-        if kind != "link" or self._link(at).manner == "source":
-            return None
-        link = self._link(at)
-        if link.inverse and (link.manner != "with" or link.kind is not None):
-            return None
-        cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
-        cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
-            "modified" in named.flags and self._is_pronoun(named.heads)
-        )
-        # What is told of with the object itself keeps near to it.
-        cost += 0.15 * ("modified" in named.flags)
-        cost += sum(
-            self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
-        )
-        facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
-        return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
-
-    def _phrase(self, at: int) -> Phrase:
-        phrase = self._chunks[at].phrase
-        assert phrase is not None
-        return phrase
-
-    def _link(self, at: int) -> Link:
-        link = self._chunks[at].link
-        assert link is not None
-        return link
-
-    def _noun(self, at: int) -> str:
-        return self._likely.fits(self._phrase(at))
 
     # Modifiers
 
@@ -187,6 +138,9 @@ class Grammar:
             cost += 0.1
         if "colon" in named.flags:
             cost += 0.3
+        if "mute" in named.flags and "finite" in modifier.flags:
+            # "Three crates: the first holds a ball": said of the first.
+            cost += 0.5
         inner = kind == "place" or (kind == "link" and self._is_pronoun(modifier.heads) and not self._link(at).inverse)
         if "told" in named.flags and "finite" not in modifier.flags:
             cost += 0.4
@@ -229,11 +183,11 @@ class Grammar:
         if link.manner == "include":
             listed = ("include", at, named.heads, modifier.heads)
             cost += 0.0 if len(named.heads) == 1 and self._several(named.heads[0]) else 1.5
-            told = all(self._phrase(head).kind in _HEADLESS for head in modifier.heads)
+            told = all(self._phrase(head).kind in HEADLESS for head in modifier.heads)
             heads = named.heads if told else modifier.heads
             return Node("L", named.start, cost, heads, (*facts, listed), named.joints, flags | {"included"})
         if link.inverse:
-            made, extra = self._having(at, link, named.heads, modifier)
+            made, extra = self._having(at, link, named, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
         extra = self._arcs(link, named.heads, modifier.heads)
         if link.kind in SUPPORT_KINDS and link.manner == "place":
@@ -250,13 +204,9 @@ class Grammar:
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
 
-    def _again(self, head: int, facts: tuple[tuple, ...]) -> float:
-        """The cost of a second support for what has one."""
-        told = (fact for fact in facts if fact[0] == "rel" and head in fact[2] and len(fact[2]) == 1)
-        return 0.25 if any(self._link(fact[1]).kind in SUPPORT_KINDS for fact in told) else 0.0
-
-    def _having(self, at: int, link: Link, owners: tuple[int, ...], modifier: Node) -> tuple[list[tuple], float]:
-        """Facts of `owners` with what `modifier` names: in or on them, or where it says ("a pen inside")."""
+    def _having(self, at: int, link: Link, named: Node, modifier: Node) -> tuple[list[tuple], float]:
+        """Facts of `named` with what `modifier` names: in or on it, or where it says ("a pen inside")."""
+        owners = named.heads
         facts: list[tuple] = []
         placed: set[int] = set()
         cost = 0.0
@@ -275,10 +225,15 @@ class Grammar:
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
                 continue
             apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
-            if apart and self._link(fact[1]).kind not in SUPPORT_KINDS and self._likely.floor(self._noun(fact[3][0])):
+            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._named_again(fact[3][0], named))
+            if known and self._link(fact[1]).kind not in SUPPORT_KINDS:
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._one_of(fact[3], owners):
+                # "A row of cans, with an orange behind the last one"
+                cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
+                placed |= set(fact[2])
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
@@ -291,7 +246,7 @@ class Grammar:
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
         if left:
             facts.append(("have", at, owners, left))
-            parts = [head for head in left if self._phrase(head).kind in _HEADLESS]
+            parts = [head for head in left if self._phrase(head).kind in HEADLESS]
             things = [head for head in left if head not in parts]
             if things and link.manner not in ("include", "of"):
                 cost += sum(
@@ -307,54 +262,6 @@ class Grammar:
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
-
-    def _said_of(self, named: Node, parent: int) -> bool:
-        """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
-        noun = self._phrase(parent).noun
-        return bool(noun) and self._phrase(parent).definite and any(
-            fact[0] == "rel" and set(fact[2]) & set(named.heads) and self._phrase(fact[3][0]).noun == noun
-            for fact in named.facts
-        )  # fmt: skip
-
-    def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
-        """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
-        phrase = self._phrase(head)
-        same = (
-            phrase.definite
-            and not phrase.other
-            and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
-        )
-        return same or (phrase.head == "each" and len(heads) > 1)
-
-    def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
-        """What "with a lamp on two books" has: the books."""
-        for fact in facts:
-            if fact[0] != "rel" or head not in fact[2]:
-                continue
-            link, parent = self._link(fact[1]), fact[3][0]
-            carried = link.kind in SUPPORT_KINDS and link.manner == "place"
-            if carried and self._phrase(parent).kind in ("object", "unknown"):
-                return parent
-        return head
-
-    def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
-        costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
-        return sum(costs) / max(len(costs), 1)
-
-    def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
-        return len(heads) == 1 and (
-            (self._phrase(heads[0]).kind == "pronoun" and self._phrase(heads[0]).head not in DEMONSTRATIVES)
-            or (self._phrase(heads[0]).kind == "part" and self._phrase(heads[0]).possessive)
-        )
-
-    def _means(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
-        """Whether the pronoun `heads` may mean `owners`."""
-        plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
-        return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
-
-    def _several(self, at: int) -> bool:
-        phrase = self._phrase(at)
-        return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
 
     # Lists
 
@@ -372,8 +279,14 @@ class Grammar:
             if any(self._phrase(head).kind == "items" for head in first.heads):
                 facts = (*facts, *(("bind", head, rest.heads) for head in first.heads))
                 return Node("L", first.start, cost, rest.heads, facts, "", first.flags | rest.flags)
-            if all(self._phrase(head).kind in _HEADLESS for head in rest.heads):
-                return Node("L", first.start, cost, first.heads, facts, "", first.flags | {"colon"})
+            if all(self._phrase(head).kind in HEADLESS for head in rest.heads):
+                mute = any(self._says_nothing(head, rest.facts) for head in rest.heads)
+                flags = first.flags | {"colon"} | ({"mute"} if mute else set())
+                return Node("L", first.start, cost, first.heads, facts, "", flags)
+            if (kind := self._kind_named(first.start, rest.start)) is not None:
+                # "Tools on a bench: a hammer and a saw": the two are the tools.
+                heads = tuple(each for head in first.heads for each in (rest.heads if head == kind else (head,)))
+                return Node("L", first.start, cost - 0.3, heads, (*facts, ("bind", kind, rest.heads)), "", first.flags)
             said = ("list", rest.start, first.heads, rest.heads)
             extra = sum(
                 self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head))
@@ -385,12 +298,13 @@ class Grammar:
         cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
         coloured = any(self._phrase(head).modifiers.colours for head in first.heads)
         headless = [
-            self._phrase(head).kind in _HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads
+            self._phrase(head).kind in HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads
         ]
-        if all(headless) and not all(self._phrase(head).kind in _HEADLESS for head in first.heads):
+        if all(headless) and not all(self._phrase(head).kind in HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
-            flags = first.flags | (rest.flags & {"finite"}) | {"told"}
-            cost += 0.8 * sum(self._says_nothing(head, rest.facts) for head in rest.heads)
+            mute = sum(self._says_nothing(head, rest.facts) for head in rest.heads)
+            flags = first.flags | (rest.flags & {"finite"}) | {"told"} | ({"mute"} if mute else set())
+            cost += 0.8 * mute
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         if any(headless) and not all(headless):
             cost += 0.4
@@ -403,19 +317,6 @@ class Grammar:
             cost += 0.4
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
-
-    def _one_more(self, head: int) -> bool:
-        """Whether "two green ones" names more objects of a kind and tells nothing of those before."""
-        phrase = self._phrase(head)
-        return phrase.words.split()[-1:] in (["one"], ["ones"]) and bool(phrase.modifiers.colours)
-
-    def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
-        words = self._phrase(head).modifiers
-        told = words.colours or words.palette or words.size_word or words.material or words.adjectives
-        return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
-
-    def _only_background(self, heads: tuple[int, ...]) -> bool:
-        return all(self._phrase(head).kind == "background" and not self._phrase(head).substance for head in heads)
 
     def _predicated(self, verb: Node, named: Node) -> Node:
         return replace(named, cat="VL", start=verb.start)
@@ -452,7 +353,8 @@ class Grammar:
         if named.cat == "CL" and not named.joints.startswith(":"):
             facts = (*facts, ("comma front", modifier.start))
         if len(named.heads) > 1:
-            cost -= 0.1
+            bare = link is None and self._chunks[modifier.mod[1]].link is not None  # type: ignore[index]
+            cost -= 0.4 if bare else 0.1
         return Node("S", modifier.start, whole.cost + cost, named.heads, facts, "", whole.flags)
 
     def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:

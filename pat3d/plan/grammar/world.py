@@ -13,7 +13,7 @@ from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.scene_plan import ArrangementKind
-from pat3d.scene.model import LateralKind, RelationKind
+from pat3d.scene.relations import LateralKind, RelationKind
 
 MAX_OBJECTS = 60
 """Objects in one scene."""

@@ -1,0 +1,46 @@
+"""Rules for what is moved, and where to: "the mug on the plate" after "put"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.judging import Judging
+
+
+class Goals(Judging):
+    """Rules that only instructions have."""
+
+    def _goals(self, first: Node, second: Node) -> Node:
+        """Read "the forks in the drawer" + ", the plates on the rack"."""
+        return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
+
+    def _further(self, goal: Node, modifier: Node) -> Node | None:
+        """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
+        if modifier.mod[0] != "link":  # type: ignore[index]
+            return None
+        extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
+        return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
+
+    def _goal(self, named: Node, modifier: Node) -> Node | None:
+        """Read "the mug" + "on the plate", where it is to go."""
+        kind, at = modifier.mod  # type: ignore[misc]
+        if kind == "place" and self._chunks[at].link is not None:
+            facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, ()))
+            return Node("IM", named.start, named.cost + modifier.cost, named.heads, facts, named.joints, named.flags)
+        if kind != "link" or self._link(at).manner == "source":
+            return None
+        link = self._link(at)
+        if link.inverse and (link.manner != "with" or link.kind is not None):
+            return None
+        cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
+        cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
+            "modified" in named.flags and self._is_pronoun(named.heads)
+        )
+        # What is told of with the object itself keeps near to it.
+        cost += 0.15 * ("modified" in named.flags)
+        cost += sum(
+            self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
+        )
+        facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
+        return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)

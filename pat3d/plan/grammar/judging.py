@@ -1,0 +1,122 @@
+"""What the rules of the grammar ask of phrases: what they name, whether they speak of one another, what is likely."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexicon import DEMONSTRATIVES, TELLING
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import Plausible
+from pat3d.scene.relations import SUPPORT_KINDS
+
+HEADLESS = ("pieces", "part")
+
+
+class Judging:
+    """Questions about the chunks of one sentence."""
+
+    def __init__(self, chunks: Sequence[Chunk], likely: Plausible) -> None:
+        self._chunks = chunks
+        self._likely = likely
+
+    def _phrase(self, at: int) -> Phrase:
+        phrase = self._chunks[at].phrase
+        assert phrase is not None
+        return phrase
+
+    def _link(self, at: int) -> Link:
+        link = self._chunks[at].link
+        assert link is not None
+        return link
+
+    def _noun(self, at: int) -> str:
+        return self._likely.fits(self._phrase(at))
+
+    def _again(self, head: int, facts: tuple[tuple, ...]) -> float:
+        """The cost of a second support for what has one."""
+        told = (fact for fact in facts if fact[0] == "rel" and head in fact[2] and len(fact[2]) == 1)
+        return 0.25 if any(self._link(fact[1]).kind in SUPPORT_KINDS for fact in told) else 0.0
+
+    def _named_again(self, head: int, named: Node) -> bool:
+        """Whether `head` speaks of `named`, or of what it stands by: "a knife on a board, with a fork by the board"."""
+        phrase = self._phrase(head)
+        same = phrase.noun and phrase.definite and any(self._phrase(each).noun == phrase.noun for each in named.heads)
+        return bool(same) or self._said_of(named, head)
+
+    def _said_of(self, named: Node, parent: int) -> bool:
+        """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
+        noun = self._phrase(parent).noun
+        return bool(noun) and self._phrase(parent).definite and any(
+            fact[0] == "rel" and set(fact[2]) & set(named.heads) and self._phrase(fact[3][0]).noun == noun
+            for fact in named.facts
+        )  # fmt: skip
+
+    def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
+        """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
+        phrase = self._phrase(head)
+        same = (
+            phrase.definite
+            and not phrase.other
+            and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
+        )
+        told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
+        member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
+        return same or bool(member) or (phrase.head == "each" and len(heads) > 1)
+
+    def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
+        """What "with a lamp on two books" has: the books."""
+        for fact in facts:
+            if fact[0] != "rel" or head not in fact[2]:
+                continue
+            link, parent = self._link(fact[1]), fact[3][0]
+            carried = link.kind in SUPPORT_KINDS and link.manner == "place"
+            if carried and self._phrase(parent).kind in ("object", "unknown"):
+                return parent
+        return head
+
+    def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
+        costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
+        return sum(costs) / max(len(costs), 1)
+
+    def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
+        return len(heads) == 1 and (
+            (self._phrase(heads[0]).kind == "pronoun" and self._phrase(heads[0]).head not in DEMONSTRATIVES)
+            or (self._phrase(heads[0]).kind == "part" and self._phrase(heads[0]).possessive)
+        )
+
+    def _means(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether the pronoun `heads` may mean `owners`."""
+        plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
+        return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
+
+    def _one_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether `heads` is one of `owners` told by its place: "the last one", "the top book"."""
+        phrase = self._phrase(heads[0])
+        told = len(heads) == 1 and phrase.definite and set(phrase.modifiers.adjectives) & TELLING
+        nouns = {self._phrase(owner).noun for owner in owners if self._several(owner)}
+        return bool(told and nouns) and (phrase.kind == "pieces" or phrase.noun in nouns)
+
+    def _several(self, at: int) -> bool:
+        phrase = self._phrase(at)
+        return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
+
+    def _kind_named(self, start: int, end: int) -> int | None:
+        """The last phrase from chunk `start` to `end` that names a kind of things, of which a list may follow."""
+        phrases = ((at, self._chunks[at].phrase) for at in range(end - 1, start - 1, -1))
+        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle and not phrase.definite), None)
+
+    def _one_more(self, head: int) -> bool:
+        """Whether "two green ones" names more objects of a kind and tells nothing of those before."""
+        phrase = self._phrase(head)
+        return phrase.words.split()[-1:] in (["one"], ["ones"]) and bool(phrase.modifiers.colours)
+
+    def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
+        words = self._phrase(head).modifiers
+        told = words.colours or words.palette or words.size_word or words.material or words.adjectives
+        return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
+
+    def _only_background(self, heads: tuple[int, ...]) -> bool:
+        return all(self._phrase(head).kind == "background" and not self._phrase(head).substance for head in heads)

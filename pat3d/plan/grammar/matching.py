@@ -1,0 +1,37 @@
+"""By what a phrase tells one object from others: its noun, its colour, its place."""
+
+from __future__ import annotations
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.world import Group, Item
+
+SAME = {"leftmost": "left", "rightmost": "right"}
+PLACES = {**lexicon.POSITIONS, **lexicon.LEVELS}
+
+
+def colours_of(item: Item) -> tuple[str, ...]:
+    """The colours of `item`, its own before those of its group."""
+    return item.colours if item.colours is not None else item.group.modifiers.colours
+
+
+def position(phrase: Phrase) -> str:
+    """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
+    found = next((word for word in phrase.modifiers.adjectives if word in PLACES), "")
+    return SAME.get(found, found) if phrase.definite else ""
+
+
+def same_noun(group: Group, phrase: Phrase) -> bool:
+    """Whether `phrase` names what `group` is."""
+    if phrase.kind == "unknown":
+        return group.proxy and group.said == phrase.head
+    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
+
+
+def same_head(group: Group, phrase: Phrase) -> bool:
+    """Whether "the ..." may call `group` by its last word: "bowl" for a fruit bowl, "loaf" for a loaf of bread."""
+    wanted = {phrase.said or phrase.head, *singulars(phrase.said or phrase.head)}
+    names = (group.said, group.noun) if not group.proxy else (group.said,)
+    heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
+    return not group.cycle and bool(wanted & heads)

@@ -1,0 +1,155 @@
+"""Places without a landmark ("on the left", "inside", "too") and forms ("in a row", "stacked") of one reading."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.objects import Maker, recount
+from pat3d.plan.grammar.references import LATERAL_SIDES, References
+from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.scene.relations import LATERAL_KINDS
+
+
+class Placing:
+    """Places the objects of one sentence by what is implied, or as a whole."""
+
+    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker) -> None:
+        self._world = world
+        self._chunks = chunks
+        self._maker = maker
+        self._relating = Relating(world)
+        self._said = References(world, chunks, maker, self._relating)
+
+    def _placed(self, at: int, heads: Sequence[int], owner_heads: Sequence[int]) -> None:
+        """Read "a plate with a fork on the left", "a mug, and a bowl nearby"."""
+        world = self._world
+        chunk = self._chunks[at]
+        children = self._said.refs_of(heads)
+        owners = self._said.refs_of(owner_heads)
+        if not children:
+            return
+        begun = self._begun(at, heads)
+        implied = begun or self._previous(at)
+        if chunk.link is not None:
+            depth = chunk.link.kind in ("in_front_of", "behind") and not set(self._relating.landmark[0]) & set(children)
+            parents = owners or (self._relating.landmark[0] if depth else []) or implied
+            lateral = chunk.link.kind in LATERAL_KINDS
+            if owners and lateral and world.is_table(owners[0]) and not world.on_floor(children[0]):
+                others = [item for item in self._on(owners[0]) if item not in children]
+                world.place(children, "on", owners, weak=True)
+                parents = others[:1] or owners
+            if not parents and chunk.link.kind in ("in_front_of", "behind"):
+                side = "front" if chunk.link.kind == "in_front_of" else "back"
+                world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
+            elif not parents:
+                world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
+            else:
+                self._relating.relate(children, chunk.link, parents)
+            return
+        side = chunk.text
+        if side == "too":
+            self._alike(children)
+            return
+        if side == "both":
+            parents = owners or [item for item in implied if item not in children]
+            if parents:
+                self._relating.both_sides(children, parents[:1])
+            return
+        if owners:
+            world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
+            level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
+            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
+                world.place(children, world.containment(owners[0]), owners, weak=True)
+            return
+        landmark, surface = (
+            self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
+        )
+        if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
+            half = surface or side == "centre"
+            link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
+            self._relating.relate(children, link, landmark)
+            return
+        world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _alike(self, children: list[Item]) -> None:
+        """Put `children` where the thing named before them is."""
+        world = self._world
+        placed = [item for item in world.items() if item in world.supports and item not in children]
+        if placed:
+            edge = world.supports[placed[-1]]
+            world.place(children, edge.kind, [edge.parent])
+        else:
+            world.note(f'"{children[0].group.words}" too: like what is not said.')
+
+    def _on(self, parent: Item) -> list[Item]:
+        return [item for item in self._world.items() if self._world.support(item) is parent]
+
+    def _begun(self, at: int, heads: Sequence[int]) -> list[Item]:
+        """What the clause begins with, besides what the place is said of."""
+        start = max((start for start in self._said.clauses if start <= at), default=0)
+        first = next((head for head in self._said.clauses[start] if head not in heads), None)
+        if first is None or first > min(heads, default=at):
+            return []
+        return self._said.ref(first)
+
+    def _previous(self, at: int) -> list[Item]:
+        starts = [start for start in sorted(self._said.clauses) if start <= at]
+        for start in reversed(starts[:-1]):
+            if items := self._said.ref(self._said.clauses[start][0]):
+                return items
+        return self._world.subject
+
+    def _formed(self, at: int, heads: Sequence[int]) -> None:
+        chunk = self._chunks[at]
+        world = self._world
+        groups = list(dict.fromkeys(item.group for item in self._said.refs_of(heads)))
+        if not groups:
+            world.note(f'"{chunk.text}": of what is not said.')
+            return
+        whole = groups[0] if len(groups) == 1 and len(groups[0].items) > 1 else None
+        items = [item for group in groups for item in group.items]
+        if chunk.text in ("rows", "stacks"):
+            plural = next((group for group in groups if len(group.items) > 1), None)
+            if plural is None:
+                world.note(f'"{chunk.size} {chunk.text}": of what is not said.')
+                return
+            before = set(plural.items)
+            recount(world, plural, chunk.size * chunk.each)
+            for head, items in self._said.known.items():
+                if set(items) == before:
+                    self._said.known[head] = list(plural.items)
+            if chunk.text == "rows":
+                plural.rows = chunk.size
+            else:
+                plural.height = -(-len(plural.items) // chunk.size)
+        elif chunk.text in ("stack", "tower"):
+            self._stacked(groups, tall=whole is not None or chunk.text == "tower")
+        elif chunk.link is not None and chunk.text != "beside":
+            kind = chunk.link.says or "far_from"
+            world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
+        elif chunk.text == "circle":
+            world.arrange("circle", items, (), f'"{groups[0].words}" in a circle')
+        elif whole is not None:
+            whole.rows = 1
+            world.arrange("row", items)
+        else:
+            ordered = items[::-1] if chunk.text == "reverse" else items
+            world.arrange("row", ordered)
+            for left, right in zip(ordered, ordered[1:], strict=False):
+                if chunk.text == "beside":
+                    world.beside([right], "next_to", [left])
+                else:
+                    world.beside([left], "left_of", [right])
+
+    def _stacked(self, groups: list[Group], *, tall: bool) -> None:
+        """Put each of `groups` on the one before, or where they are several objects each on one another."""
+        for group in groups:
+            if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
+                group.height = len(group.items)
+        if tall or any(len(each.items) == 1 for each in groups):
+            for lower, upper in zip(groups, groups[1:], strict=False):
+                self._world.place(upper.items, "on", lower.items)

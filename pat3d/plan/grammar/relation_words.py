@@ -1,0 +1,128 @@
+"""Chunks for the words between objects: relations, sides, forms such as "in a row"."""
+
+from __future__ import annotations
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.chunks import Cursor
+from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
+from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
+
+_FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
+"""Words before "in a cross" that make it a shape and no place."""
+_BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
+    "beneath",
+                          "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
+"""Relations that may stand without a landmark: "with two pens inside"."""
+
+
+class RelationWords(Cursor):
+    """Reads what relates objects."""
+
+    def _relation(self) -> bool:
+        """Read the longest relation, side or form that begins here, if one does."""
+        if self._shape() or self._several():
+            return True
+        for size in range(LONGEST_LINK, 0, -1):
+            key = self._words(size)
+            if len(key) < size:
+                continue
+            if key in EACH_OTHER and self._forms(key, size):
+                return True
+            if key in LINKS and self._link(key, size):
+                return True
+            verb = self._word(size) in lexicon.VERBS | lexicon.COPULAS
+            whole = (
+                key[-1] == "side"
+                or verb
+                or self._tokens[self._at + size].mark
+                or not self._bounds.goes_on(self._at + size)
+            )
+            if key in SIDES and whole and self._word(size) != "of":
+                self._add("place", size, text=SIDES[key])
+                return True
+        return False
+
+    def _forms(self, key: tuple[str, ...], size: int) -> bool:
+        fronted = EACH_OTHER[key] in ("order", "reverse")
+        last = self._last
+        after = last is not None and last.kind in ("noun", "joint", "rel", "verb", "form", "place")
+        noun_follows = size == 1 and last is not None and last.kind in ("joint", "rel", "have") and not (
+            link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
+        )  # fmt: skip
+        if fronted or (after and not noun_follows):
+            self._add("form", size, text=EACH_OTHER[key])
+            return True
+        return False
+
+    def _link(self, key: tuple[str, ...], size: int) -> bool:
+        link = LINKS[key]
+        if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
+            apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
+            if link.kind != "next_to" and not apart:
+                self._made.unread.append(" ".join(self._words(size + 2)))
+            self._add("form", size + 2, text=apart or "beside", link=link)
+            return True
+        if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
+            return False
+        # Verbs that are also nouns ("bears", "houses") open no clause.
+        plain = ("has", "have", "contains", "holds")
+        if link.finite and len(key) == 1 and self._opens and key[0] not in plain:
+            return False
+        if self._names(key[-1], self._word(size)) and size == 1 and link.finite:
+            return False
+        inverse = link.inverse
+        follows = self._tokens[self._at + size]
+        after_noun = self._last is not None and self._last.kind == "noun"
+        bare = " ".join(key) in _BARE_PLACES and (
+            follows.mark
+            or follows.text in ("and", "while", "which", "that", "there", "but", "or")
+            or follows.text in lexicon.COPULAS | lexicon.VERBS
+            or (link_at(self._tokens, self._at + size) > 0 and after_noun)
+        )
+        if bare:
+            self._add("place", size, text=" ".join(key), link=link)
+        else:
+            self._add("have" if inverse else "rel", size, link=link)
+        return True
+
+    def _shape(self) -> bool:
+        """Read "in a circle".
+
+        Raises:
+            PromptError: objects stand in a shape that no plan expresses.
+        """
+        words = self._words(3)
+        shape = shape_said(words[-1])
+        if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
+            return False
+        previous = self._word(-1)
+        if shape in PLACES and previous not in _FORMED:
+            return False
+        after = self._at + 3
+        if self._bounds.goes_on(after) and not self._tokens[after].mark:
+            return False
+        if words[-1] not in RINGS:
+            raise refuse(words[-1], self._tokens[after - 1].number)
+        around = self._tokens[after].text in ("around", "surrounding")
+        surrounded = any(piece.link is not None and piece.link.manner == "surround" for piece in self._made.chunks)
+        if around or surrounded:
+            self._at = after
+        else:
+            self._add("form", 3, text="circle")
+        return True
+
+    def _several(self) -> bool:
+        """Read "in two rows", "in three stacks of four"."""
+        preposition, number, what = (*self._words(3), "", "")[:3]
+        count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
+        kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
+        kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
+        if preposition not in ("in", "into") or count < 1 or kind is None:
+            return False
+        tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
+        of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())
+        each = (lexicon.NUMBERS.get(tail[1]) or int(tail[1][:3])) if of_each else 0
+        self._add("form", 5 if of_each else 3, text=kind, size=count, each=each)
+        return True
