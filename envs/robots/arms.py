@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
+from importlib.util import find_spec
 from typing import Any
 
 from pat3d.envs.robots.kinematics import ArmKinematics
@@ -21,8 +22,10 @@ KEPT = 16
 
 
 def default_robot() -> str:
-    """The robot of environments that name none: Menagerie's Panda, or what PAT3D_ROBOT says."""
-    return os.environ.get(ROBOT_VARIABLE) or "panda"
+    """The robot of environments that name none: what PAT3D_ROBOT says, else robosuite's Panda, which comes with its
+    package, else Menagerie's, which is downloaded once.
+    """
+    return os.environ.get(ROBOT_VARIABLE) or ("Panda" if find_spec("robosuite") else "panda")
 
 
 @functools.lru_cache(maxsize=KEPT)
