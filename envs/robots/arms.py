@@ -22,9 +22,7 @@ KEPT = 16
 
 
 def default_robot() -> str:
-    """The robot of environments that name none: what PAT3D_ROBOT says, else robosuite's Panda, which comes with its
-    package, else Menagerie's, which is downloaded once.
-    """
+    """What PAT3D_ROBOT says, else robosuite's Panda where it is installed, else Menagerie's, downloaded once."""
     return os.environ.get(ROBOT_VARIABLE) or ("Panda" if find_spec("robosuite") else "panda")
 
 
