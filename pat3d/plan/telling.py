@@ -126,7 +126,9 @@ class _Teller:
 
     def _between(self) -> list[str]:
         found = [each for each in self._plan.arrangements if each.kind == "between" and each.arranged]
-        return [f"{self._all(each.objects)} is between {self._all(each.of)}" for each in found]
+        verbs = ["is" if len(each.objects) == 1 and not _is_plural(self._base[each.objects[0]]) else "are" for each in found]
+        return [f"{self._all(each.objects)} {verb} between {self._all(each.of)}"
+                for verb, each in zip(verbs, found, strict=True)]  # fmt: skip
 
     def _laterals(self) -> list[str]:
         """Lateral relations, those of equal children to one parent in one sentence."""

@@ -107,7 +107,7 @@ BACKGROUND = frozenset({
     "yard", "backyard", "patio", "terrace", "balcony", "pair view",
 })  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
-ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
+ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
 PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
 PLACES = frozenset({"left", "right", "leftmost", "rightmost", "middle", "first", "second", "third", "last"})
 """Words that tell one of several by its place: "the left one"."""
@@ -495,6 +495,8 @@ LEVELS: dict[str, int] = {
     "topmost": -1, "highest": -1,
 }  # fmt: skip
 """Words for one of a stack by its height, and its index."""
+ON_RIMS = ("lid", "pot lid", "cork", "bottle cap")
+"""What closes a vessel: on it, never in it."""
 BENEATH_CUPS = ("saucer", "coaster")
 """What a cup "with" it stands on."""
 TELLING = frozenset({*POSITIONS, *LEVELS, *SUPERLATIVES})

@@ -64,11 +64,16 @@ class References:
                     self._note_adjectives(phrase)
                 return
             generic = self.known.get(kind) if kind is not None else None
-            owner = generic[0].group if generic and generic[0].group.cycle else None
+            owner = next((item.group for item in generic or () if item.group.cycle), None)
             group = self._maker.make(world, phrase, filling=filling, kind=owner)
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
+                assert generic is not None
+                # What is said of the kind is said of its members.
+                generic += group.items
+            if phrase.each and phrase.count is None:
+                world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
             if position(phrase) in ("left", "right") and len(group.items) == 1:
@@ -208,6 +213,9 @@ class References:
             world.telling = world.telling[len(told) :]
             return told
         count = phrase.count or 1
+        if where:
+            # "On the first are three cups, on the second ...": of the same kind as before.
+            groups.sort(key=lambda group: not any(item.place for item in group.items))
         if where in lexicon.LEVELS:
             # What is stacked is often said after it is named.
             several = [group for group in groups if len(group.items) > 1]

@@ -85,8 +85,8 @@ class Relating:
             world.beside(children, "around", owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
-        elif link.kind == "on":
-            world.place(children, "on", owners)
+        elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
+            world.place(children, "on", owners, weak=weak)
         elif (
             weak
             and world.is_a(children[0], lexicon.ON_HEAD)
