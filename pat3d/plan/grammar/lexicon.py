@@ -107,7 +107,9 @@ BACKGROUND = frozenset({
     "yard", "backyard", "patio", "terrace", "balcony", "pair view",
 })  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
-ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
+ITEMS = frozenset({
+    "following", "items", "item", "objects", "object", "things", "everything", "all", "contents", "elements",
+})  # fmt: skip
 PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
 PLACES = frozenset({"left", "right", "leftmost", "rightmost", "middle", "first", "second", "third", "last"})
 """Words that tell one of several by its place: "the left one"."""

@@ -44,6 +44,8 @@ class References:
         """Pronouns of which the grammar says what they mean."""
         self.each: set[int] = set()
         """Phrases that speak of every one of a group."""
+        self.all: set[int] = set()
+        """Phrases that speak of all of a group: "both"."""
         self.clauses: dict[int, tuple[int, ...]] = {}
         """What the clauses are about, by where they begin."""
         self.related: list[tuple[set[int], set[int]]] = []
@@ -202,6 +204,7 @@ class References:
             groups = [group for group in groups if group not in besides]
         rest = phrase.head in _REST
         if phrase.head in ("both", "all"):
+            self.all.add(at)
             return self._before(at)
         if phrase.head == "each":
             self.each.add(at)
@@ -323,9 +326,10 @@ class References:
             tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
         )
 
-    def speaks_of_each(self, heads: Sequence[int]) -> bool:
-        """Whether one of `heads` speaks of every one of a group."""
-        return any(inner in self.each for head in heads for inner in self._meant(head))
+    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
+        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
+        told = self.each | self.all if carrying else self.each
+        return any(inner in told for head in heads for inner in self._meant(head))
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
@@ -334,7 +338,8 @@ class References:
         plural = phrase.head in ("them", "they", "these", "those", "their")
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
-        before = [list(self.ref(self.clauses[start][0])) for start in reversed(starts)]
+        heads = [self.clauses[start] for start in reversed(starts)]
+        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
         before += [self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
@@ -346,7 +351,9 @@ class References:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             candidates.append((-0.1, meant[-1]))
         if self._relating.landmark[0] and not near:
-            candidates.append((0.1, self._relating.landmark[0]))
+            # "A fork is left of a plate and a knife right of it"
+            aside = link is not None and link.kind in LATERAL_SIDES.values()
+            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
@@ -361,7 +368,8 @@ class References:
         for cost, items in candidates:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
-            if plural != (len(items) > 1) and not (plural and len(other) == 0):
+            # A stack is "it".
+            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
                 cost += 0.4
             if link is not None and other:
                 world = self._world

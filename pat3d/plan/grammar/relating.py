@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.objects import forget_count, multiply
+from pat3d.plan.grammar.objects import forget_count, multiply, recount
 from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
@@ -168,8 +168,11 @@ class Relating:
     def both_sides(self, children: list[Item], parents: list[Item]) -> None:
         """`children` stand on both sides of `parents`."""
         world = self.world
+        group = children[0].group
+        if len(children) > 2 and not group.counted:
+            recount(world, group, 2)
+            children = list(group.items)
         if len(children) == 1:
-            group = children[0].group
             children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
         self.flanked(children, parents)
 
