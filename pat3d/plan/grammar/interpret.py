@@ -211,6 +211,7 @@ class Interpreter(Placing):
     def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
         """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""
         named = any(self._chunks[head].phrase.kind == "object" for head in heads)  # type: ignore[union-attr]
+        named = named or self._said.speaks_of_each(heads, carrying=True)
         if named and link.kind in SUPPORT_KINDS and set(parents) < set(children):
             raise PromptError(
                 f'"{children[0].group.words}" would rest on one of themselves. Say which of them is below.'
