@@ -207,13 +207,13 @@ FLOOR = (
     "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
-    "kitchen island", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
+    "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
 )  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = (
     "table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
-    "tv stand", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
+    "tv stand", "workbench", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
     "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard",
 )  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")

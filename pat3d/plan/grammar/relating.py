@@ -30,6 +30,7 @@ class Relating:
         if set(children) == set(parents):
             if link.kind in SUPPORT_KINDS:
                 raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
+            world.note(f"not understood: {said.format(link.said or (link.kind or link.manner).replace('_', ' '))}")
             return
         children = [child for child in children if child not in parents] or children
         if link.manner == "than":
