@@ -8,23 +8,15 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, position, same_head, same_noun
+from pat3d.plan.grammar.matching import LATERAL_SIDES, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.relating import Relating
-from pat3d.plan.grammar.world import Edge, Group, Item, World
-from pat3d.scene.relations import LateralKind
+from pat3d.plan.grammar.world import Group, Item, World
 
-_OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
-LATERAL_SIDES: dict[str, LateralKind] = {
-    "left": "left_of",
-    "right": "right_of",
-    "front": "in_front_of",
-    "back": "behind",
-}
 
 
 class References:
@@ -79,7 +71,7 @@ class References:
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
             if position(phrase) in ("left", "right") and len(group.items) == 1:
-                self._line_up(group.items[0])
+                line_up(self._world, group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
@@ -175,20 +167,8 @@ class References:
         item.place = where
         tell(item, phrase.modifiers)
         if not item.group.rows and item.group.height == 1:
-            self._line_up(item)
+            line_up(self._world, item)
         return [item]
-
-    def _line_up(self, placed: Item) -> None:
-        """Relate the left one and the right one of a kind to each other."""
-        if placed.place not in ("left", "right"):
-            return
-        for other in self._world.items():
-            same = other.group.noun == placed.group.noun and not other.group.cycle
-            known = any({edge.child, edge.parent} == {placed, other} for edge in self._world.laterals)
-            if known:
-                continue
-            if same and other is not placed and other.place in ("", _OPPOSITE[placed.place]):
-                self._world.laterals.append(Edge(child=placed, kind=LATERAL_SIDES[placed.place], parent=other))
 
     def _members(self, at: int, phrase: Phrase) -> list[Item]:
         """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""
