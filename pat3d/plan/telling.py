@@ -126,7 +126,10 @@ class _Teller:
 
     def _between(self) -> list[str]:
         found = [each for each in self._plan.arrangements if each.kind == "between" and each.arranged]
-        return [f"{self._all(each.objects)} is between {self._all(each.of)}" for each in found]
+        return [f"{self._all(each.objects)} {self._is(each.objects)} between {self._all(each.of)}" for each in found]
+
+    def _is(self, names: Sequence[str]) -> str:
+        return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"
 
     def _laterals(self) -> list[str]:
         """Lateral relations, those of equal children to one parent in one sentence."""
@@ -136,8 +139,7 @@ class _Teller:
                 grouped.setdefault((rel.kind, rel.parent), []).append(rel.child)
         made: list[str] = []
         for (kind, parent), children in grouped.items():
-            verb = "is" if len(children) == 1 and not _is_plural(self._base[children[0]]) else "are"
-            made.append(f"{self._all(children)} {verb} {_WORDS[kind]} {self._the(parent)}")
+            made.append(f"{self._all(children)} {self._is(children)} {_WORDS[kind]} {self._the(parent)}")
         return made
 
     def _said(self, rel: Relation) -> bool:

@@ -78,6 +78,11 @@ def test_what_a_person_reads(prompt: str, wanted: set[str]):
         ("a mug next to the desk",
          '"a mug" beside "the desk": it stands on the ground there; say "on" to have it on top.'),
         ("the left mug", '"the left mug": there is only one, so it is not told by its place.'),
+        ("tools on a bench", '"tools": 3 assumed: hammer, screwdriver, wrench; which is not said.'),
+        ("three tools on a bench", '"three tools": hammer, screwdriver, wrench; which is not said.'),
+        ("a book on a ball", '"a book" on "a ball": it hardly stays there.'),
+        ("every mug is on a tray", '"every mug": of how many is not said; 1 assumed.'),
+        ("four cups are in the second of them", 'not understood: "the second of them"'),
     ],
 )  # fmt: skip
 def test_what_is_not_modelled_is_named(prompt: str, note: str):
@@ -93,6 +98,7 @@ def test_what_is_not_modelled_is_named(prompt: str, note: str):
         ("on", "names no object"),
         ("a mug them a table", '^cannot read "them" after "a mug"'),
         ("a ball in two crates", "cannot be in 2 things at once"),
+        ("Three mugs. The mugs are on the first mug.", "would rest on one of themselves"),
     ],
 )
 def test_a_refusal_names_the_words_at_fault(prompt: str, why: str):

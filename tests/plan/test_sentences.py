@@ -1,6 +1,6 @@
 """Plain sentences and what a person reads in them: every object by name, every relation, the task.
 
-The expected readings were written down before the program's; the table is in its names.
+What a person reads was labelled before the program ran; the table has it in the names of the plan.
 """
 
 from pathlib import Path

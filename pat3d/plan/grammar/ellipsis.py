@@ -11,6 +11,7 @@ from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
+_SIDES = {"left": "left", "right": "right", "centre": "middle", "on top": "top"}
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
@@ -27,6 +28,11 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
         if piece.link is not None and phrase is None and follower is not None and follower.head == "which":
             # "a bed on which a pillow lies": a clause of its own.
             made += [Chunk(kind="joint", text=",")] if made and made[-1].kind == "noun" else []
+        if piece.kind == "place" and piece.text in _SIDES and made and _the_one(made[-1].phrase):
+            # "the one in the middle" is the middle one.
+            told = replace(made[-1].phrase, modifiers=Modifiers(adjectives=(_SIDES[piece.text],)))  # type: ignore[type-var]
+            made[-1] = replace(made[-1], phrase=told)
+            continue
         made.append(piece)
         gap = phrase is not None and follower is not None and phrase.kind == "pieces" and follower.kind == "object"
         if not gap or not follower.determined:  # type: ignore[union-attr]
@@ -50,6 +56,11 @@ def _alike(chunks: list[Chunk]) -> list[Chunk]:
                 alike = replace(other, modifiers=replace(NO_MODIFIERS, colours=colours))  # type: ignore[type-var]
                 chunks[at + 2] = replace(second, phrase=alike)
     return chunks
+
+
+def _the_one(phrase: Phrase | None) -> bool:
+    headless = phrase is not None and phrase.kind == "pieces" and phrase.definite and phrase.modifiers == NO_MODIFIERS
+    return headless and phrase.words.lower() in ("the one", "the ones")  # type: ignore[union-attr]
 
 
 def _from_below(chunks: list[Chunk]) -> list[Chunk]:

@@ -200,7 +200,7 @@ class Interpreter(Placing):
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
-        several = self._said.speaks_of_each((*child_heads, *parent_heads))
+        several = self._said.speaks_of_each(child_heads) or self._said.speaks_of_each(parent_heads, carrying=True)
         one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
         if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
@@ -211,6 +211,7 @@ class Interpreter(Placing):
     def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
         """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""
         named = any(self._chunks[head].phrase.kind == "object" for head in heads)  # type: ignore[union-attr]
+        named = named or self._said.speaks_of_each(heads, carrying=True)
         if named and link.kind in SUPPORT_KINDS and set(parents) < set(children):
             raise PromptError(
                 f'"{children[0].group.words}" would rest on one of themselves. Say which of them is below.'
@@ -245,7 +246,7 @@ class Interpreter(Placing):
     def _have(self, link: Link, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         world = self._world
         owners = self._said.refs_of(owner_heads)
-        each = self._said.speaks_of_each(owner_heads)
+        each = self._said.speaks_of_each(owner_heads, carrying=True)
         ordered = [(head, self._chunks[head].phrase) for head in child_heads]
         things = [head for head, phrase in ordered if phrase and phrase.kind not in ("part", "pieces", "background")]
         for head, phrase in ordered:

@@ -107,7 +107,9 @@ BACKGROUND = frozenset({
     "yard", "backyard", "patio", "terrace", "balcony", "pair view",
 })  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
-ITEMS = frozenset({"items", "item", "objects", "object", "things", "everything", "all", "contents", "elements"})
+ITEMS = frozenset({
+    "following", "items", "item", "objects", "object", "things", "everything", "all", "contents", "elements",
+})  # fmt: skip
 PIECES = frozenset({"piece", "pieces", "ones", "one", "colours", "colors", "shades", "units", "members", "hues"})
 PLACES = frozenset({"left", "right", "leftmost", "rightmost", "middle", "first", "second", "third", "last"})
 """Words that tell one of several by its place: "the left one"."""
@@ -205,13 +207,13 @@ FLOOR = (
     "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
-    "kitchen island", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
+    "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "yoga mat",
 )  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = (
     "table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
-    "tv stand", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
+    "tv stand", "workbench", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
     "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard",
 )  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
@@ -495,6 +497,8 @@ LEVELS: dict[str, int] = {
     "topmost": -1, "highest": -1,
 }  # fmt: skip
 """Words for one of a stack by its height, and its index."""
+ON_RIMS = ("lid", "pot lid", "cork", "bottle cap")
+"""What closes a vessel: on it, never in it."""
 BENEATH_CUPS = ("saucer", "coaster")
 """What a cup "with" it stands on."""
 TELLING = frozenset({*POSITIONS, *LEVELS, *SUPERLATIVES})

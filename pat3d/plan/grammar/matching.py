@@ -5,10 +5,18 @@ from __future__ import annotations
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.world import Group, Item
+from pat3d.plan.grammar.world import Edge, Group, Item, World
+from pat3d.scene.relations import LateralKind
 
 SAME = {"leftmost": "left", "rightmost": "right"}
 PLACES = {**lexicon.POSITIONS, **lexicon.LEVELS}
+_OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
+LATERAL_SIDES: dict[str, LateralKind] = {
+    "left": "left_of",
+    "right": "right_of",
+    "front": "in_front_of",
+    "back": "behind",
+}
 
 
 def colours_of(item: Item) -> tuple[str, ...]:
@@ -35,3 +43,16 @@ def same_head(group: Group, phrase: Phrase) -> bool:
     names = (group.said, group.noun) if not group.proxy else (group.said,)
     heads = {word for name in names for words in [name.split(" of ")] for word in words[0].split()[-1:]}
     return not group.cycle and bool(wanted & heads)
+
+
+def line_up(world: World, placed: Item) -> None:
+    """Relate the left one and the right one of a kind to each other."""
+    if placed.place not in ("left", "right"):
+        return
+    for other in world.items():
+        same = other.group.noun == placed.group.noun and not other.group.cycle
+        known = any({edge.child, edge.parent} == {placed, other} for edge in world.laterals)
+        if known:
+            continue
+        if same and other is not placed and other.place in ("", _OPPOSITE[placed.place]):
+            world.laterals.append(Edge(child=placed, kind=LATERAL_SIDES[placed.place], parent=other))

@@ -44,6 +44,10 @@ class Maker:
         if phrase.substance:
             world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
         self.note_adjectives(world, phrase)
+        if phrase.cycle:
+            stand_in = dict.fromkeys(phrase.cycle[at % len(phrase.cycle)] for at in range(count))
+            assumed = f"{count} assumed: " if phrase.count is None or phrase.vague else ""
+            world.note(f'"{phrase.words}": {assumed}{", ".join(stand_in)}; which is not said.')
         if kind is not None:
             self._take_after(world, group, kind)
         share_colours(group)
@@ -133,7 +137,7 @@ class Maker:
             count = count if phrase.height else count * phrase.chains
         elif modifiers.stacked and count > 1:
             height = count
-        if noted:
+        if noted and not phrase.cycle:
             world.note(f'"{phrase.words}": {count} assumed.')
         return count, height
 

@@ -111,6 +111,9 @@ class PhraseReader:
                 return self._told(start, after, run[0], told, depth)
             if run[-1].text == "one" and flags.get("determined"):
                 count = count or 1
+            if len(run) == 2 and run[1].text == "one" and run[0].text in _ORDINALS and not flags.get("definite"):
+                words = self._text[tokens[start].start : tokens[after - 1].end]
+                return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
         words = self._text[tokens[start].start : tokens[after - 1].end]

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.objects import Maker, recount
-from pat3d.plan.grammar.references import LATERAL_SIDES, References
+from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS

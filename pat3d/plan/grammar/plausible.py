@@ -109,6 +109,8 @@ class Plausible:
         """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""
         if not child or not parent:
             return _NEUTRAL
+        if link.manner == "under" and self.floor(parent) and self.level(parent) and not self.floor(child):
+            return 0.1
         if link.manner == "under":
             return min(self.on(parent, child), self.beside(child, parent) + 0.2)
         if link.manner in ("half", "edge"):

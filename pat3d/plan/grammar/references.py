@@ -8,23 +8,15 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, position, same_head, same_noun
+from pat3d.plan.grammar.matching import LATERAL_SIDES, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.relating import Relating
-from pat3d.plan.grammar.world import Edge, Group, Item, World
-from pat3d.scene.relations import LateralKind
+from pat3d.plan.grammar.world import Group, Item, World
 
-_OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
-LATERAL_SIDES: dict[str, LateralKind] = {
-    "left": "left_of",
-    "right": "right_of",
-    "front": "in_front_of",
-    "back": "behind",
-}
 
 
 class References:
@@ -44,6 +36,8 @@ class References:
         """Pronouns of which the grammar says what they mean."""
         self.each: set[int] = set()
         """Phrases that speak of every one of a group."""
+        self.all: set[int] = set()
+        """Phrases that speak of all of a group: "both"."""
         self.clauses: dict[int, tuple[int, ...]] = {}
         """What the clauses are about, by where they begin."""
         self.related: list[tuple[set[int], set[int]]] = []
@@ -64,15 +58,20 @@ class References:
                     self._note_adjectives(phrase)
                 return
             generic = self.known.get(kind) if kind is not None else None
-            owner = generic[0].group if generic and generic[0].group.cycle else None
+            owner = next((item.group for item in generic or () if item.group.cycle), None)
             group = self._maker.make(world, phrase, filling=filling, kind=owner)
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
+                assert generic is not None
+                # What is said of the kind is said of its members.
+                generic += group.items
+            if phrase.each and phrase.count is None:
+                world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
             if position(phrase) in ("left", "right") and len(group.items) == 1:
-                self._line_up(group.items[0])
+                line_up(self._world, group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
@@ -168,20 +167,8 @@ class References:
         item.place = where
         tell(item, phrase.modifiers)
         if not item.group.rows and item.group.height == 1:
-            self._line_up(item)
+            line_up(self._world, item)
         return [item]
-
-    def _line_up(self, placed: Item) -> None:
-        """Relate the left one and the right one of a kind to each other."""
-        if placed.place not in ("left", "right"):
-            return
-        for other in self._world.items():
-            same = other.group.noun == placed.group.noun and not other.group.cycle
-            known = any({edge.child, edge.parent} == {placed, other} for edge in self._world.laterals)
-            if known:
-                continue
-            if same and other is not placed and other.place in ("", _OPPOSITE[placed.place]):
-                self._world.laterals.append(Edge(child=placed, kind=LATERAL_SIDES[placed.place], parent=other))
 
     def _members(self, at: int, phrase: Phrase) -> list[Item]:
         """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""
@@ -197,6 +184,7 @@ class References:
             groups = [group for group in groups if group not in besides]
         rest = phrase.head in _REST
         if phrase.head in ("both", "all"):
+            self.all.add(at)
             return self._before(at)
         if phrase.head == "each":
             self.each.add(at)
@@ -208,6 +196,9 @@ class References:
             world.telling = world.telling[len(told) :]
             return told
         count = phrase.count or 1
+        if where:
+            # "On the first are three cups, on the second ...": of the same kind as before.
+            groups.sort(key=lambda group: not any(item.place for item in group.items))
         if where in lexicon.LEVELS:
             # What is stacked is often said after it is named.
             several = [group for group in groups if len(group.items) > 1]
@@ -315,9 +306,10 @@ class References:
             tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
         )
 
-    def speaks_of_each(self, heads: Sequence[int]) -> bool:
-        """Whether one of `heads` speaks of every one of a group."""
-        return any(inner in self.each for head in heads for inner in self._meant(head))
+    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
+        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
+        told = self.each | self.all if carrying else self.each
+        return any(inner in told for head in heads for inner in self._meant(head))
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
@@ -326,7 +318,8 @@ class References:
         plural = phrase.head in ("them", "they", "these", "those", "their")
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
-        before = [list(self.ref(self.clauses[start][0])) for start in reversed(starts)]
+        heads = [self.clauses[start] for start in reversed(starts)]
+        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
         before += [self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
@@ -338,7 +331,9 @@ class References:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             candidates.append((-0.1, meant[-1]))
         if self._relating.landmark[0] and not near:
-            candidates.append((0.1, self._relating.landmark[0]))
+            # "A fork is left of a plate and a knife right of it"
+            aside = link is not None and link.kind in LATERAL_SIDES.values()
+            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
@@ -353,7 +348,8 @@ class References:
         for cost, items in candidates:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
-            if plural != (len(items) > 1) and not (plural and len(other) == 0):
+            # A stack is "it".
+            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
                 cost += 0.4
             if link is not None and other:
                 world = self._world

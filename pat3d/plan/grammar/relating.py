@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.objects import forget_count, multiply
+from pat3d.plan.grammar.objects import forget_count, multiply, recount
 from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
@@ -30,6 +30,7 @@ class Relating:
         if set(children) == set(parents):
             if link.kind in SUPPORT_KINDS:
                 raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
+            world.note(f"not understood: {said.format(link.said or (link.kind or link.manner).replace('_', ' '))}")
             return
         children = [child for child in children if child not in parents] or children
         if link.manner == "than":
@@ -85,8 +86,8 @@ class Relating:
             world.beside(children, "around", owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
-        elif link.kind == "on":
-            world.place(children, "on", owners)
+        elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
+            world.place(children, "on", owners, weak=weak)
         elif (
             weak
             and world.is_a(children[0], lexicon.ON_HEAD)
@@ -168,8 +169,11 @@ class Relating:
     def both_sides(self, children: list[Item], parents: list[Item]) -> None:
         """`children` stand on both sides of `parents`."""
         world = self.world
+        group = children[0].group
+        if len(children) > 2 and not group.counted:
+            recount(world, group, 2)
+            children = list(group.items)
         if len(children) == 1:
-            group = children[0].group
             children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
         self.flanked(children, parents)
 

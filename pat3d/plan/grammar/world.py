@@ -15,6 +15,8 @@ from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.scene_plan import ArrangementKind
 from pat3d.scene.relations import LateralKind, RelationKind
 
+HARDLY = 2.0
+"""Cost of a support from which on a note says that it is odd: what is round or slender carries nothing."""
 MAX_OBJECTS = 60
 """Objects in one scene."""
 
@@ -258,6 +260,8 @@ class World:
                 self.note(f'{known_words}; also being {kind} "{parent.group.words}" is left out.')
                 return
         self.supports[child] = Edge(child=child, kind=kind, parent=parent, weak=weak)
+        if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
+            self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
         if not weak:
             self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]
             if old is not None and old.weak and self._may_stand(parent, old.parent):
