@@ -183,7 +183,11 @@ def test_a_scene_that_cannot_hold_is_delivered_with_its_faults_and_exit_code_1(w
 
 
 def test_what_balances_on_a_tip_is_not_verified_and_the_message_says_how_little_it_stands(workplace, capfd):
-    """The tip has a radius of 0.1 mm, the middle of the plum is 26 mm over it: it tips at 0.23 degrees."""
+    """The tip has a radius of 0.1 mm, the middle of the plum is 26 mm over it: it tips at 0.23 degrees.
+
+    The claim allows for engines, which keep four contact points of a face: at worst a square inside the tip's
+    circle, whose sides are nearer by cos 45 degrees, and half of that loss is taken.
+    """
     (workplace / "scene.yaml").write_text(
         "objects:\n"
         "  - {name: cone, noun: cone, fixed: true, pose: {position: [0, 0, 0.00001]}}\n"
@@ -192,12 +196,13 @@ def test_what_balances_on_a_tip_is_not_verified_and_the_message_says_how_little_
     )
     assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 1
     streams = capfd.readouterr()
-    assert "stands a tilt of 0.23 degrees, then plum goes" in " ".join(streams.out.split())
-    assert '"plum" balances on too little: more than 0.23 degrees of tilt upset it.' in streams.err
+    assert "stands a tilt of 0.2 degrees, then plum goes" in " ".join(streams.out.split())
+    assert '"plum" balances on too little: more than 0.20 degrees of tilt upset it.' in streams.err
     certificate = json.loads((workplace / "out" / "report.json").read_text())["verification"]["certificate"]
     assert not certificate["passed"]
     assert certificate["worst"] < 1e-6
-    assert certificate["largest_tilt"] == pytest.approx(np.degrees(np.arctan(0.102 / 25.96)), abs=0.01)
+    tip = np.degrees(np.arctan(0.102 / 25.96))
+    assert 0.85 * tip <= certificate["largest_tilt"] <= tip
     assert certificate["first_to_go"] == ["plum"]
 
 
