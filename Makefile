@@ -23,7 +23,7 @@ $(VENV)/.setup: $(VENV)/.made pyproject.toml constraints.txt
 $(VENV)/.setup-dev: $(VENV)/.setup
 	$(PIP) --editable '.[dev,torch,usd,envs]'
 	$(PIP) numba opencv-python-headless termcolor pyarrow websockets msgpack imageio-ffmpeg h5py
-	$(PIP) --no-deps robosuite
+	$(PIP) --no-deps robosuite mujoco-menagerie
 	@touch $@
 
 setup: $(VENV)/.setup  ## create .venv with the pinned packages and the pat3d command
