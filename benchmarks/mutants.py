@@ -23,8 +23,11 @@ import tempfile
 import time
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
+from itertools import zip_longest
 from pathlib import Path
+from queue import SimpleQueue
 
 from benchmarks.mutations import Mutation, mutations
 
@@ -69,6 +72,7 @@ class Tree:
     """A temporary copy of the repository in which files may be broken."""
 
     def __init__(self, root: Path, folder: Path) -> None:
+        folder.mkdir()
         self.root = folder / "tree"
         shutil.copytree(root, self.root, symlinks=True, ignore=shutil.ignore_patterns(*LEFT_OUT))
         self._folder = folder
@@ -85,6 +89,8 @@ class Tree:
             "PYTHONPATH": str(self.root),
             "PYTHONDONTWRITEBYTECODE": "1",
             "PAT3D_CACHE": str(scratch / "cache"),
+            "NUMBA_CACHE_DIR": str(scratch / "numba"),
+            "OMP_NUM_THREADS": "1",
             "PAT3D_MUTANT_ORDER": str(orders),
             "TMPDIR": str(scratch),
         }
@@ -161,6 +167,14 @@ def drawn(modules: Iterable[str], count: int, seed: int) -> list[Mutation]:
     return sorted(chosen, key=lambda one: (mirrored(one.path), one.path, one.start))
 
 
+def by_turns(chosen: Sequence[Mutation]) -> list[Mutation]:
+    """One mutation of each folder of tests after the other."""
+    folders: dict[str, list[Mutation]] = defaultdict(list)
+    for one in chosen:
+        folders[mirrored(one.path)].append(one)
+    return [one for turn in zip_longest(*folders.values()) for one in turn if one is not None]
+
+
 def modules_in(paths: Sequence[str]) -> list[str]:
     """Python files among and under `paths`, relative to the repository."""
     found: list[Path] = []
@@ -194,6 +208,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=60, help="mutants (default 60)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--tests", nargs="+", default=[], help="further test files or folders for all of them")
+    parser.add_argument("--jobs", type=int, default=1, help="mutants at a time, each in its own copy (default 1)")
     parser.add_argument("--factor", type=float, default=10.0, help="time limit over the unchanged run (default 10)")
     parser.add_argument("--least", type=float, default=0.0, help="share that must be killed, 0 to 1")
     parser.add_argument("--place", action="append", default=[], help="only FILE:LINE, again after writing a test")
@@ -204,28 +219,41 @@ def main() -> int:
     if options.place:
         chosen = [one for one in chosen if one.place in options.place]
     known = _known(options.out)
-    verdicts: list[Verdict] = []
-    with tempfile.TemporaryDirectory(prefix="pat3d-mutants-") as scratch:
-        tree = Tree(ROOT, Path(scratch))
-        baselines: dict[str, Baseline] = {}
-        for mutation in chosen:
-            if str(mutation) in known:
-                verdicts.append(Verdict(mutation, *known[str(mutation)]))
-                continue
-            home = mirrored(mutation.path)
-            if home not in baselines:
+    with tempfile.TemporaryDirectory(prefix="pat3d-mutants-") as scratch, ThreadPoolExecutor(options.jobs) as pool:
+        trees: SimpleQueue[Tree] = SimpleQueue()
+        for k in range(options.jobs):
+            trees.put(Tree(ROOT, Path(scratch, str(k))))
+
+        def baseline(home: str) -> Baseline:
+            tree = trees.get()
+            try:
                 watched = [module for module in modules if mirrored(module) == home]
-                baselines[home] = tree.baseline([home, *options.tests], watched)
-            baseline = baselines[home]
-            tests = baseline.tests_of(mutation.path, mutation.line, mutation.last_line)
-            limit = GRACE + options.factor * sum(baseline.seconds[test] for test in tests)
-            verdict = tree.judge(mutation, tests, limit)
-            verdicts.append(verdict)
+                return tree.baseline([home, *options.tests], watched)
+            finally:
+                trees.put(tree)
+
+        def judge(mutation: Mutation) -> Verdict:
+            if str(mutation) in known:
+                return Verdict(mutation, *known[str(mutation)])
+            unchanged = baselines[mirrored(mutation.path)].result()
+            tests = unchanged.tests_of(mutation.path, mutation.line, mutation.last_line)
+            limit = GRACE + options.factor * sum(unchanged.seconds[test] for test in tests)
+            tree = trees.get()
+            try:
+                verdict = tree.judge(mutation, tests, limit)
+            finally:
+                trees.put(tree)
             print(f"{verdict.outcome:8} {verdict.seconds:6.1f} s  {mutation}  {verdict.by}", flush=True)
             if options.out is not None:
                 with options.out.open("a", encoding="utf-8") as file:
                     file.write(json.dumps({"name": str(mutation), **asdict(verdict)}) + "\n")
-    print(table(verdicts))
+            return verdict
+
+        homes = dict.fromkeys(mirrored(one.path) for one in chosen if str(one) not in known)
+        baselines = {home: pool.submit(baseline, home) for home in homes}
+        # Mutants of different folders by turns: those whose baseline is there first need not wait for the others.
+        verdicts = list(pool.map(judge, by_turns(chosen)))
+    print(table(sorted(verdicts, key=lambda one: (one.mutation.path, one.mutation.start))))
     survived = sum(one.outcome == "survived" for one in verdicts)
     return int(bool(verdicts) and 1.0 - survived / len(verdicts) < options.least)
 
