@@ -127,9 +127,11 @@ def test_around_needs_all_sides():
         for name, angle in zip("abc", np.radians([90, 210, 330]), strict=True)
     }
     row = {name: Pose(position=(0.12 * k, -0.25, 0)) for k, name in zip((-1, 0, 1), "abc", strict=True)}
-    bowl = {"bowl": Pose()}
-    assert all(result.holds for result in check_relations(relations, ASSETS, {**bowl, **ring}))
-    assert not any(result.holds for result in check_relations(relations, ASSETS, {**bowl, **row}))
+    for offset in np.array([[0.0, 0.0, 0.0], [3.0, -2.0, 0.0]]):
+        for poses, expected in ((ring, True), (row, False)):
+            there = {name: Pose(position=tuple(pose.position + offset)) for name, pose in poses.items()}
+            verdicts = check_relations(relations, ASSETS, {**there, "bowl": Pose(position=tuple(offset))})
+            assert {verdict.holds for verdict in verdicts} == {expected}
 
 
 def test_hanging_needs_contact_below_the_top_and_air_below():
