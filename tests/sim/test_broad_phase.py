@@ -60,11 +60,14 @@ def close_boxes(first: np.ndarray, second: np.ndarray, model: Model, start: np.n
     return np.argwhere((apart <= D_HAT + 2 * SKIN) & other)
 
 
+@pytest.mark.parametrize("lanes", [1, 5])
 @pytest.mark.parametrize("scene", [hulls(0), hulls(1), pair_of_lumps().finalize("cpu")], ids=["a", "b", "lumps"])
-def test_candidates_are_the_pairs_whose_boxes_are_within_d_hat_and_skin(scene):
+def test_candidates_are_the_pairs_whose_boxes_are_within_d_hat_and_skin(scene, lanes):
     """Half of d_hat and a skin are on either side of a box; the ground has no box, and counts d_hat and a skin."""
     start, end = motion(scene, 0)
     candidates = Candidates(scene)
+    # As many threads share a pair on a GPU.
+    candidates._boxes.lanes = lanes
     candidates.cover(*on_device(start, end), D_HAT, SKIN)
     triangles, edges = scene.triangles.numpy(), scene.edges.numpy()
     vertices = np.arange(len(start))[:, None]

@@ -10,10 +10,11 @@ from pat3d.errors import SimulationError
 from pat3d.geometry.pose import Pose
 from pat3d.sim.contact.broad_phase import Candidates
 from pat3d.sim.contact.ccd import fractions, safe_step
-from pat3d.sim.failure import Status
+from pat3d.sim.failure import Status, blocking_pair
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.settling import UnsettledError, settle
+from pat3d.sim.solvers.line_search import LONGEST_STEP
 from tests.sim.builders import add_hull, box_points
 from tests.sim.drops import random_scene
 from tests.sim.oracles import IntersectionOracle
@@ -113,6 +114,27 @@ def test_a_blocked_world_stops_and_the_others_go_on():
     assert heights[1] < 5 - 12 * 0.008
     assert run.unconverged[0] > 0
     assert run.unconverged[1] == 0
+
+
+@pytest.mark.parametrize(
+    ("height", "down", "motion", "bodies"),
+    [
+        (5.0, 0.002, 0.002, (-1, -1)),
+        # No vertex moves further in one step, whatever the direction asks for.
+        (5.0, 2.0, float(LONGEST_STEP), (-1, -1)),
+        # Collision detection keeps a tenth of the clearance of 1 mm.
+        (0.051, 0.002, 0.9e-3, (0, -1)),
+        (0.051, 2.0, 0.9e-3, (0, -1)),
+    ],
+)
+def test_the_motion_that_is_allowed_of_a_fall_and_what_limits_it(height, down, motion, bodies):
+    newton = Run(boxes(height), SettleOptions(), lambda *_: None).newton
+    direction = np.zeros((1, 4, 3))
+    direction[0, 0, 2] = -down
+    newton.direction.assign(direction)
+    allowed, pair = blocking_pair(newton, 0)
+    assert allowed == pytest.approx(motion, rel=1e-6)
+    assert pair == bodies
 
 
 def test_a_state_that_is_not_finite_is_refused():

@@ -10,6 +10,7 @@ from pat3d.errors import SimulationError
 from pat3d.geometry.pose import Pose
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.rollouts import rollout
+from pat3d.sim.run import SettleOptions
 from tests.sim.builders import add_hull, box_points
 
 
@@ -148,8 +149,16 @@ def test_worlds_have_their_own_friction():
         ({"friction": torch.tensor([0.1, 0.2])}, "friction must be a scalar or of shape"),
         ({"friction": -0.1}, "not negative"),
         ({"mass": torch.zeros(1, 2)}, "mass must be finite and positive"),
+        ({"mass": torch.tensor([[np.nan, 1.0]])}, "mass must be finite and positive"),
         ({"d_hat": torch.tensor(np.nan)}, "d_hat must be finite"),
         ({"d_hat": torch.tensor(1e-5, requires_grad=True)}, "d_hat has a gradient only above"),
+        (
+            {
+                "d_hat": torch.tensor(5e-4, requires_grad=True),
+                "options": SettleOptions(final_d_hat=1e-4, friction_speed=0.02, time_step=0.03),
+            },
+            "d_hat has a gradient only above",
+        ),
         ({"every": 0}, "every=0"),
         ({"until": "done"}, "until must be"),
     ],
