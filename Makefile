@@ -54,7 +54,7 @@ test: check  ## lint, types and the quick tests
 test-all: check  ## every test, the slow ones too
 	$(BIN)/pytest --numprocesses auto
 
-bench: setup-dev  ## the figures of the README
+bench: setup-dev  ## generation of the paper's prompts, as in benchmarks/RESULTS.md
 	$(BIN)/python benchmarks/generate.py
 
 transfer: setup-dev  ## drift in every engine that is there

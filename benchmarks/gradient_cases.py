@@ -151,6 +151,25 @@ class Case:
         return "rest" if self.until == "rest" else "step" if self.until == 1 else "frames"
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
+    """What a case showed."""
+
+    case: Case
+    errors: NDArray[np.float64]
+    """Relative error of every direction; nan where not smooth; shape (directions,)."""
+    spread: float
+    """Largest disagreement of neighbouring estimates, relative as the errors."""
+    steps: NDArray[np.float64]
+    """h of every chosen estimate, nan where not smooth."""
+    one_sided: float
+    """Largest difference between forward and backward differences where not smooth, relative as the errors."""
+    curve: tuple[NDArray, NDArray, NDArray]
+    """h, and forward and backward differences over the adjoint's derivative, in one direction."""
+    seconds: float
+    time_steps: int
+
+
 def cases() -> list[Case]:
     """All rows of the table."""
     scenes: list[tuple[str, Callable[[], ModelBuilder], float, bool]] = [

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from benchmarks.gradient_cases import Outcome
 from pat3d.view.preview import save_png
-
-if TYPE_CHECKING:
-    from benchmarks.gradients import Outcome
 
 _PAPER, _INK, _GRID = (250, 250, 249), (52, 54, 58), (222, 223, 225)
 _COLOURS = {"step": (31, 97, 141), "frames": (192, 87, 20), "rest": (60, 130, 70)}

@@ -21,7 +21,6 @@ import argparse
 import math
 import time
 import tracemalloc
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ import torch
 import warp as wp
 from numpy.typing import NDArray
 
-from benchmarks.gradient_cases import Case, cases, stack
+from benchmarks.gradient_cases import Case, Outcome, cases, stack
 from benchmarks.gradient_plot import save_picture
 from pat3d.sim.arrays import Bodies
 from pat3d.sim.compilation import quiet_warp
@@ -111,25 +110,6 @@ def signatures(model: Model, record: Recording, states: NDArray[np.float64]) -> 
 
 
 # Differences
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Outcome:
-    """What a case showed."""
-
-    case: Case
-    errors: NDArray[np.float64]
-    """Relative error of every direction; nan where not smooth; shape (directions,)."""
-    spread: float
-    """Largest disagreement of neighbouring estimates, relative as the errors."""
-    steps: NDArray[np.float64]
-    """h of every chosen estimate, nan where not smooth."""
-    one_sided: float
-    """Largest difference between forward and backward differences where not smooth, relative as the errors."""
-    curve: tuple[NDArray, NDArray, NDArray]
-    """h, and forward and backward differences over the adjoint's derivative, in one direction."""
-    seconds: float
-    time_steps: int
 
 
 def measure(case: Case, device: str) -> Outcome:

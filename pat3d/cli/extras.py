@@ -54,7 +54,8 @@ def requirements() -> tuple[Requirement, ...]:
 def read(line: str) -> Requirement:
     """A line of the metadata: 'torch>=2.6; extra == "torch"'."""
     found = _LINE.match(line)
-    assert found is not None
+    if found is None:
+        raise ValueError(f'"{line}" is no requirement: wanted is NAME>=VERSION; extra == "EXTRA".')
     least = re.search(r">=\s*([\w.]+)", found["version"])
     extra = re.search(r"extra\s*==\s*['\"]([\w-]+)['\"]", found["marker"] or "")
     return Requirement(name=found["name"].lower(), least=least[1] if least else "", extra=extra[1] if extra else "")

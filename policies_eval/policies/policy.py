@@ -1,11 +1,13 @@
 """What a policy is, and what an evaluation does with its answers.
 
-class Still:
-def reset(self, episode):
-self.size = episode.action_size
+    class Still:
+        def reset(self, episode):
+            self.size = episode.action_size
 
-def act(self, observation):
-return numpy.zeros(self.size)
+        def act(self, observation):
+            return numpy.zeros(self.size)
+
+is a whole policy.
 """
 
 from __future__ import annotations
