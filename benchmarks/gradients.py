@@ -32,12 +32,12 @@ from numpy.typing import NDArray
 from benchmarks.gradient_cases import Case, Outcome, cases, stack
 from benchmarks.gradient_plot import save_picture
 from pat3d.sim.arrays import Bodies
-from pat3d.sim.compilation import quiet_warp
 from pat3d.sim.contact.pairs import Pairs, contact_at
 from pat3d.sim.model import Model
 from pat3d.sim.recording import Recording
 from pat3d.sim.rollouts import rollout
 from pat3d.sim.run import SettleOptions
+from pat3d.sim.startup import quiet_warp
 from pat3d.sim.terms.potential import Potential
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 0})

@@ -93,7 +93,7 @@ def _packages(table: Table) -> None:
 def _parts(table: Table, progress: Progress) -> None:
     """One real step of every part that can be here."""
     from pat3d.cli.parts import PARTS
-    from pat3d.sim.compilation import quiet_warp
+    from pat3d.sim.startup import quiet_warp
 
     for number, part in enumerate(PARTS):
         progress(Event(stage="trying", detail=part.name, step=number, steps=len(PARTS)))
@@ -114,7 +114,8 @@ def _parts(table: Table, progress: Progress) -> None:
 def _warp(table: Table) -> None:
     """Report Warp's devices and its compiled kernels."""
     try:
-        from pat3d.sim.compilation import cache_folder, is_warm, quiet_warp
+        from pat3d.sim.compilation import cache_folder, is_warm
+        from pat3d.sim.startup import quiet_warp
 
         devices = [f"{device.alias} ({device.name})" for device in quiet_warp().get_devices()]
         table.add("ok", "simulator", "runs on " + ", ".join(devices))

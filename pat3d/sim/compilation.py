@@ -1,17 +1,13 @@
-"""Warp, quiet and compiled before it is needed, so that a watcher sees why the first run takes longer."""
+"""Kernels compiled before they are needed, so that a watcher sees why the first run takes longer."""
 
 from __future__ import annotations
 
-import os
 import sys
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from pat3d.errors import SpecError
 from pat3d.progress import Event, Progress, silent
+from pat3d.sim.startup import quiet_warp
 
 
 def prepare(device: str, progress: Progress = silent, *, deterministic: bool = False) -> str:
@@ -61,34 +57,6 @@ def device_name(device: str) -> str:
     if name is None:
         raise SpecError(f'there is no device "{device}" here. Valid: {", ".join(known)}.')
     return name
-
-
-def quiet_warp() -> Any:
-    """The initialised `warp` module, without its banner."""
-    import warp as wp
-
-    wp.config.log_level = max(wp.config.log_level, wp.LOG_WARNING)
-    with _no_gpu_notice():
-        wp.init()
-    return wp
-
-
-@contextmanager
-def _no_gpu_notice() -> Iterator[None]:
-    """Keep back what Warp's library prints where there is no GPU; it writes past Python, to the descriptor."""
-    sys.stderr.flush()
-    with tempfile.TemporaryFile() as caught:
-        terminal = os.dup(2)
-        os.dup2(caught.fileno(), 2)
-        try:
-            yield
-        finally:
-            os.dup2(terminal, 2)
-            os.close(terminal)
-            caught.seek(0)
-            rest = b"".join(line for line in caught if b"NVIDIA CUDA driver" not in line)
-            if rest:
-                os.write(2, rest)
 
 
 def cache_folder() -> Path:

@@ -28,6 +28,7 @@ from pat3d.scene.model import Scene
 from pat3d.scene.physics import GRAVITY
 from pat3d.sim.arrays import Bodies, Vertices, filled
 from pat3d.sim.clusters import ClusteredPart, cluster
+from pat3d.sim.startup import quiet_warp
 
 ATTACHMENT_STRETCH = 5.0e-7
 """How far an attachment point gives way under the weight of the lighter of the two bodies that it joins [m]."""
@@ -262,6 +263,7 @@ class ModelBuilder:
         Raises:
             SimulationError: no bodies were added, or copies of more than one world are asked for.
         """
+        quiet_warp()
         bodies = self._bodies
         if not bodies:
             raise SimulationError("a model needs at least one body.")

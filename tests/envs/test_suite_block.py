@@ -24,7 +24,7 @@ from pat3d.envs.suites.worker_pool import WorkerPool
 from pat3d.errors import SpecError, SuiteError
 from pat3d.generation.attempts import Attempts
 from pat3d.scene.io import load_scene
-from pat3d.sim.compilation import quiet_warp
+from pat3d.sim.startup import quiet_warp
 from tests.envs.suites import SMALL, alive, files_of, wait, workers_of
 
 REQUEST = replace(SMALL, picture=0)

@@ -59,3 +59,13 @@ def test_every_public_name_is_there_and_no_other():
     assert all(getattr(sim, name).__name__ == name for name in sim.__all__)
     with pytest.raises(AttributeError, match="It has: Model"):
         _ = sim.step
+
+
+def test_settling_says_nothing_of_its_own():
+    code = """
+from pat3d import sim
+from tests.scenes import tower
+print(sim.settle(sim.ModelBuilder.from_scene(tower(1, gap=5e-4)).finalize()).at_rest)
+"""
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("[ True]\n", "")
