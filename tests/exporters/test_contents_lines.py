@@ -5,9 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pat3d.assets.shapes import box
 from pat3d.exporters.contents.compare import MAX_LINES, _folders
-from tests.scenes import asset_of
 
 
 @pytest.mark.parametrize("count", [1, MAX_LINES - 1, MAX_LINES, MAX_LINES + 1, MAX_LINES + 9])
@@ -74,18 +72,3 @@ def test_axes_are_compared_by_their_tensor_and_those_that_are_no_rotation_differ
     told = list(layer_differences(found, expected))
     assert (told == []) is same
     assert all("/one.physics:" in line for line in told)
-
-
-def test_the_ground_is_under_every_object_however_far_it_stands_and_ten_metres_wide_at_least():
-    from pat3d.exporters.common.objects import ground_size
-    from tests.scenes import placed, scene_of
-
-    one = asset_of(box(0.2, 0.2, 0.2))
-    for place in ((0, 0, 0), (1, -1, 0), (30, 0, 0), (-30, 2, 0), (0, 40, 0), (3, -40, 0), (0, 0, 50)):
-        scene = scene_of(placed("near", one), placed("far", one, place))
-        width, depth, _ = ground_size(scene)
-        reach = max(abs(place[0]), abs(place[1])) + 0.1
-        assert min(width, depth) >= 10.0
-        assert min(width, depth) / 2 > reach + 0.5
-        # It does not grow with what is high, nor without need.
-        assert max(width, depth) <= max(10.0, 4.0 * reach + 1.0)

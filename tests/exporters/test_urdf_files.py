@@ -12,12 +12,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from pat3d.assets.shapes import box
 from pat3d.errors import ExportError
+from pat3d.exporters.common.objects import ground_size
 from pat3d.exporters.urdf.load_pybullet import load_pybullet
 from pat3d.exporters.urdf.reader import read_directives, read_urdf
 from pat3d.exporters.urdf.writer import write_urdf
 from pat3d.scene.physics import ground_friction
 from tests.exporters.things import hung_bar, mixed_scene
+from tests.scenes import asset_of, placed, scene_of
 
 DRAKE = "{http://drake.mit.edu}"
 
@@ -30,6 +33,18 @@ def scene():
 @pytest.fixture
 def folder(scene, tmp_path):
     return write_urdf(scene, tmp_path / "urdf").parent
+
+
+def test_the_ground_is_under_every_object_however_far_it_stands_and_ten_metres_wide_at_least():
+    one = asset_of(box(0.2, 0.2, 0.2))
+    for place in ((0, 0, 0), (1, -1, 0), (30, 0, 0), (-30, 2, 0), (0, 40, 0), (3, -40, 0), (0, 0, 50)):
+        scene = scene_of(placed("near", one), placed("far", one, place))
+        width, depth, _ = ground_size(scene)
+        reach = max(abs(place[0]), abs(place[1])) + 0.1
+        assert min(width, depth) >= 10.0
+        assert min(width, depth) / 2 > reach + 0.5
+        # It does not grow with what is high, nor without need.
+        assert max(width, depth) <= max(10.0, 4.0 * reach + 1.0)
 
 
 def test_the_ground_is_seen_in_a_colour_and_touched_with_its_friction_by_both_engines(scene, folder):
