@@ -59,8 +59,11 @@ def test_beside_a_strip_it_fits_as_soon_as_a_finger_does(quarter):
 
 
 def test_between_two_strips_it_needs_the_room_on_both_sides():
-    for room, free in ((NEEDED + 1e-6, True), (NEEDED - 1e-6, False)):
-        pair = strip("left", -HALF, -room), strip("right", room, HALF)
+    for middle, room, free in (
+        (0.0, NEEDED + 1e-6, True), (0.0, NEEDED - 1e-6, False),
+        (0.03, NEEDED + 1e-6, True), (-0.01, NEEDED + 1e-6, True),
+    ):  # fmt: skip
+        pair = strip("left", -HALF, middle - room), strip("right", middle + room, HALF)
         assert fits(*pair) == free
         assert fits(pair[0])
         assert fits(pair[1])
@@ -72,6 +75,17 @@ def test_where_the_table_stands_does_not_matter(yaw, shift):
     for width, free in ((-1e-6, True), (1e-6, False)):
         cover = moved(strip("strip", -HALF, border + width, 1), yaw, shift)
         assert fits(cover, on=moved(table(), yaw, shift)) == free
+
+
+def test_an_object_is_as_large_as_the_circle_around_it_wherever_its_origin_is():
+    base, cube = table(), bar("cube", (CUBE, CUBE, 0.04), (1.3, -0.8), 0.3)
+    part = cube.asset.parts[0]
+    aside = replace(part, vertices=part.vertices + [0.5, -0.2, 0.0])
+    cube = replace(cube, asset=replace(cube.asset, parts=(aside,)))
+    for width, free in ((-1e-6, True), (1e-6, False)):
+        cover = strip("strip", -HALF, OUTERMOST - NEEDED + width)
+        scene = Scene(objects=(base, cube, cover))
+        assert has_free_space(scene, "cube", "table", base.asset.regions[0], ["strip"]) == free
 
 
 def test_a_disc_has_no_corners():
