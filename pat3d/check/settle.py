@@ -148,7 +148,10 @@ def creep(
 
 
 def settle_in_mujoco(
-    mjcf_path: str | Path, seconds: float = STILL_SECONDS, change: Change | None = None
+    mjcf_path: str | Path,
+    seconds: float = STILL_SECONDS,
+    change: Change | None = None,
+    alive: Callable[[], None] = lambda: None,
 ) -> SettleReport:
     """Load an MJCF file with MuJoCo, simulate it untouched, and measure how far everything strays.
 
@@ -156,6 +159,7 @@ def settle_in_mujoco(
         mjcf_path: the file, loaded from the path as any user would; poses are those of the bodies.
         seconds: simulated time [s].
         change: done to the compiled model first, to ask what other settings would do.
+        alive: called between time steps.
 
     Raises:
         CheckError: MuJoCo refuses the file; the message is MuJoCo's.
@@ -175,7 +179,7 @@ def settle_in_mujoco(
         if change is not None:
             change(model)
         data = mujoco.MjData(model)
-        drift = _run(mujoco, model, data, seconds)
+        drift = _run(mujoco, model, data, seconds, alive)
         wall = time.perf_counter() - start
     finally:
         mujoco.set_mju_user_warning(before)
@@ -194,7 +198,7 @@ def settle_in_mujoco(
     )
 
 
-def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrift, ...]:
+def _run(mujoco: Any, model: Any, data: Any, seconds: float, alive: Callable[[], None]) -> tuple[ObjectDrift, ...]:
     """Step the model and return the worst drift of every moving body."""
     free = np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)
     bodies = model.jnt_bodyid[free]
@@ -204,6 +208,7 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrif
     records: list[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = []
     left = max(1, round(seconds / model.opt.timestep))
     while left > 0:
+        alive()
         mujoco.mj_step(model, data, nstep=min(SAMPLE_STEPS, left))
         left -= SAMPLE_STEPS
         # The positions that a step leaves behind lag half a step; the joint state does not.

@@ -137,8 +137,9 @@ def verify(
     certificate = certify(scene, margin=True)
     progress(Event(stage="verifying", detail="no intersections", step=1, steps=4))
     overlaps = penetration(scene)
-    progress(Event(stage="verifying", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
-    mujoco = settle_in_mujoco(mjcf_path, seconds)
+    running = Event(stage="verifying", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4)
+    progress(running)
+    mujoco = settle_in_mujoco(mjcf_path, seconds, alive=lambda: progress(running))
     progress(Event(stage="verifying", detail="relations", step=3, steps=4))
     return Verification(
         certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)

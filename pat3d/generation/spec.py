@@ -22,6 +22,11 @@ from pat3d.progress import CpuBudget, Event, Progress
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
 from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.relations import check_sides
+
+LIGHTEST, HEAVIEST = 1e-5, 1e5
+"""Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
+held to, heavier ones sink through what carries them."""
 
 MESH_KEYS = ("units", "up", "parts", "thickness")
 NOUN_KEYS = ("colour", "colours")
@@ -84,6 +89,13 @@ class Spec:
                 key = "mesh" if "mesh" in obj else "noun"
                 place = ("objects", number, key)
                 raise self.source.error(place, f'"{obj["name"]}": {error}') from error
+            mass = asset.mass_properties.mass
+            if not LIGHTEST <= mass <= HEAVIEST:
+                key = next((key for key in ("mass", "density", "mesh") if key in obj), "noun")
+                raise self.source.error(
+                    ("objects", number, key),
+                    f'"{obj["name"]}" has a mass of {mass:.3g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be simulated.',
+                )
             found.append(
                 UnplacedObject(
                     name=obj["name"], asset=asset, fixed=obj.get("fixed", False), pose=self.poses.get(obj["name"])
@@ -131,6 +143,7 @@ def load_spec(path: str | os.PathLike[str]) -> Spec:
         try:
             relations.append(Relation(**entry))
             check_tree(names, tuple(relations))
+            check_sides(tuple(relations))
         except SpecError as error:
             raise source.error(("relations", number), str(error)) from error
     poses = {

@@ -37,7 +37,9 @@ def test_the_least_tilt_decides_and_check_applies_the_same(slim, capfd, asked, c
     assert certificate["largest_tilt"] == pytest.approx(1.43, abs=0.02)
     capfd.readouterr()
     assert main(["check", str(slim / "out")]) == code
-    line = '"slim" balances on too little: more than 1.44 degrees of tilt upset it. This scene has to stand 1.50 degrees'
+    line = (
+        '"slim" balances on too little: more than 1.44 degrees of tilt upset it. This scene has to stand 1.50 degrees'
+    )
     assert (line in capfd.readouterr().err) is bool(code)
 
 
