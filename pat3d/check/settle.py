@@ -179,7 +179,12 @@ def settle_in_mujoco(
         if change is not None:
             change(model)
         data = mujoco.MjData(model)
-        drift = _run(mujoco, model, data, seconds, alive)
+        try:
+            drift = _run(mujoco, model, data, seconds, alive)
+        except mujoco.FatalError as error:
+            # A collider that returns more contacts than there is room for stops MuJoCo, and is this scene's fault.
+            messages.append(f"stopped: {error}")
+            drift = _lost(mujoco, model)
         wall = time.perf_counter() - start
     finally:
         mujoco.set_mju_user_warning(before)
@@ -234,6 +239,15 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float, alive: Callable[[],
             creep_degrees=None if late is None else float(late[1][k]),
         )
         for k, name in enumerate(names)
+    )
+
+
+def _lost(mujoco: Any, model: Any) -> tuple[ObjectDrift, ...]:
+    """Every moving body, anywhere."""
+    bodies = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
+    return tuple(
+        ObjectDrift(name=_object_name(mujoco, model, body), centre_mm=np.inf, origin_mm=np.inf, degrees=np.inf)
+        for body in bodies
     )
 
 
