@@ -47,10 +47,10 @@ def read_prompts(path: Path) -> list[str]:
     return [line for line in lines if line and not line.startswith("#")]
 
 
-def measure(number: int, prompt: str, seed: int, folder: Path, device: str) -> Run:
-    """Run `pat3d generate` in a process of its own."""
+def measure(number: int, prompt: str, seed: int, folder: Path, more: list[str]) -> Run:
+    """Run `pat3d generate`, with options `more`, in a process of its own."""
     command = [sys.executable, "-m", "pat3d", "generate", prompt, "--out", str(folder), "--seed", str(seed)]
-    command += ["--device", device]
+    command += more
     with tempfile.TemporaryFile("w+") as errors:
         start = time.perf_counter()
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors, env=_environment())
@@ -210,14 +210,17 @@ def main() -> int:
     parser.add_argument("--scenes", type=Path, help="folder to keep the scenes in")
     parser.add_argument("--only", type=int, nargs="+", help="numbers of the prompts to run, from 1")
     parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu")
+    parser.add_argument("--least-tilt", type=float, metavar="DEGREES", help="that every scene has to stand")
     options = parser.parse_args()
+    more = ["--device", options.device]
+    more += [] if options.least_tilt is None else ["--least-tilt", str(options.least_tilt)]
     prompts = read_prompts(options.prompts)
     runs = []
     with tempfile.TemporaryDirectory(prefix="pat3d-bench-") as scratch:
         root = options.scenes or Path(scratch)
         for number, prompt in enumerate(prompts, start=1):
             for seed in options.seeds if not options.only or number in options.only else ():
-                run = measure(number, prompt, seed, root / f"prompt_{number:02d}_seed_{seed}", options.device)
+                run = measure(number, prompt, seed, root / f"prompt_{number:02d}_seed_{seed}", more)
                 runs.append(run)
                 print(row(run), run.message, file=sys.stderr, flush=True)
                 if options.out is not None:

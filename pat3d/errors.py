@@ -34,6 +34,10 @@ class SimulationError(Pat3dError):
     exit_code = 1
 
 
+class CpuLimitError(Pat3dError):
+    """The processor time that a run was given is spent."""
+
+
 class ExportError(Pat3dError):
     """A scene cannot be written to, or read back from, an exchange format."""
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+
+from pat3d.errors import CpuLimitError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,3 +61,43 @@ class Clock:
     def seconds(self) -> dict[str, float]:
         """Of every stage so far, in the order they began, and the total since the clock was made."""
         return {**self._stages, "total": time.perf_counter() - self._start}
+
+
+class CpuBudget:
+    """Processor time that a run may take [s], its finished child processes included; None for any.
+
+    Processor time, because a machine that is busy with something else must not change what is refused.
+    """
+
+    def __init__(self, seconds: float | None = None) -> None:
+        self.seconds, self._start = seconds, _processor_time()
+
+    @property
+    def left(self) -> float | None:
+        """[s]; not negative."""
+        return None if self.seconds is None else max(0.0, self.seconds - (_processor_time() - self._start))
+
+    def check(self, stage: str) -> None:
+        """Raise CpuLimitError where nothing is left for `stage`."""
+        if self.left == 0.0:
+            raise CpuLimitError(
+                f"the limit of {self.seconds:g} s of processor time was reached while {stage}. Nothing was written; "
+                "allow more, or ask for fewer or simpler things."
+            )
+
+    def watching(self, progress: Progress) -> Progress:
+        """`progress`, ending the run when the time is spent."""
+        if self.seconds is None:
+            return progress
+
+        def tell(event: Event) -> None:
+            step = "" if event.step is None else f", step {event.step}"
+            self.check(f"{event.stage}{f' {event.detail}' if event.detail else ''}{step}")
+            progress(event)
+
+        return tell
+
+
+def _processor_time() -> float:
+    """Of this process and of its children that have ended [s]."""
+    return sum(os.times()[:4])

@@ -11,7 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pat3d.errors import SuiteError
+from pat3d.errors import SpecError, SuiteError
+from pat3d.scene.model import check_least_tilt
+from pat3d.scene.physics import LEAST_TILT
 
 TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve")
 
@@ -44,6 +46,8 @@ class Request:
     """Fewest and most objects of a scene; containers count."""
     robot: str = "Panda"
     """That has to be able to reach and take what a task needs."""
+    least_tilt: float = LEAST_TILT
+    """Tilt of the ground [degrees], whichever way, that every scene has to stand."""
     picture: int = 320
     """Width of the scenes' pictures [pixel]; 0 for none."""
     device: str = "cpu"
@@ -67,6 +71,10 @@ class Request:
             )
         if self.device not in DEVICES:
             raise SuiteError(f'no device "{self.device}". Devices: {", ".join(DEVICES)}.')
+        try:
+            check_least_tilt(self.least_tilt)
+        except SpecError as error:
+            raise SuiteError(str(error)) from error
         if self.picture and not 64 <= self.picture <= 2048:
             raise SuiteError(f"pictures are 64 to 2048 pixels wide, or 0 for none; got {self.picture}.")
 
@@ -80,6 +88,8 @@ class Request:
             "robot": self.robot,
             "picture": self.picture,
             "device": self.device,
+            # Suites that ask for no more than all scenes do are named by the same request as ever.
+            **({"least_tilt": self.least_tilt} if self.least_tilt != LEAST_TILT else {}),
         }
 
     @staticmethod
@@ -98,6 +108,7 @@ class Request:
             and all(map(_whole, data["objects"]))
             and isinstance(data.get("robot"), str)
             and isinstance(data.get("device", "cpu"), str)
+            and isinstance(data.get("least_tilt", LEAST_TILT), int | float)
         )
         if not good:
             raise SuiteError(f"{where}: the suite's request is damaged: {json.dumps(data)[:200]}")
@@ -109,6 +120,7 @@ class Request:
             robot=data["robot"],
             picture=data["picture"],
             device=data.get("device", "cpu"),
+            least_tilt=float(data.get("least_tilt", LEAST_TILT)),
         )
 
     def task_of(self, place: int) -> str:

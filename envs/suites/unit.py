@@ -52,6 +52,7 @@ class Making:
             seed=self._draft.scene_seed,
             friction=SETTLING_FRICTION,
             device=request.device,
+            least_tilt=request.least_tilt,
             workspace=Workspace(self._scratch / "none", keep=False),
             clock=self.clock,
             progress=silent,

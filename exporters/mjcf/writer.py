@@ -39,7 +39,7 @@ import numpy as np
 from pat3d.exporters.common.folder import export_folder
 from pat3d.exporters.common.frames import text
 from pat3d.exporters.common.margins import contact_margins, flush_boxes, largest_margins
-from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
+from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names, ground_size
 from pat3d.geometry.contacts import find_contacts
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
@@ -259,7 +259,7 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
         group="0",
         material="ground",
     )
-    side = max(5.0, 4.0 * reach)
+    side = max(ground_size(scene)[0] / 2, 4.0 * reach)
     ET.SubElement(
         world,
         "geom",

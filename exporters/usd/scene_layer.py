@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.exporters.common.margins import contact_margins, flush_boxes
-from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names
+from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names, ground_size
 from pat3d.exporters.usd.asset_layer import (
     bind_physics,
     define_box,
@@ -96,7 +96,7 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
     points = np.concatenate([obj.pose.apply(part.vertices) for obj in scene.objects for part in obj.asset.parts])
     low, high = points.min(axis=0), points.max(axis=0)
     centre, reach = (low + high) / 2, max(float(np.linalg.norm(high - low)), 0.2)
-    side = max(5.0, 4.0 * reach)
+    side = max(ground_size(scene)[0] / 2, 4.0 * reach)
     UsdGeom.Xform.Define(stage, "/World/Ground")
     materials = UsdGeom.Scope.Define(stage, "/World/Ground/materials").GetPath()
     friction = ground_friction(scene.settling_friction)

@@ -37,6 +37,7 @@ from pat3d.check.support import Support, true_support
 from pat3d.errors import CheckError
 from pat3d.geometry.contacts import Contacts, find_contacts, four_of_each
 from pat3d.scene.model import Scene
+from pat3d.scene.physics import LEAST_TILT, MAX_TILT
 
 TOLERANCE = 1e-3
 """Largest residual, as a share of the weight, that passes."""
@@ -58,16 +59,6 @@ CARRIES = 0.01
 MAX_FRICTION = 2.0
 FRICTION_STEP = 0.005
 """Resolution of the smallest friction coefficient [-]."""
-
-LEAST_PUSH = 0.01
-"""Sideways push on every object, as a share of its weight, that a verified scene stands: ten times what may be
-unbalanced. Tilting the ground by 0.57 degrees is such a push."""
-
-LEAST_TILT = math.degrees(math.atan(LEAST_PUSH))
-"""[degrees]"""
-
-MAX_TILT = 8.0
-"""Tilt [degrees] beyond which nobody asks."""
 
 DIRECTIONS = 16
 """Towards which the ground is tilted."""
@@ -94,7 +85,9 @@ class Certificate:
     """Tilt of the ground, whichever way, that is stood with the exports' friction [degrees], at most 8; None if not
     asked."""
     outline_tilt: float | None = None
-    """The same with all contact points of every face, as verification has it [degrees]; None if not asked."""
+    """The same with all contact points of every face [degrees]; None if not asked."""
+    least_tilt: float = LEAST_TILT
+    """Of the ground that has to be stood [degrees]."""
     first_to_go: tuple[str, ...] = ()
     """Objects that slide or tip over first when the ground is tilted further, those that move most in front."""
     largest_gap: float | None = None
@@ -113,7 +106,7 @@ class Certificate:
     def passed(self) -> bool:
         """Every residual is at most 1e-3 of the weight.
 
-        If asked, that is so on true surfaces and by forces that have a cause, and a tilt of 0.57 degrees is stood.
+        If asked, that is so on true surfaces and by forces that have a cause, and the least tilt is stood.
         """
         return not self.unbalanced and not self.fragile and not self.unreal
 
@@ -134,7 +127,7 @@ class Certificate:
     @property
     def fragile(self) -> bool:
         """Whether it is balanced, and a touch upsets it."""
-        return not self.unbalanced and self.outline_tilt is not None and self.outline_tilt < LEAST_TILT
+        return not self.unbalanced and self.largest_tilt is not None and self.largest_tilt < self.least_tilt
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""
@@ -180,6 +173,7 @@ def certify(
         residuals={names[body]: found[body] for body in sorted(found)},
         contacts=balance.found,
         activation=activation,
+        least_tilt=scene.least_tilt,
     )
     if not margin:
         return certificate

@@ -148,7 +148,10 @@ def creep(
 
 
 def settle_in_mujoco(
-    mjcf_path: str | Path, seconds: float = STILL_SECONDS, change: Change | None = None
+    mjcf_path: str | Path,
+    seconds: float = STILL_SECONDS,
+    change: Change | None = None,
+    alive: Callable[[], None] = lambda: None,
 ) -> SettleReport:
     """Load an MJCF file with MuJoCo, simulate it untouched, and measure how far everything strays.
 
@@ -156,6 +159,7 @@ def settle_in_mujoco(
         mjcf_path: the file, loaded from the path as any user would; poses are those of the bodies.
         seconds: simulated time [s].
         change: done to the compiled model first, to ask what other settings would do.
+        alive: called between time steps.
 
     Raises:
         CheckError: MuJoCo refuses the file; the message is MuJoCo's.
@@ -175,7 +179,12 @@ def settle_in_mujoco(
         if change is not None:
             change(model)
         data = mujoco.MjData(model)
-        drift = _run(mujoco, model, data, seconds)
+        try:
+            drift = _run(mujoco, model, data, seconds, alive)
+        except mujoco.FatalError as error:
+            # A collider that returns more contacts than there is room for stops MuJoCo, and is this scene's fault.
+            messages.append(f"stopped: {error}")
+            drift = _lost(mujoco, model)
         wall = time.perf_counter() - start
     finally:
         mujoco.set_mju_user_warning(before)
@@ -194,7 +203,7 @@ def settle_in_mujoco(
     )
 
 
-def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrift, ...]:
+def _run(mujoco: Any, model: Any, data: Any, seconds: float, alive: Callable[[], None]) -> tuple[ObjectDrift, ...]:
     """Step the model and return the worst drift of every moving body."""
     free = np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)
     bodies = model.jnt_bodyid[free]
@@ -204,6 +213,7 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrif
     records: list[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = []
     left = max(1, round(seconds / model.opt.timestep))
     while left > 0:
+        alive()
         mujoco.mj_step(model, data, nstep=min(SAMPLE_STEPS, left))
         left -= SAMPLE_STEPS
         # The positions that a step leaves behind lag half a step; the joint state does not.
@@ -229,6 +239,15 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float) -> tuple[ObjectDrif
             creep_degrees=None if late is None else float(late[1][k]),
         )
         for k, name in enumerate(names)
+    )
+
+
+def _lost(mujoco: Any, model: Any) -> tuple[ObjectDrift, ...]:
+    """Every moving body, anywhere."""
+    bodies = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
+    return tuple(
+        ObjectDrift(name=_object_name(mujoco, model, body), centre_mm=np.inf, origin_mm=np.inf, degrees=np.inf)
+        for body in bodies
     )
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.check.balance import Balance
+from pat3d.check.balance import SHARPNESS, Balance
 from pat3d.check.rolling import Rolling, curvature, rolling
 from pat3d.check.surfaces import DISTANCES, Patch, beyond, contacts_of, patches
 from pat3d.geometry.contacts import GROUND_INDEX, Contacts
@@ -150,16 +150,23 @@ def true_support(scene: Scene, contacts: Contacts, balance: Balance, friction: f
 def _held(
     scene: Scene, own: list[Patch], members: set[int], friction: float, tolerance: float
 ) -> tuple[list[tuple[Patch, NDArray[np.float64]]], list[int]]:
-    """The nearest true surfaces that hold bodies `members`, or the bodies that fall if all that is allowed holds."""
+    """The nearest true surfaces that hold bodies `members`, or the bodies that fall if all that is allowed holds.
+
+    What only just holds them, by what a residual may leave unbalanced, stands no tilt; so surfaces that hold them
+    without that are looked for first, a little further out.
+    """
     placed: list[tuple[Patch, NDArray[np.float64]]] = []
     limit = max((min(distance, max(patch.allowed)) for patch in own for distance in DISTANCES), default=0.0)
     fell: list[int] = sorted(members)
-    for distance in DISTANCES:
-        corners = [(patch, patch.corners(distance, limited=True)) for patch in own]
-        placed = [(patch, found) for patch, found in corners if len(found)]
-        fell = _falling(scene, contacts_of(placed), members, friction, tolerance)
-        if not fell or distance >= limit:
-            break
+    for share in (SHARPNESS, 1.0):
+        for distance in DISTANCES:
+            corners = [(patch, patch.corners(distance, limited=True)) for patch in own]
+            placed = [(patch, found) for patch, found in corners if len(found)]
+            fell = _falling(scene, contacts_of(placed), members, friction, share * tolerance)
+            if not fell:
+                return placed, fell
+            if distance >= limit:
+                break
     return placed, fell
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pat3d.check.certificate import LEAST_PUSH, LEAST_TILT, Certificate, certify
+from pat3d.check.certificate import Certificate, certify
 from pat3d.check.metrics import displacement, share_still
 from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
@@ -34,10 +35,11 @@ class Verification:
             for name in self.certificate.unbalanced
         ]
         if self.certificate.fragile:
+            least = self.certificate.least_tilt
             lines.append(
                 f"{_listed(self.certificate.first_to_go)} balances on too little: more than "
-                f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. A verified scene stands "
-                f"{LEAST_TILT:.2f} degrees, a sideways push of {LEAST_PUSH:.0%} of its weight."
+                f"{self.certificate.largest_tilt:.2f} degrees of tilt upset it. This scene has to stand "
+                f"{least:.2f} degrees, a sideways push of {math.tan(math.radians(least)):.2g} of its weight."
             )
         lines += self.certificate.unreal
         for what, overlaps in (("parts", self.penetration.hulls), ("surfaces", self.penetration.visuals)):
@@ -135,8 +137,9 @@ def verify(
     certificate = certify(scene, margin=True)
     progress(Event(stage="verifying", detail="no intersections", step=1, steps=4))
     overlaps = penetration(scene)
-    progress(Event(stage="verifying", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4))
-    mujoco = settle_in_mujoco(mjcf_path, seconds)
+    running = Event(stage="verifying", detail=f"{seconds:g} s in MuJoCo", step=2, steps=4)
+    progress(running)
+    mujoco = settle_in_mujoco(mjcf_path, seconds, alive=lambda: progress(running))
     progress(Event(stage="verifying", detail="relations", step=3, steps=4))
     return Verification(
         certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
-from pat3d.cli.options import command, fields, option, values
+from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
 from pat3d.cli.reading import PROXIES, AskingPlanner, Decided
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS
@@ -22,11 +22,18 @@ if TYPE_CHECKING:
 _HELPS = {
     "seed": "the same seed gives the same scene",
     "friction": "friction coefficient while settling",
+    "least_tilt": LEAST_TILT,
+    "cpu_limit": "processor time that a scene may take, decompositions included, before it is refused",
     "device": "where to simulate",
     "formats": f"{', '.join(FORMATS)}, with commas or spaces between",
     "resume": "keep finished stages in FOLDER.partial, and go on from those of an earlier run",
 }
-_KEYWORDS = {"device": {"choices": DEVICES}, "formats": {"metavar": "FORMAT"}}
+_KEYWORDS = {
+    "least_tilt": DEGREES,
+    "cpu_limit": {"type": float, "metavar": "SECONDS"},
+    "device": {"choices": DEVICES},
+    "formats": {"metavar": "FORMAT"},
+}
 _FROM_FILE = {name: {"default": None, "shown": "the file's"} for name in ("seed", "friction")}
 _OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
 

@@ -16,6 +16,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+LEAST_TILT = "tilt of the ground, whichever way, that a verified scene stands, at most 8"
+"""Help of --least-tilt, wherever it is an option."""
+
+DEGREES = {"metavar": "DEGREES", "shown": "0.57"}
+"""argparse's keywords for it."""
+
 Run = Callable[[argparse.Namespace], int]
 """Does what a command line asks for; returns the exit code."""
 

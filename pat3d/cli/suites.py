@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import QUIET_SECONDS, console, verdict
-from pat3d.cli.options import command, fields, option, values, with_verbs
+from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
 from pat3d.errors import SuiteError
@@ -29,6 +29,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         {
             "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
+            "least_tilt": DEGREES,
             "device": {"choices": DEVICES},
             "picture": {"metavar": "PIXELS"},
         },
@@ -37,6 +38,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         seed="the same seed gives the same suite",
         objects="objects of a scene",
         robot="that must be able to do the tasks",
+        least_tilt=LEAST_TILT,
         device="where scenes settle; on a GPU, many side by side",
         picture="width of the scenes' pictures; 0 for none",
     ),

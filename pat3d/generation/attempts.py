@@ -22,6 +22,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.progress import Clock, Event, Progress
 from pat3d.scene.folder import key_of
 from pat3d.scene.model import GROUND, Relation, Scene, SceneObject, parent_of
+from pat3d.scene.physics import LEAST_TILT
 from pat3d.scene.versions import versions
 from pat3d.sim.compilation import prepare
 
@@ -118,9 +119,9 @@ class ChosenAttempt:
     """Fingerprint of the request and the settings."""
 
 
-def request_key(request: SceneRequest, *, seed: int, friction: float, device: str) -> str:
+def request_key(request: SceneRequest, *, seed: int, friction: float, device: str, least_tilt: float) -> str:
     """Fingerprint of everything that decides what comes of a request."""
-    return key_of(versions(), request.fingerprint, seed, friction, device)
+    return key_of(versions(), request.fingerprint, seed, friction, device, least_tilt)
 
 
 class Attempts:
@@ -133,16 +134,18 @@ class Attempts:
         seed: int,
         friction: float,
         device: str,
+        least_tilt: float = LEAST_TILT,
         workspace: Workspace,
         clock: Clock,
         progress: Progress,
         scratch: Path,
     ) -> None:
         self.request, self.seed, self.friction, self.device = request, seed, friction, device
+        self.least_tilt = least_tilt
         self.workspace, self.clock, self.progress, self.scratch = workspace, clock, progress, scratch
         self._objects: tuple[UnplacedObject, ...] = ()
         self._objects_made = False
-        self.key = request_key(request, seed=seed, friction=friction, device=device)
+        self.key = request_key(request, seed=seed, friction=friction, device=device, least_tilt=least_tilt)
 
     def best_of(self, count: int) -> ChosenAttempt:
         """The first attempt that passes, else the best of `count` with its faults.
@@ -207,7 +210,7 @@ class Attempts:
         layout_seed = derived_seed(self.seed, "layout", number) if number else self.seed
         attempt = Attempt(number=number, layout_seed=layout_seed)
         layout_key = key_of(versions(), self.request.fingerprint, self.seed, layout_seed)
-        inputs = {"layout": layout_key, "rest": key_of(layout_key, self.friction, self.device)}
+        inputs = {"layout": layout_key, "rest": key_of(layout_key, self.friction, self.device, self.least_tilt)}
         try:
             scene, notes = self._laid_out(number, layout_seed, inputs)
         except (LayoutError, SimulationError) as error:
@@ -221,7 +224,8 @@ class Attempts:
             scene = kept[0]
             own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
             provenance = {**self._provenance(layout_seed), **own}
-            return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
+            own = {"settling_friction": self.friction, "least_tilt": self.least_tilt, "provenance": provenance}
+            return replace(scene, **own), kept[1]
         from pat3d.layout.layout import arrange
 
         if not self._objects_made:
@@ -244,6 +248,7 @@ class Attempts:
             prompt=self.request.prompt,
             seed=self.seed,
             settling_friction=self.friction,
+            least_tilt=self.least_tilt,
             provenance=self._provenance(layout_seed),
         )
         notes = (*(one.note for one in self._objects if one.note), *layout.notes)
@@ -279,6 +284,7 @@ class Attempts:
             refined=1,
             relayout=False,
             steady=True,
+            least_tilt=scene.least_tilt,
             seed=attempt.layout_seed,
             device=device,
         )

@@ -123,7 +123,13 @@ def _kept(prompt: str, folder: Path, settings: Settings, allow_proxies: bool, pl
     except Pat3dError:
         return None
     inputs, exports = report.get("inputs"), report.get("exports")
-    key = request_key(request, seed=settings.seed, friction=settings.friction, device=settings.device)
+    key = request_key(
+        request,
+        seed=settings.seed,
+        friction=settings.friction,
+        device=settings.device,
+        least_tilt=settings.least_tilt,
+    )
     if not isinstance(inputs, dict) or inputs.get("request") != key or not isinstance(exports, dict):
         return None
     return replace(_row(prompt, folder, report), kept=True) if set(settings.formats) <= exports.keys() else None

@@ -21,7 +21,7 @@ from pat3d.generation.report import Report
 from pat3d.generation.request import SceneRequest, request_of
 from pat3d.generation.settings import Settings
 from pat3d.plan.scene_plan import Planner
-from pat3d.progress import Clock, Event, Progress, silent
+from pat3d.progress import Clock, CpuBudget, Event, Progress, silent
 from pat3d.scene.checksums import record_checksums
 from pat3d.scene.folder import check_target, replacing, write_json
 from pat3d.scene.io import save_scene
@@ -49,6 +49,8 @@ def generate(
     out: str | os.PathLike[str],
     seed: int = Settings.seed,
     friction: float = Settings.friction,
+    least_tilt: float = Settings.least_tilt,
+    cpu_limit: float | None = Settings.cpu_limit,
     device: str = Settings.device,
     formats: Sequence[str] = Settings.formats,
     resume: bool = Settings.resume,
@@ -63,6 +65,8 @@ def generate(
         out: folder to write; an earlier scene folder there is replaced once the new one is complete.
         seed: the same seed gives the same scene.
         friction: Coulomb coefficient [-] of every contact while settling; exports carry the materials' own.
+        least_tilt: tilt of the ground [degrees], whichever way, that the scene has to stand to be verified.
+        cpu_limit: processor time that the scene may take [s]; None for any.
         device: "cpu" or "cuda".
         formats: exchange formats to write.
         resume: keep finished stages beside `out`, and use those whose inputs have not changed.
@@ -78,9 +82,18 @@ def generate(
         LayoutError: something does not fit.
         SpecError: a setting is out of range, or there is no such device.
         SimulationError: the layout cannot be simulated.
+        CpuLimitError: `cpu_limit` is spent.
         ExportError: `out` cannot be written.
     """
-    settings = Settings(seed=seed, friction=friction, device=device, formats=tuple(formats), resume=resume)
+    settings = Settings(
+        seed=seed,
+        friction=friction,
+        least_tilt=least_tilt,
+        cpu_limit=cpu_limit,
+        device=device,
+        formats=tuple(formats),
+        resume=resume,
+    )
     return run_prompt(
         prompt, out=out, settings=settings, allow_proxies=allow_proxies, planner=planner, progress=progress
     ).scene
@@ -92,6 +105,8 @@ def build(
     out: str | os.PathLike[str],
     seed: int | None = None,
     friction: float | None = None,
+    least_tilt: float = Settings.least_tilt,
+    cpu_limit: float | None = Settings.cpu_limit,
     device: str = Settings.device,
     formats: Sequence[str] = Settings.formats,
     resume: bool = Settings.resume,
@@ -104,6 +119,8 @@ def build(
         out: as for `generate`, like the rest.
         seed: instead of the specification's.
         friction: instead of the specification's.
+        least_tilt: tilt of the ground [degrees], whichever way, that the scene has to stand to be verified.
+        cpu_limit: processor time that the scene may take, decompositions included [s]; None for any.
         device: "cpu" or "cuda".
         formats: exchange formats to write.
         resume: keep finished stages beside `out`, and use those whose inputs have not changed.
@@ -117,6 +134,7 @@ def build(
         AssetError: a mesh cannot be used.
         LayoutError: something does not fit.
         SimulationError: the layout cannot be simulated.
+        CpuLimitError: `cpu_limit` is spent.
         ExportError: `out` cannot be written.
     """
     return run_spec(
@@ -124,6 +142,8 @@ def build(
         out=out,
         seed=seed,
         friction=friction,
+        least_tilt=least_tilt,
+        cpu_limit=cpu_limit,
         device=device,
         formats=formats,
         resume=resume,
@@ -143,11 +163,12 @@ def run_prompt(
     """`generate`, with the report."""
     from pat3d.plan.grammar.planner import GrammarPlanner
 
-    folder, clock = check_target(out), Clock()
+    folder, clock, budget = check_target(out), Clock(), CpuBudget(settings.cpu_limit)
     with clock("planning"):
         progress(Event(stage="planning"))
         plan = (planner or GrammarPlanner(allow_proxies)).plan(prompt)
-    return make(request_of(plan, allow_proxies), folder=folder, settings=settings, clock=clock, progress=progress)
+    request = request_of(plan, allow_proxies)
+    return make(request, folder=folder, settings=settings, clock=clock, progress=budget.watching(progress))
 
 
 def run_spec(
@@ -156,6 +177,8 @@ def run_spec(
     out: str | os.PathLike[str],
     seed: int | None = None,
     friction: float | None = None,
+    least_tilt: float = Settings.least_tilt,
+    cpu_limit: float | None = Settings.cpu_limit,
     device: str = Settings.device,
     formats: Sequence[str] = Settings.formats,
     resume: bool = Settings.resume,
@@ -164,18 +187,21 @@ def run_spec(
     """`build`, with the report."""
     from pat3d.generation.spec import load_spec
 
-    folder, clock = check_target(out), Clock()
+    folder, clock, budget = check_target(out), Clock(), CpuBudget(cpu_limit)
     with clock("planning"):
         progress(Event(stage="reading the specification"))
         spec = load_spec(spec_path)
     settings = Settings(
         seed=spec.seed if seed is None else seed,
         friction=spec.friction if friction is None else friction,
+        least_tilt=least_tilt,
+        cpu_limit=cpu_limit,
         device=device,
         formats=tuple(formats),
         resume=resume,
     )
-    return make(spec.request(), folder=folder, settings=settings, clock=clock, progress=progress)
+    request, progress = spec.request(budget), budget.watching(progress)
+    return make(request, folder=folder, settings=settings, clock=clock, progress=progress)
 
 
 def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Clock, progress: Progress) -> Outcome:
@@ -188,6 +214,7 @@ def make(request: SceneRequest, *, folder: Path, settings: Settings, clock: Cloc
             request,
             seed=settings.seed,
             friction=settings.friction,
+            least_tilt=settings.least_tilt,
             device=settings.device,
             workspace=workspace,
             clock=clock,

@@ -8,6 +8,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +18,15 @@ from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed
 from pat3d.generation.spec_schema import BUILD_SCHEMA
 from pat3d.generation.yaml_source import Source, read_yaml
 from pat3d.geometry.pose import Pose
-from pat3d.progress import Event, Progress
+from pat3d.progress import CpuBudget, Event, Progress
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
 from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.relations import check_sides
+
+LIGHTEST, HEAVIEST = 1e-5, 1e5
+"""Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
+held to, heavier ones sink through what carries them."""
 
 MESH_KEYS = ("units", "up", "parts", "thickness")
 NOUN_KEYS = ("colour", "colours")
@@ -49,8 +55,8 @@ class Spec:
         """Coulomb coefficient [-] while settling."""
         return float(self.source.document.get("friction", SETTLING_FRICTION))
 
-    def request(self) -> SceneRequest:
-        """What to make."""
+    def request(self, budget: CpuBudget | None = None) -> SceneRequest:
+        """What to make; decompositions take no more of the processor than `budget` has left."""
         document = self.source.document
         hashes = [_hash(self._mesh(obj)) if "mesh" in obj else None for obj in self.objects]
         return SceneRequest(
@@ -58,7 +64,7 @@ class Spec:
             names=tuple(obj["name"] for obj in self.objects),
             relations=self.relations,
             fingerprint=[document["objects"], document.get("relations", []), hashes],
-            make_objects=self.make_objects,
+            make_objects=partial(self.make_objects, budget=budget or CpuBudget()),
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
             provenance={
@@ -68,17 +74,28 @@ class Spec:
             },
         )
 
-    def make_objects(self, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
+    def make_objects(self, seed: int, progress: Progress, budget: CpuBudget) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
         found = []
         for number, obj in enumerate(self.objects):
             progress(Event(stage="making assets", detail=obj["name"], step=number, steps=len(self.objects)))
             try:
-                asset = self._import(obj) if "mesh" in obj else _from_catalogue(obj, derived_seed(seed, obj["name"]))
+                asset = (
+                    self._import(obj, budget.left)
+                    if "mesh" in obj
+                    else _from_catalogue(obj, derived_seed(seed, obj["name"]))
+                )
             except (AssetError, PromptError) as error:
                 key = "mesh" if "mesh" in obj else "noun"
                 place = ("objects", number, key)
                 raise self.source.error(place, f'"{obj["name"]}": {error}') from error
+            mass = asset.mass_properties.mass
+            if not LIGHTEST <= mass <= HEAVIEST:
+                key = next((key for key in ("mass", "density", "mesh") if key in obj), "noun")
+                raise self.source.error(
+                    ("objects", number, key),
+                    f'"{obj["name"]}" has a mass of {mass:.3g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be simulated.',
+                )
             found.append(
                 UnplacedObject(
                     name=obj["name"], asset=asset, fixed=obj.get("fixed", False), pose=self.poses.get(obj["name"])
@@ -89,7 +106,7 @@ class Spec:
     def _mesh(self, obj: Mapping[str, Any]) -> Path:
         return self.source.path.parent / os.path.expanduser(obj["mesh"])
 
-    def _import(self, obj: Mapping[str, Any]) -> Asset:
+    def _import(self, obj: Mapping[str, Any], cpu_limit: float | None) -> Asset:
         from pat3d.assets.mesh.importing import import_mesh
 
         path = self._mesh(obj)
@@ -97,7 +114,9 @@ class Spec:
         # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
         home = self.source.path.parent.resolve()
         root = home if path.resolve().is_relative_to(home) else None
-        asset = import_mesh(path, texture_root=root, **{key: obj[key] for key in keys if key in obj})
+        asset = import_mesh(
+            path, texture_root=root, cpu_limit=cpu_limit, **{key: obj[key] for key in keys if key in obj}
+        )
         record = dict(asset.provenance)
         # How long it took, and whether it was cached, is no property of the scene.
         record["parts"] = {key: value for key, value in record["parts"].items() if key not in ("seconds", "cached")}
@@ -124,6 +143,7 @@ def load_spec(path: str | os.PathLike[str]) -> Spec:
         try:
             relations.append(Relation(**entry))
             check_tree(names, tuple(relations))
+            check_sides(tuple(relations))
         except SpecError as error:
             raise source.error(("relations", number), str(error)) from error
     poses = {

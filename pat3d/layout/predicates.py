@@ -134,7 +134,9 @@ class _View:
         body, under = self.bodies[child], self.bodies[parent]
         carried, how = self._carried(child, parent)
         over = self._over(child, parent)
-        above = bool(body.low[2] > under.low[2] + self.touch)
+        # Of a playing card on another, the lowest point is no further up than a card is thick.
+        thickness = float(under.high[2] - under.low[2])
+        above = bool(body.low[2] > under.low[2] + min(self.touch, thickness / 2))
         where = f"centre {'inside' if over else 'outside'} the footprint"
         return carried and over and above, how + ", " + where + ("" if above else ", not above its base")
 

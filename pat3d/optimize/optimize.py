@@ -27,9 +27,10 @@ from pat3d.optimize.placement import Placement
 from pat3d.optimize.refine import Epoch, refine
 from pat3d.optimize.starts import Start, make_starts
 from pat3d.optimize.tilt_margin import recentred
-from pat3d.optimize.trial import Optimized, Trial
+from pat3d.optimize.trial import LEAST_TILT, SPARE, Optimized, Trial
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Attachment, Relation, Scene, check_tree
+from pat3d.scene.physics import MAX_TILT
 from pat3d.sim.model import ModelBuilder, poses_from_states
 from pat3d.sim.run import SettleOptions
 from pat3d.sim.settling import settle
@@ -63,6 +64,8 @@ class OptimizeOptions:
     """Whether layouts with other seeds may be among the starts."""
     steady: bool = False
     """Whether a layout in which everything holds, but hardly, is improved too."""
+    least_tilt: float = 0.0
+    """What the verification will ask for [degrees]; with `steady`, at least `trial.LEAST_TILT` is aimed at anyway."""
     seed: int = 0
     """Of the random starts."""
     settle: SettleOptions = field(default_factory=SettleOptions)
@@ -241,6 +244,7 @@ class _Search:
             loss=float(loss(states(assets, poses))),
             results=check_relations(relations, assets, poses, attachments=start.attachments),
             attachments=start.attachments,
+            least_tilt=min(max(LEAST_TILT, SPARE * self.options.least_tilt), MAX_TILT),
         )
 
     def judged(self, trial: Trial) -> Trial:

@@ -14,6 +14,8 @@ LEAST_TILT = 2.0
 """Tilt of the ground [degrees] that a scene should stand, several times what its verification asks for."""
 ENOUGH_TILT = 4.0
 """Tilt [degrees] beyond which more is not better."""
+SPARE = 1.5
+"""What a layout should stand over what its verification asks for: engines stand less than its outline does."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,6 +36,8 @@ class Trial:
     """Every relation at rest."""
     attachments: tuple[Attachment, ...] = ()
     """What holds the things that hang."""
+    least_tilt: float = LEAST_TILT
+    """What it should stand [degrees]."""
     tilt_margin: float | None = None
     """Tilt that it stands [degrees], see pat3d.check.certificate.steadiness; None where that made no difference."""
 
@@ -50,13 +54,13 @@ class Trial:
     @property
     def steady(self) -> bool:
         """Satisfied, and not about to fall."""
-        return self.satisfied and self.tilt_margin is not None and self.tilt_margin >= LEAST_TILT
+        return self.satisfied and self.tilt_margin is not None and self.tilt_margin >= self.least_tilt
 
     @property
     def rank(self) -> tuple[int, bool, float, float]:
         """The least is best."""
         # Where everything holds, what is left of the loss (how far boxes jut out) matters less than standing firmly.
-        margin = -min(self.tilt_margin or 0.0, ENOUGH_TILT) if self.satisfied else 0.0
+        margin = -min(self.tilt_margin or 0.0, max(ENOUGH_TILT, self.least_tilt)) if self.satisfied else 0.0
         return len(self.broken), not self.at_rest, margin, self.loss
 
 

@@ -28,6 +28,7 @@ from pat3d.scene.checksums import record_checksums
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
+from pat3d.scene.physics import LEAST_TILT
 from pat3d.scene.replacement import replace_entries
 from pat3d.scene.schema import SCENE_SCHEMA
 
@@ -100,6 +101,7 @@ def load_scene(folder: str | Path) -> Scene:
             prompt=document["prompt"],
             seed=document["seed"],
             settling_friction=float(document["settling_friction"]),
+            least_tilt=float(document.get("least_tilt", LEAST_TILT)),
             provenance=document["provenance"],
         )
     except SpecError as error:
@@ -142,6 +144,8 @@ def _write(scene: Scene, folder: Path) -> None:
         "assets": assets,
         "provenance": dict(scene.provenance),
     }
+    if scene.least_tilt != LEAST_TILT:
+        document["least_tilt"] = scene.least_tilt
     if scene.attachments:
         document["attachments"] = [
             {"child": one.child, "parent": one.parent, "anchors": [[[*a], [*b]] for a, b in one.anchors]}

@@ -6,6 +6,7 @@ seconds, radians; quaternions are (w, x, y, z).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,7 +18,7 @@ from pat3d.errors import SpecError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.physics import LEAST_TILT, MAX_TILT, SETTLING_FRICTION
 from pat3d.scene.relations import GROUND, Relation, check_tree, parent_of
 
 Point = tuple[float, float, float]
@@ -59,6 +60,12 @@ class Attachment:
         """Where the anchors are in the world [m], on the child at pose `child` and on the parent, shape (n, 3) each."""
         points = np.array(self.anchors)
         return child.apply(points[:, 0]), parent.apply(points[:, 1])
+
+
+def check_least_tilt(degrees: float) -> None:
+    """Raise SpecError unless a scene can be asked to stand a tilt of `degrees`."""
+    if not (math.isfinite(degrees) and 0.0 <= degrees <= MAX_TILT):
+        raise SpecError(f"the least tilt that a scene has to stand is 0 to {MAX_TILT:g} degrees, got {degrees:g}.")
 
 
 def _are_pairs_of_points(anchors: object) -> bool:
@@ -113,12 +120,15 @@ class Scene:
     seed: int = 0
     settling_friction: float = SETTLING_FRICTION
     """Friction coefficient [-] of every contact while settling; exports carry each material's own."""
+    least_tilt: float = LEAST_TILT
+    """Tilt of the ground [degrees], whichever way, that the scene has to stand to be verified."""
     provenance: Mapping[str, Any] = field(default_factory=dict)
     """Versions, settings and inputs; JSON-serialisable."""
 
     def __post_init__(self) -> None:
         if not self.objects:
             raise SpecError("a scene needs at least one object.")
+        check_least_tilt(self.least_tilt)
         names = [obj.name for obj in self.objects]
         repeated = sorted({name for name in names if names.count(name) > 1})
         if repeated:

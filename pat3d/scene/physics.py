@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 GRAVITY = 9.81
 """Along -z [m/s^2]."""
 
@@ -10,6 +12,16 @@ SETTLING_FRICTION = 0.2
 
 GROUND_FRICTION = 0.4
 """Coulomb coefficient [-] of the ground in exports, at least; with MuJoCo's rule, the least of anything on it."""
+
+LEAST_PUSH = 0.01
+"""Sideways push on every object, as a share of its weight, that a verified scene stands unless it is asked for more:
+ten times what may be unbalanced. Tilting the ground by 0.57 degrees is such a push."""
+
+LEAST_TILT = math.degrees(math.atan(LEAST_PUSH))
+"""[degrees]"""
+
+MAX_TILT = 8.0
+"""Tilt of the ground [degrees] beyond which nobody asks."""
 
 STILL_SECONDS = 5.0
 """Simulated time that a scene has to keep still in another engine [s]."""

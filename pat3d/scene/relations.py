@@ -81,3 +81,43 @@ def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
                 raise SpecError(f"the support relations form a cycle: {' -> '.join(path)}.")
             if len(path) > len(names):
                 break
+
+
+_ORDERS = {"left_of": ("x", 1), "right_of": ("x", -1), "in_front_of": ("y", 1), "behind": ("y", -1)}
+"""Axis along which a relation puts the child before (1) or after (-1) the parent."""
+
+
+def check_sides(relations: tuple[Relation, ...]) -> None:
+    """Raise SpecError for the first lateral relation that no arrangement can meet.
+
+    Beside one another is nothing that rests on, or lies in, the other; and nothing is on the left of what is on the
+    left of it.
+    """
+    carriers = {rel.child: rel.parent for rel in relations if rel.supports and rel.kind != "hangs_from"}
+    before: dict[str, dict[str, set[str]]] = {"x": {}, "y": {}}
+    for relation in relations:
+        ends = (relation.child, relation.parent)
+        if relation.supports or GROUND in ends:
+            continue
+        for one, other in (ends, ends[::-1]):
+            if other in _reached(one, {name: {carrier} for name, carrier in carriers.items()}):
+                raise SpecError(f'"{relation}" cannot be: "{other}" carries "{one}".')
+        if relation.kind in _ORDERS:
+            axis, sign = _ORDERS[relation.kind]
+            first, second = ends[::sign]
+            if first in _reached(second, before[axis]):
+                raise SpecError(
+                    f'"{relation}" cannot be: other relations put "{second}" on the other side of "{first}".'
+                )
+            before[axis].setdefault(first, set()).add(second)
+
+
+def _reached(name: str, edges: dict[str, set[str]]) -> set[str]:
+    """Everything that edges lead to from `name`."""
+    found: set[str] = set()
+    ahead = [name]
+    while ahead:
+        new = edges.get(ahead.pop(), set()) - found
+        found |= new
+        ahead += new
+    return found

@@ -7,6 +7,7 @@ from typing import Any
 from pat3d.scene.checksums import MAX_FILES
 from pat3d.scene.model import MAX_ANCHORS
 from pat3d.scene.naming import SLUG_PATTERN
+from pat3d.scene.physics import MAX_TILT
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 MAX_OBJECTS = 10_000
@@ -107,6 +108,7 @@ SCENE_SCHEMA: dict[str, Any] = {
             "provenance": {"type": "object"},
         },
         optional={
+            "least_tilt": {"type": "number", "minimum": 0, "maximum": MAX_TILT},
             "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
             "checksums": _CHECKSUMS,
             "checksum": _SHA256,

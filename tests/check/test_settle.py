@@ -118,3 +118,18 @@ def test_what_still_moves_late_in_the_run_is_named(tmp_path):
     assert [obj.name for obj in report.creeping()] == ["high"]
     speed = 9.81 * 0.75 * 30.0
     assert report.worst_creep_mm == pytest.approx(60e3 * speed, rel=1e-3)
+
+
+def test_an_engine_that_stops_is_a_scene_that_moves_and_no_crash(tmp_path, monkeypatch):
+    """MuJoCo raises where a collider finds more contacts than there is room for."""
+    import mujoco
+
+    def stop(*arguments, **keywords):
+        raise mujoco.FatalError("9 contacts, at most 8")
+
+    path = write_mjcf(tower(2), tmp_path / "mjcf")
+    monkeypatch.setattr(mujoco, "mj_step", stop)
+    report = settle_in_mujoco(path, 0.1)
+    assert not report.passed
+    assert report.warnings == ("stopped: 9 contacts, at most 8",)
+    assert len(report.moved()) == 2

@@ -152,3 +152,13 @@ def test_everything_that_suites_use_is_in_the_catalogue():
 def _content(plan):
     objects = sorted((obj.noun, obj.colours, str(obj.material)) for obj in plan.objects)
     return objects, sorted((rel.child, rel.kind, rel.parent) for rel in plan.relations)
+
+
+def test_the_least_tilt_is_part_of_a_request_and_unsaid_where_it_is_the_usual_one():
+    """So that suites of before, whose requests say nothing of it, are still of the same request."""
+    usual, asked = Request(), Request(least_tilt=2.0)
+    assert "least_tilt" not in usual.as_dict()
+    assert Request.from_dict(usual.as_dict(), "here") == usual
+    assert Request.from_dict(asked.as_dict(), "here") == asked != usual
+    with pytest.raises(SuiteError, match="0 to 8 degrees"):
+        Request(least_tilt=9.0)

@@ -275,3 +275,10 @@ def test_every_object_loads_alone_and_attaches_with_its_mass_and_parts(scene, tm
         for body in (model.body(file.stem), together.body(f"my_{file.stem}")):
             assert body.mass[0] == pytest.approx(asset.mass_properties.mass, rel=1e-12)
             assert body.geomnum[0] == len(asset.parts) + 1
+
+
+@pytest.mark.parametrize("x", [0.0, 4.99, 30.0])
+def test_the_ground_reaches_under_what_stands_far_from_the_origin(x, tmp_path):
+    scene = scene_of(placed("block", asset_of(box(0.1, 0.1, 0.1)), (x, -x, GAP)))
+    report = settle_in_mujoco(write_mjcf(scene, tmp_path / "mjcf"), 0.2)
+    assert report.worst_mm < 0.1

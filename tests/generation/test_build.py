@@ -133,6 +133,16 @@ BAD = {
     "an unknown parent": (two([tie("b", "on", "c")]), ("relations[0].parent", '"c"')),
     "a cycle": (two([tie("b", "on", "a"), tie("a", "on", "b")]), ("relations[1]", "cycle", "a -> b -> a")),
     "two supports": (two([tie("b", "on", "a"), tie("b", "in", "a")]), ("relations[1]", "two supports")),
+    "beside what carries it": (
+        two([tie("b", "on", "a"), tie("a", "left_of", "b")]),
+        ("relations[1]", "a left_of b", '"a" carries "b"'),
+    ),
+    "two on each other's left": (
+        two([tie("b", "left_of", "a"), tie("b", "right_of", "a")]),
+        ("relations[1]", "b right_of a", "other side"),
+    ),
+    "a mass that sinks": (one(mass=1e9), ("objects[0].mass", "1e+09 kg", "1e-05 to 100000 kg")),
+    "a density of nothing": (one(density=1e-9), ("objects[0].density", "kg")),
     "itself as a support": (two([tie("a", "on", "a")]), ("relations[0]", "itself")),
     "poses that intersect": (
         two([], pose={"position": [0, 0, 0]}).replace('"a", ', '"a", "pose": {"position": [0, 0, 0]}, '),
@@ -180,6 +190,31 @@ def test_a_scene_that_cannot_hold_is_delivered_with_its_faults_and_exit_code_1(w
     assert any("high on low" in line for line in report["failures"])
     assert len(report["attempts"]) == len({attempt["layout_seed"] for attempt in report["attempts"]}) == attempts
     assert (workplace / "out" / "preview.png").is_file()
+
+
+def test_a_side_that_was_asked_for_and_is_not_there_fails_build_and_check(workplace, capfd):
+    """Where the user put them, the cup is on the right."""
+    (workplace / "scene.yaml").write_text(
+        "objects:\n"
+        "  - {name: cup, noun: cup, pose: {position: [0.5, 0, 0.001]}}\n"
+        "  - {name: box, noun: box, pose: {position: [0, 0, 0.001]}}\n"
+        "relations:\n  - {child: cup, kind: left_of, parent: box}\n"
+    )
+    assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 1
+    assert "pat3d: not met: cup left_of box (centre -500 mm to that side" in capfd.readouterr().err
+    assert not json.loads((workplace / "out" / "report.json").read_text())["passed"]
+    assert main(["check", str(workplace / "out")]) == 1
+    assert "pat3d: not met: cup left_of box" in capfd.readouterr().err
+
+
+def test_playing_cards_lie_on_one_another(workplace):
+    trimesh.creation.box((0.0635, 0.0889, 0.0003)).export(workplace / "meshes" / "card.obj")
+    cards = "".join(f"  - {{name: card {k}, mesh: meshes/card.obj, parts: hull, material: paper}}\n" for k in range(3))
+    on = "".join(f"  - {{child: card {k}, kind: on, parent: card {k - 1}}}\n" for k in (1, 2))
+    (workplace / "scene.yaml").write_text(f"objects:\n{cards}relations:\n{on}")
+    assert main(["build", str(workplace / "scene.yaml"), "--out", str(workplace / "out")]) == 0
+    heights = [pat3d.load_scene(workplace / "out")[f"card {k}"].pose.position[2] for k in range(3)]
+    assert np.all(np.diff(heights) > 2.9e-4)
 
 
 def test_what_balances_on_a_tip_is_not_verified_and_the_message_says_how_little_it_stands(workplace, capfd):

@@ -1,6 +1,7 @@
 import json
 import math
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from pat3d.scene.asset import Region
 from pat3d.scene.io import load_scene, save_scene
 from pat3d.scene.model import Attachment, Relation, SceneObject
 from pat3d.scene.naming import slug, unique_slugs
-from tests.scenes import asset_of, placed, scene_of
+from pat3d.scene.physics import LEAST_TILT
+from tests.scenes import asset_of, placed, scene_of, tower
 
 
 @pytest.fixture
@@ -242,3 +244,12 @@ def test_a_file_that_is_no_json_or_too_large_is_refused(scene, tmp_path, monkeyp
     path.write_text(path.read_text()[:-3])
     with pytest.raises(SpecError, match="not valid JSON"):
         load_scene(tmp_path / "s")
+
+
+def test_the_least_tilt_is_kept_and_said_only_where_it_is_not_the_usual_one(tmp_path):
+    usual = tower(1)
+    save_scene(usual, tmp_path / "usual")
+    assert "least_tilt" not in json.loads((tmp_path / "usual" / "scene.json").read_text())
+    assert load_scene(tmp_path / "usual").least_tilt == LEAST_TILT
+    save_scene(replace(usual, least_tilt=2.0), tmp_path / "asked")
+    assert load_scene(tmp_path / "asked").least_tilt == 2.0

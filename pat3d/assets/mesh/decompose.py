@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
+import math
 import os
 import signal
 import subprocess
@@ -52,6 +53,7 @@ def decompose(
     faces: NDArray[np.int32],
     *,
     timeout: float = 120.0,
+    cpu_limit: float | None = None,
     cache_dir: str | os.PathLike[str] | None = None,
     **options: Any,
 ) -> Decomposition:
@@ -64,6 +66,7 @@ def decompose(
         vertices: [m], shape (vertices, 3).
         faces: a closed manifold, counter-clockwise from outside, shape (faces, 3).
         timeout: [s], after which the computation is stopped.
+        cpu_limit: [s] of the processor, after which it is stopped, too; None for any.
         cache_dir: where pieces are kept.
         options: CoACD parameters that differ from DEFAULT_OPTIONS.
 
@@ -81,7 +84,7 @@ def decompose(
     cached = parts is not None
     if parts is None:
         settings = {name: value for name, value in chosen.items() if name != "coacd"}
-        parts = _run(vertices, faces, settings, timeout)
+        parts = _run(vertices, faces, settings, timeout, cpu_limit)
         store_points(path, parts)
     return Decomposition(parts=parts, options=chosen, cached=cached, seconds=time.monotonic() - start)
 
@@ -103,7 +106,11 @@ def _check_closed(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> No
 
 
 def _run(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], options: dict[str, Any], timeout: float
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    options: dict[str, Any],
+    timeout: float,
+    cpu_limit: float | None,
 ) -> list[NDArray[np.float64]]:
     from pat3d.assets.mesh import coacd_worker
 
@@ -112,6 +119,7 @@ def _run(
         np.savez(source, vertices=vertices, faces=faces, options=np.array(json.dumps(options)))
         # -P keeps the worker's folder off the module path, where our file names could shadow others.
         command = [sys.executable, "-P", str(coacd_worker.__file__), str(source), str(target)]
+        command += [] if cpu_limit is None else [str(max(1, math.ceil(cpu_limit)))]
         with open(Path(folder, "log"), "w+b") as log:
             process = subprocess.Popen(
                 command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
@@ -129,6 +137,11 @@ def _run(
                     process.wait()
             log.seek(0)
             said = log.read()[-2000:].decode(errors="replace").strip().splitlines()
+        if cpu_limit is not None and code == -signal.SIGXCPU:
+            raise AssetError(
+                f"convex decomposition of {len(faces)} faces did not end within the {cpu_limit:.3g} s of processor "
+                'time that were left and was stopped; allow more, simplify the mesh, or choose parts "hull" or "box".'
+            )
         if code:
             reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
             raise AssetError(

@@ -29,6 +29,7 @@ from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.planes import planes
+from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset, VisualMesh
 from pat3d.scene.cache import cache_root, content_key, load_points, load_record, store_points
 
@@ -102,6 +103,7 @@ def import_mesh(
     texture_root: str | os.PathLike[str] | None = None,
     cache_dir: str | os.PathLike[str] | None = None,
     timeout: float = 120.0,
+    cpu_limit: float | None = None,
 ) -> Asset:
     """Read, repair, weigh and decompose a mesh file.
 
@@ -122,6 +124,7 @@ def import_mesh(
         texture_root: folder that material files may refer into; the mesh's own where None.
         cache_dir: where decompositions are kept; see `cache_root`.
         timeout: [s] for the convex decomposition of all pieces.
+        cpu_limit: [s] of the processor for all of it; None for any.
 
     Raises:
         AssetError: the file, the mesh or an argument is unusable; the message says why and what would do.
@@ -136,6 +139,7 @@ def import_mesh(
     if key in _imported:
         # A copy, since objects that share an asset share its files.
         return replace(_imported[key])
+    budget = CpuBudget(cpu_limit)
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
@@ -145,7 +149,7 @@ def import_mesh(
         properties = mass_properties(
             fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass
         )
-        made = _make_parts(fixed, parts, cache_dir, timeout)
+        made = _make_parts(fixed, parts, cache_dir, timeout, budget)
     except AssetError as error:
         raise AssetError(f'"{path}": {error}') from error
     # Parts may reach below the mesh by their inflation; what is simulated stands on z = 0.
@@ -199,7 +203,11 @@ class _Parts:
 
 
 def _make_parts(
-    fixed: Repaired, method: PartsMethod, cache_dir: str | os.PathLike[str] | None, timeout: float
+    fixed: Repaired,
+    method: PartsMethod,
+    cache_dir: str | os.PathLike[str] | None,
+    timeout: float,
+    budget: CpuBudget,
 ) -> _Parts:
     start = time.monotonic()
     patches, triangles = surface_patches(fixed.vertices, fixed.faces)
@@ -228,7 +236,7 @@ def _make_parts(
     parts: list[ConvexPart] = []
     record: dict[str, Any] = {}
     for threshold in CAVITY_THRESHOLDS if pit else (THRESHOLD,):
-        pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, ends)
+        pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, ends, budget)
         hulls = [half for piece in pieces for half in fitted(piece, limit)] if len(pieces) <= MAX_PIECES else pieces
         parts, before, after = cover(hulls, points, triangles)
         record = {"options": options, "stuck_out": before, **_record(parts, hulls, after, start)}
@@ -243,7 +251,12 @@ def _make_parts(
 
 
 def _decomposed(
-    fixed: Repaired, threshold: float, hollow: bool, cache_dir: str | os.PathLike[str] | None, ends: float
+    fixed: Repaired,
+    threshold: float,
+    hollow: bool,
+    cache_dir: str | os.PathLike[str] | None,
+    ends: float,
+    budget: CpuBudget,
 ) -> tuple[list[NDArray[np.float64]], dict[str, Any]]:
     """Convex hulls of all pieces by time `ends` [s] of the clock, and CoACD's options where it was needed."""
     pieces = fixed.pieces if len(fixed.pieces) <= MAX_PIECES else (fixed.solid,)
@@ -263,6 +276,7 @@ def _decomposed(
             piece.vertices,
             piece.faces.astype(np.int32),
             timeout=max(ends - time.monotonic(), LEAST_SECONDS),
+            cpu_limit=budget.left,
             cache_dir=cache_dir,
             threshold=round(relative, 6),
         )
