@@ -109,6 +109,9 @@ def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
         pos=placement.base_position, quat=[math.cos(placement.yaw / 2), 0.0, 0.0, math.sin(placement.yaw / 2)]
     )
     spec.attach(child, prefix=PREFIX, frame=frame)
+    # Some arms' first link turns inside the flange that stands on the pedestal, and would rub on that.
+    first = spec.joint(PREFIX + robot.arm_joints[0]).parent.name
+    spec.add_exclude(bodyname1="world", bodyname2=first)
 
 
 def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:

@@ -1,4 +1,9 @@
-"""Any arm and gripper as the environments take them: driven by torques, with a grip site, a base frame and a camera."""
+"""Any arm and gripper as the environments take them: driven by torques, with a grip site, a base frame and a camera.
+
+The drives of an arm make up for the friction in its joints, viscous and dry, as those of real arms do. Here that is
+exact: arm joints have none, and the dry part is taken from the largest torque of their motors. Torques that a
+controller added against friction would let a light wrist stick or creep: less than its friction is enough to move it.
+"""
 
 from __future__ import annotations
 
@@ -118,8 +123,13 @@ def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[f
         spec.delete(spec.actuator(model.actuator(number).name))
     for joint, most in zip(parts.arm_joints, torques, strict=True):
         name = model.joint(joint).name
+        joined = spec.joint(name)
         if not model.jnt_limited[joint]:
-            spec.joint(name).limited, spec.joint(name).range = 1, [-TURNS, TURNS]
+            joined.limited, joined.range = 1, [-TURNS, TURNS]
+        most -= float(joined.frictionloss)
+        if most <= 0.0:
+            raise EnvironmentSetupError(f'joint "{name}": its dry friction is more than its motor\'s largest torque.')
+        joined.frictionloss, joined.damping = 0.0, np.zeros_like(joined.damping)
         motor = spec.add_actuator(
             name=TORQUE + name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, ctrllimited=1, ctrlrange=[-most, most]
         )

@@ -36,6 +36,9 @@ SLICE = 0.003
 FLAT = 0.004
 """Pads are as high as the gap between the fingers stays this near to that at the tips [m]."""
 
+NARROWER = 0.001
+"""What enters a gap that is narrower than the opening by more than this [m] gets stuck in it."""
+
 TIP_LENGTH = 0.03
 """Fingers are as thick as they are over this length from the tips [m]."""
 
@@ -154,6 +157,7 @@ def measure(robot: Robot, model: Any) -> Gripper:
     flat = [bool(abs(gap - best) < FLAT) for gap in gaps[near:]]
     pad = SLICE * (near + (flat.index(False) if False in flat else len(flat)))
     inner = _inner(opened, tip - pad, tip)
+    narrow_at = [number for number, gap in enumerate(gaps) if number > near and gap < inner[1] - inner[0] - NARROWER]
     ends = [np.concatenate([_slice(cloud, _UP, tip - TIP_LENGTH, tip) for cloud in side]) for side in opened]
     closed = _inner(shut, tip - pad, tip)
     return Gripper(
@@ -168,6 +172,7 @@ def measure(robot: Robot, model: Any) -> Gripper:
         closing_axis=(0.0, 1.0, 0.0),
         open_joints=wide,
         closed_joints=narrow,
+        throat=SLICE * narrow_at[0] if narrow_at else np.inf,
     )
 
 
