@@ -31,6 +31,9 @@ TURNS = 2.0 * np.pi
 CAMERA_BACK, CAMERA_ASIDE = 0.14, 0.07
 """The wrist camera is so far behind the grip site, and beside it [m]."""
 
+JAW_TURN = 0.7
+"""By how much single jaws open [rad]."""
+
 GRIP_FRICTION = 1.0
 """Least friction of the fingers, as of rubber pads."""
 
@@ -56,6 +59,7 @@ def assemble(told: Description) -> Robot:
         raise EnvironmentSetupError(f"{told.mjcf}: MuJoCo {mujoco.__version__} refuses it: {error}") from error
     model.opt.gravity[:] = 0.0
     parts = find_parts(model, told)
+    _narrow_jaw(spec, model, parts)
     grip = find_grip(model, parts, told)
     arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
     fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
@@ -80,6 +84,20 @@ def assemble(told: Description) -> Robot:
     )
     known = [qpos[: len(arm_joints)] for qpos in keys.values() if len(qpos) >= len(arm_joints)]
     return start_posture(robot, known)
+
+
+def _narrow_jaw(spec: Any, model: Any, parts: Parts) -> None:
+    """Let a single jaw that turns open by JAW_TURN at most: beyond, it takes nothing that it could not take before."""
+    import mujoco
+
+    if len(parts.gripper_joints) != 1 or model.jnt_type[parts.gripper_joints[0]] != mujoco.mjtJoint.mjJNT_HINGE:
+        return
+    for number in parts.gripper_actuators:
+        low, high = model.actuator_ctrlrange[number]
+        zero = min(max(low, 0.0), high)
+        narrow = [max(low, zero - JAW_TURN), min(high, zero + JAW_TURN)]
+        spec.actuator(model.actuator(number).name).ctrlrange = narrow
+        model.actuator_ctrlrange[number] = narrow
 
 
 def _joined(told: Description) -> Any:

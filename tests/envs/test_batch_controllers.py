@@ -12,7 +12,7 @@ import mujoco
 from pat3d.envs.batch.controllers import BatchedController
 from pat3d.envs.env import TabletopEnv
 from tests.envs.mirror import WORLDS, mirrored
-from tests.envs.own_arm import own_arm
+from tests.envs.own_arm import jaw_arm, own_arm
 
 SINGLE = 2e-5
 """Of the largest torque: rounding of single-precision states, 6e-8, times the conditioning of the inertia."""
@@ -26,8 +26,18 @@ def stiff(tmp_path_factory):
     return str(path)
 
 
-@pytest.mark.parametrize("kind", ["osc", "joint_position"])
-def test_a_batch_s_torques_are_those_of_one_world(stiff, kind):
+@pytest.fixture(scope="module")
+def short(tmp_path_factory):
+    """An arm of five joints, with springs."""
+    path = tmp_path_factory.mktemp("robots") / "short.xml"
+    path.write_text(jaw_arm().replace('damping="0.5"', 'damping="0.5" stiffness="1"'))
+    path.with_suffix(".yaml").write_text("hand: palm")
+    return str(path)
+
+
+@pytest.mark.parametrize(("arm", "kind"), [("stiff", "osc"), ("stiff", "joint_position"), ("short", "osc")])
+def test_a_batch_s_torques_are_those_of_one_world(request, arm, kind):
+    stiff = request.getfixturevalue(arm)
     env = TabletopEnv(robot=stiff, control=kind, sleep=False, task="pick:red mug")
     env.reset(seed=0)
     simulation = env.simulation

@@ -22,7 +22,7 @@ from pat3d.envs.robots.robot import SteadyDrive
 from pat3d.errors import EnvironmentSetupError
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
-from tests.envs.own_arm import own_arm
+from tests.envs.own_arm import jaw_arm, own_arm
 
 CLOSE = 0.005
 """The hand gets this near to where it is sent [m]."""
@@ -33,6 +33,15 @@ def own(tmp_path_factory):
     """The file of an arm with a gripper."""
     path = tmp_path_factory.mktemp("robots") / "arm.xml"
     path.write_text(own_arm())
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def jaw(tmp_path_factory):
+    """The file of an arm of five joints whose gripper is one jaw that turns."""
+    path = tmp_path_factory.mktemp("robots") / "jaw.xml"
+    path.write_text(jaw_arm())
+    path.with_suffix(".yaml").write_text("hand: palm")
     return str(path)
 
 
@@ -144,6 +153,26 @@ def test_the_hand_gets_to_where_it_is_sent(made):
 
 def test_one_s_own_arm_picks_up_the_mug(made):
     assert _picks(made, 3) == 3
+
+
+def test_one_turning_jaw_is_a_gripper(jaw):
+    robot, gripper = make_robot(jaw), measure_gripper(jaw)
+    assert robot.arm_joints == ("turn", "lift", "bend", "flex", "roll")
+    assert {frozenset(side) for side in robot.fingers} == {frozenset(["fixed"]), frozenset(["moving"])}
+    # The jaw turns about a line 20 mm beside and 60 mm behind its tip, by 0.7 rad; thickness and pads are taken off.
+    assert robot.gripper_home == pytest.approx([-0.7], abs=1e-3)
+    assert 0.03 < gripper.opening < 0.05
+    assert gripper.closed < 0.002
+    assert gripper.deepest == gripper.throat < gripper.palm
+
+
+def test_an_arm_of_five_joints_goes_where_it_is_sent_and_picks_up_the_mug(jaw):
+    env = TabletopEnv(robot=jaw, task="pick:red mug")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env, skip_render_check=True)
+    assert _farthest(env) < CLOSE
+    assert _picks(env, 3) == 3
 
 
 @pytest.mark.parametrize("control", ["joint_velocity", "joint_position"])
