@@ -78,6 +78,23 @@ def menagerie_file(model: str, file: str) -> Path:
         ) from error
 
 
+def arms_here() -> tuple[str, ...]:
+    """Names of ARMS whose models, and those of their grippers, are on this computer; needs mujoco_menagerie."""
+    import mujoco_menagerie
+
+    store = mujoco_menagerie.Cache()
+
+    def here(model: str) -> bool:
+        known = mujoco_menagerie.get(model)
+        return (store.root / known.name).is_dir() if store.root else store.is_cached(known)
+
+    return tuple(
+        name
+        for name, entry in ARMS.items()
+        if here(entry.model) and (not entry.gripper or here(_HANDS[entry.gripper][0]))
+    )
+
+
 GRIPPERS = {name: partial(menagerie_file, *where) for name, where in _HANDS.items()}
 """MJCF file of every gripper that an arm can carry."""
 

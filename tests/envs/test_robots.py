@@ -17,7 +17,7 @@ from pat3d.envs.grasping.scripted import Servo
 from pat3d.envs.robots.arms import arm_kinematics, make_robot, measure_gripper
 from pat3d.envs.robots.inertia import inertia_matrix
 from pat3d.envs.robots.kinematics import PlacedArm
-from pat3d.envs.robots.menagerie import ARMS
+from pat3d.envs.robots.menagerie import ARMS, arms_here
 from pat3d.envs.robots.robot import SteadyDrive
 from pat3d.errors import EnvironmentSetupError
 from pat3d.policies_eval.policies.policy import EpisodeStart
@@ -320,6 +320,18 @@ def _of_the_menagerie(name: str) -> TabletopEnv:
             pytest.skip(str(error))
         raise
     return TabletopEnv(robot=name, task="pick:red mug")
+
+
+def test_arms_that_are_here_have_their_model_and_their_gripper_s(tmp_path, monkeypatch):
+    pytest.importorskip("mujoco_menagerie")
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path))
+    assert arms_here() == ()
+    (tmp_path / "universal_robots_ur5e").mkdir()
+    assert arms_here() == ()
+    (tmp_path / "robotiq_2f85").mkdir()
+    assert arms_here() == ("ur5e",)
+    (tmp_path / "franka_emika_panda").mkdir()
+    assert arms_here() == ("panda", "ur5e")
 
 
 @pytest.mark.slow
