@@ -110,7 +110,9 @@ def _joined(told: Description) -> Any:
         if carrier is None:
             sites = ", ".join(site.name for site in spec.sites) or "none"
             raise EnvironmentSetupError(f'{told.mjcf}: no site "{told.attach}" to attach a gripper to. Sites: {sites}.')
-        spec.attach(mujoco.MjSpec.from_file(str(told.gripper)), prefix="gripper/", site=carrier)
+        gripper = mujoco.MjSpec.from_file(str(told.gripper))
+        take_options(gripper, spec)
+        spec.attach(gripper, prefix="gripper/", site=carrier)
     for thing in (*spec.sensors, *spec.lights):
         spec.delete(thing)
     for number, geom in enumerate(spec.geoms):
@@ -122,6 +124,13 @@ def _joined(told: Description) -> Any:
     for body in spec.bodies:
         body.gravcomp = 0.0
     return spec
+
+
+def take_options(child: Any, parent: Any) -> None:
+    """Give `child` the solver's options of `parent`, which hold for both once it is attached; MuJoCo 4 warns if not."""
+    for name in dir(parent.option):
+        if not name.startswith("_"):
+            setattr(child.option, name, getattr(parent.option, name))
 
 
 def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
