@@ -1,4 +1,4 @@
-"""Actions to motor torques of many worlds at once: robosuite's controllers as Warp kernels, a thread a world."""
+"""Actions to motor torques of many worlds at once: the controllers as Warp kernels, a thread a world."""
 
 from __future__ import annotations
 
@@ -40,6 +40,9 @@ class BatchedController:
         self._worlds = data.nworld
         self._device = data.qpos.device
         self._gain, self._damping, largest = _settings(robot, kind)
+        self._uncoupled = robot.robosuite is not None
+        # robosuite's controllers leave the friction of the joints to itself.
+        self._springs = 0.0 if self._uncoupled else 1.0
         joints = [model.joint(prefix + name) for name in robot.arm_joints]
         count = len(joints)
         self.size = (6 if kind == "osc" else count) + 1
@@ -133,13 +136,14 @@ class BatchedController:
             self._launch(self._operational, self._worlds, [
                 self._gain, self._damping, self._start, self._goal_position, self._goal_rotation, self._site,
                 data.site_xpos, data.site_xmat, data.xanchor, data.xaxis, self._ids, self._positions,
-                self._velocities, self._actuators, self._limits, data.qpos, data.qvel, data.qfrc_bias, self._mass,
-                self._place, data.ctrl,
+                self._velocities, self._actuators, self._limits, data.qpos, data.qvel, data.qfrc_bias,
+                data.qfrc_passive, self._springs, self._mass, self._place, self._uncoupled, data.ctrl,
             ])  # fmt: skip
         else:
             self._launch(self._joint_position, self._worlds, [
                 self._gain, self._damping, self._goal, self._positions, self._velocities, self._actuators, self._limits,
-                data.qpos, data.qvel, data.qfrc_bias, self._mass, self._place, data.ctrl,
+                data.qpos, data.qvel, data.qfrc_bias, data.qfrc_passive, self._springs, self._mass, self._place,
+                data.ctrl,
             ])  # fmt: skip
 
     def _launch(self, kernel: Any, dim: Any, inputs: list[Any]) -> None:

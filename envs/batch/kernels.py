@@ -1,7 +1,7 @@
-"""The kernels of a batch: goals and torques of robosuite's controllers, and what has to be noted of every world.
+"""The kernels of a batch: goals and torques of the controllers, and what has to be noted of every world.
 
-They compute what `pat3d.envs.robots.controllers.RobotController` does, in double precision from MuJoCo Warp's single
-one.
+They compute what `pat3d.envs.robots.controllers` and `pat3d.envs.robots.operational_space` do, in double precision from
+MuJoCo Warp's single one.
 """
 # pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false, reportReturnType=false
 # pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAttributeAccessIssue=false
@@ -13,9 +13,13 @@ from typing import Any
 import warp as wp
 
 from pat3d.envs.physics.state import TOUCH
+from pat3d.envs.robots.operational_space import POSTURE_STIFFNESS, STRETCHED
 
-NULLSPACE_STIFFNESS = wp.constant(wp.float64(10.0))
-"""Of the start posture among those of one hand pose [1/s^2], as in robosuite."""
+NULLSPACE_STIFFNESS = wp.constant(wp.float64(POSTURE_STIFFNESS))
+"""Of the start posture among those of one hand pose [1/s^2]."""
+
+REGULAR = wp.constant(wp.float64(STRETCHED / 3.0))
+"""Added to mobilities, as a share of their trace."""
 
 SMALLEST_PIVOT = wp.constant(wp.float64(1.0e-12))
 """Of a factorisation: in a singular posture the hand's apparent inertia has no inverse."""
@@ -127,6 +131,12 @@ def cholesky(size: int) -> tuple[Any, Any, wp.Function, wp.Function]:
     return vector, matrix, factor, solve
 
 
+@wp.func
+def inverse_stretched(a: wp.mat33d) -> wp.mat33d:
+    """Inverse of a mobility that may have none."""
+    return wp.inverse(a + REGULAR * wp.trace(a) * wp.identity(n=3, dtype=wp.float64))
+
+
 @functools.cache
 def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
     """The kernels of the operational-space and of the joint-position controller for an arm of so many joints."""
@@ -164,11 +174,14 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
         qpos: wp.array2d[wp.float32],
         qvel: wp.array2d[wp.float32],
         bias: wp.array2d[wp.float32],
+        passive: wp.array2d[wp.float32],
+        springs: wp.float64,
         mass: wp.array2d[wp.float32],
         place: wp.array2d[int],
+        uncoupled: bool,
         control: wp.array2d[wp.float32],
     ):
-        """Torques J^T (Lambda (K e - D v)) + bias, and what pulls to the start posture without moving the hand."""
+        """Torques of `pat3d.envs.robots.operational_space`; springs is 1 where the bias makes up for them, else 0."""
         world = wp.tid()
         hand = wp.vec3d(site_position[world, site])
         turned = wp.mat33d(site_rotation[world, site])
@@ -206,24 +219,38 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
                 apparent[other, row] = column_of[other]
         linear = wp.mat33d()
         angular = wp.mat33d()
+        mixed = wp.mat33d()
         push = wp.vec3d()
         twist = wp.vec3d()
+        drawn = j * pull
+        drawn_place = wp.vec3d(drawn[0], drawn[1], drawn[2])
+        drawn_turn = wp.vec3d(drawn[3], drawn[4], drawn[5])
         for row in range(3):
             push[row] = gain * shift[row] - damping * moving[row]
             twist[row] = gain * turn[row] - damping * moving[3 + row]
             for column in range(3):
                 linear[row, column] = apparent[row, column]
                 angular[row, column] = apparent[3 + row, 3 + column]
-        force = wp.inverse(linear) * push
-        torque = wp.inverse(angular) * twist
-        # (I - J^T Lambda J M^-1) M pull = M pull - J^T Lambda (J pull)
-        blocked = solve_six(factor_six(apparent), j * pull)
+                mixed[row, column] = apparent[row, 3 + column]
+        force = wp.vec3d()
+        torque = wp.vec3d()
+        if uncoupled:
+            # (I - J^T Lambda J M^-1) M pull = M pull - J^T Lambda (J pull)
+            blocked = solve_six(factor_six(apparent), drawn)
+            force = wp.inverse(linear) * push - wp.vec3d(blocked[0], blocked[1], blocked[2])
+            torque = wp.inverse(angular) * twist - wp.vec3d(blocked[3], blocked[4], blocked[5])
+        else:
+            free = inverse_stretched(linear)
+            across = free * mixed
+            left = inverse_stretched(angular - wp.transpose(mixed) * across)
+            torque = left * (twist - drawn_turn - wp.transpose(across) * (push - drawn_place))
+            force = free * (push - drawn_place) - across * torque
         posture = inertia * pull
         for k in range(joints):
-            total = posture[k] + wp.float64(bias[world, velocities[k]])
+            dof = velocities[k]
+            total = posture[k] + wp.float64(bias[world, dof]) - springs * wp.float64(passive[world, dof])
             for row in range(3):
-                total += j[row, k] * (force[row] - blocked[row])
-                total += j[3 + row, k] * (torque[row] - blocked[3 + row])
+                total += j[row, k] * force[row] + j[3 + row, k] * torque[row]
             control[world, actuators[k]] = wp.float32(wp.clamp(total, limits[0, k], limits[1, k]))
 
     @wp.kernel(module="unique")
@@ -238,6 +265,8 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
         qpos: wp.array2d[wp.float32],
         qvel: wp.array2d[wp.float32],
         bias: wp.array2d[wp.float32],
+        passive: wp.array2d[wp.float32],
+        springs: wp.float64,
         mass: wp.array2d[wp.float32],
         place: wp.array2d[int],
         control: wp.array2d[wp.float32],
@@ -250,7 +279,8 @@ def torque_kernels(joints: int) -> tuple[wp.Kernel, wp.Kernel]:
             pull[k] = gain * away - damping * wp.float64(qvel[world, velocities[k]])
         torque = mass_of(world, mass, place) * pull
         for k in range(joints):
-            total = torque[k] + wp.float64(bias[world, velocities[k]])
+            dof = velocities[k]
+            total = torque[k] + wp.float64(bias[world, dof]) - springs * wp.float64(passive[world, dof])
             control[world, actuators[k]] = wp.float32(wp.clamp(total, limits[0, k], limits[1, k]))
 
     return operational_space, joint_position

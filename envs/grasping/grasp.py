@@ -54,7 +54,7 @@ ANGLES = 16
 """Directions of closing that are tried over half a turn."""
 
 DEPTHS = (0.35, 0.6, 0.95)
-"""How deep to go between the fingers, as shares of the way to the palm."""
+"""How deep to go between the fingers, as shares of the way to the palm or to where the gap gets narrower."""
 
 FACING = math.cos(math.radians(31.0))
 """Least cosine between the closing direction and the surfaces that the pads meet."""
@@ -219,7 +219,7 @@ def _along(
     aside = np.hypot(x - centre[0], y - centre[1])
     found = []
     for share in DEPTHS:
-        tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.palm)
+        tip = np.maximum(below, np.where(np.isfinite(between), between, 0.0) - share * gripper.deepest)
         bite = np.where(np.isfinite(between), between - tip, -np.inf)
         # The middle of what is between the fingers belongs in the middle of the opening.
         solid = np.where(turned_own > tip + SOLID, 1.0, 0.0)

@@ -37,7 +37,13 @@ BENCH_TALLEST = 1.0
 """Scenes higher than this [m] do not stand on a workbench."""
 
 RISER = 0.1
-"""Height of the robot's base above the surface of the work [m]."""
+"""Least height of the robot's base above the surface of the work [m]."""
+
+ABOVE_WORK = 0.2
+"""Least height of a short arm's hand at the start above the surface of the work [m]; its base rises for that."""
+
+SHORT = 0.7
+"""Arms shorter than this [m] stand nearer to their work, in proportion."""
 
 HIGHEST_BASE = 1.4
 """[m] above the floor."""
@@ -121,9 +127,14 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
     site = _Site.of(scene, needs)
     arm = arm_kinematics(robot)
     hand, _ = arm.hand(arm.robot.home)
-    comfortable = float(np.hypot(hand[0], hand[1])) + 0.1
+    scale = min(1.0, arm.length / SHORT)
+    standing = _Standing(
+        away=float(np.hypot(hand[0], hand[1])) + 0.1 * scale,
+        riser=RISER if scale == 1.0 else max(RISER, ABOVE_WORK - float(hand[2])),
+        scale=scale,
+    )
     farthest: dict[str, tuple[float, float, float]] = {}
-    for position, yaw in site.candidates(comfortable):
+    for position, yaw in site.candidates(standing):
         frame = _Frame(position, yaw)
         reached: dict[str, tuple[Grasp, ...]] = {}
         for name, found in grasps.items():
@@ -143,9 +154,21 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
             f'"{name}" is out of reach of {robot}: at best {aside:.2f} m beside and {height} a base that has room to '
             f"stand; choose another object or a smaller scene."
         )
-    if not any(True for _ in site.candidates(comfortable)):
+    if not any(True for _ in site.candidates(standing)):
         raise TaskError(f"{robot} finds no free place to stand near {site.describe()}.")
     raise TaskError(f"{robot} cannot bring its hand to every point of the task near {site.describe()}.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Standing:
+    """How an arm likes to stand."""
+
+    away: float
+    """From its work [m]."""
+    riser: float
+    """Height of its base above the surface of the work [m]."""
+    scale: float
+    """Of the room that it takes, 1 for arms of usual size."""
 
 
 @dataclass(frozen=True)
@@ -269,25 +292,25 @@ class _Site:
     def describe(self) -> str:
         return ", ".join(f'"{name}"' for name in self.work)
 
-    def candidates(self, comfortable: float) -> Iterator[tuple[tuple[float, float, float], float]]:
+    def candidates(self, standing: _Standing) -> Iterator[tuple[tuple[float, float, float], float]]:
         """Places for the base [m] and the direction it faces [rad], best first."""
-        height = self.surface + RISER
+        height = self.surface + standing.riser
         if height > HIGHEST_BASE:
             return
         for direction in DIRECTIONS:
             angle = math.radians(direction)
             for centre in (self.focus, self.middle) if self.bench else (self.middle,):
                 for change in DISTANCES:
-                    away = comfortable + change
+                    away = standing.away + standing.scale * change
                     x, y = centre[0] + away * math.cos(angle), centre[1] + away * math.sin(angle)
-                    if away > 0.25 and self._free(x, y, height):
+                    if away > 0.25 * standing.scale and self._free(x, y, height, BASE_RADIUS * standing.scale):
                         yield (float(x), float(y), height), angle % (2 * math.pi) - math.pi
 
-    def _free(self, x: float, y: float, height: float) -> bool:
+    def _free(self, x: float, y: float, height: float, radius: float) -> bool:
         for low, high in self.boxes.values():
             # A low object may stand where only the base's riser would be above it, but not on a workbench.
             beside = np.hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
-            if beside < BASE_RADIUS and low[2] < height + 0.5:
+            if beside < radius and low[2] < height + 0.5:
                 return False
         return True
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.placement import Placement
+from pat3d.envs.robots.assembly import take_options
 from pat3d.envs.robots.robot import Robot
 from pat3d.errors import EnvironmentSetupError
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names
@@ -108,7 +109,11 @@ def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
     frame = spec.worldbody.add_frame(
         pos=placement.base_position, quat=[math.cos(placement.yaw / 2), 0.0, 0.0, math.sin(placement.yaw / 2)]
     )
+    take_options(child, spec)
     spec.attach(child, prefix=PREFIX, frame=frame)
+    # Some arms' first link turns inside the flange that stands on the pedestal, and would rub on that.
+    first = spec.joint(PREFIX + robot.arm_joints[0]).parent.name
+    spec.add_exclude(bodyname1="world", bodyname2=first)
 
 
 def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:

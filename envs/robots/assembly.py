@@ -1,4 +1,9 @@
-"""Any arm and gripper as the environments take them: driven by torques, with a grip site, a base frame and a camera."""
+"""Any arm and gripper as the environments take them: driven by torques, with a grip site, a base frame and a camera.
+
+The drives of an arm make up for the friction in its joints, viscous and dry, as those of real arms do. Here that is
+exact: arm joints have none, and the dry part is taken from the largest torque of their motors. Torques that a
+controller added against friction would let a light wrist stick or creep: less than its friction is enough to move it.
+"""
 
 from __future__ import annotations
 
@@ -26,6 +31,9 @@ TURNS = 2.0 * np.pi
 CAMERA_BACK, CAMERA_ASIDE = 0.14, 0.07
 """The wrist camera is so far behind the grip site, and beside it [m]."""
 
+JAW_TURN = 0.7
+"""By how much single jaws open [rad]."""
+
 GRIP_FRICTION = 1.0
 """Least friction of the fingers, as of rubber pads."""
 
@@ -51,6 +59,7 @@ def assemble(told: Description) -> Robot:
         raise EnvironmentSetupError(f"{told.mjcf}: MuJoCo {mujoco.__version__} refuses it: {error}") from error
     model.opt.gravity[:] = 0.0
     parts = find_parts(model, told)
+    _narrow_jaw(spec, model, parts)
     grip = find_grip(model, parts, told)
     arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
     fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
@@ -77,6 +86,20 @@ def assemble(told: Description) -> Robot:
     return start_posture(robot, known)
 
 
+def _narrow_jaw(spec: Any, model: Any, parts: Parts) -> None:
+    """Let a single jaw that turns open by JAW_TURN at most: beyond, it takes nothing that it could not take before."""
+    import mujoco
+
+    if len(parts.gripper_joints) != 1 or model.jnt_type[parts.gripper_joints[0]] != mujoco.mjtJoint.mjJNT_HINGE:
+        return
+    for number in parts.gripper_actuators:
+        low, high = model.actuator_ctrlrange[number]
+        zero = min(max(low, 0.0), high)
+        narrow = [max(low, zero - JAW_TURN), min(high, zero + JAW_TURN)]
+        spec.actuator(model.actuator(number).name).ctrlrange = narrow
+        model.actuator_ctrlrange[number] = narrow
+
+
 def _joined(told: Description) -> Any:
     """The arm with its gripper on it, all geoms and actuators named, without sensors and lights."""
     import mujoco
@@ -87,7 +110,9 @@ def _joined(told: Description) -> Any:
         if carrier is None:
             sites = ", ".join(site.name for site in spec.sites) or "none"
             raise EnvironmentSetupError(f'{told.mjcf}: no site "{told.attach}" to attach a gripper to. Sites: {sites}.')
-        spec.attach(mujoco.MjSpec.from_file(str(told.gripper)), prefix="gripper/", site=carrier)
+        gripper = mujoco.MjSpec.from_file(str(told.gripper))
+        take_options(gripper, spec)
+        spec.attach(gripper, prefix="gripper/", site=carrier)
     for thing in (*spec.sensors, *spec.lights):
         spec.delete(thing)
     for number, geom in enumerate(spec.geoms):
@@ -99,6 +124,13 @@ def _joined(told: Description) -> Any:
     for body in spec.bodies:
         body.gravcomp = 0.0
     return spec
+
+
+def take_options(child: Any, parent: Any) -> None:
+    """Give `child` the solver's options of `parent`, which hold for both once it is attached; MuJoCo 4 warns if not."""
+    for name in dir(parent.option):
+        if not name.startswith("_"):
+            setattr(child.option, name, getattr(parent.option, name))
 
 
 def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
@@ -118,8 +150,13 @@ def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[f
         spec.delete(spec.actuator(model.actuator(number).name))
     for joint, most in zip(parts.arm_joints, torques, strict=True):
         name = model.joint(joint).name
+        joined = spec.joint(name)
         if not model.jnt_limited[joint]:
-            spec.joint(name).limited, spec.joint(name).range = 1, [-TURNS, TURNS]
+            joined.limited, joined.range = 1, [-TURNS, TURNS]
+        most -= float(joined.frictionloss)
+        if most <= 0.0:
+            raise EnvironmentSetupError(f'joint "{name}": its dry friction is more than its motor\'s largest torque.')
+        joined.frictionloss, joined.damping = 0.0, np.zeros_like(joined.damping)
         motor = spec.add_actuator(
             name=TORQUE + name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, ctrllimited=1, ctrlrange=[-most, most]
         )

@@ -1,11 +1,11 @@
 """Actions to motor torques: operational-space and joint controllers for any arm that is driven by torques.
 
-osc             f = kp (x* - x) - kd x', the same for the turn, as torques of the joints: see operational_space
+osc             x'' = kp (x* - x) - kd x', the same for the turn, as torques of the joints: see operational_space
 joint_position  torque = M (kp (q* - q) - kd q') + bias
 joint_velocity  torque = M kv (q'* - q') + bias
 
-The bias makes up for gravity, for velocities, and for the damping and the dry friction of the joints, as the drives of
-real arms do: what moves is the arm as if its joints were free.
+The bias makes up for gravity, for velocities and for springs of the joints. Their friction the drives make up for by
+themselves, see `pat3d.envs.robots.assembly`. M has the armature of the joints.
 """
 
 from __future__ import annotations
@@ -29,9 +29,6 @@ STIFFNESS = {"osc": 150.0, "joint_position": 50.0}
 
 SPEED_GAIN = 25.0
 """kv [1/s]."""
-
-OVERCOME, SHARP = 0.9, 4.0
-"""Share of the dry friction that is made up for, and how steeply about zero."""
 
 LARGEST = {"osc": (0.05, 0.05, 0.05, 0.5, 0.5, 0.5), "joint_velocity": (0.5,), "joint_position": (0.05,)}
 """What an action of 1 asks for: changes of the hand's position [m] and orientation [rad], [rad/s], [rad]."""
@@ -95,16 +92,14 @@ class TorqueController:
         self._site, self._base = model.site(prefix + robot.grip_site).id, model.site(prefix + robot.base_site).id
         self._scale = np.broadcast_to(np.array(LARGEST[kind]), 6 if kind == "osc" else len(joints))
         self._bias = np.zeros(model.nv)
-        self._friction = model.dof_frictionloss[self._dofs].copy()
         self._inertia = np.zeros((model.nv, model.nv))
-        self._jacobian = np.zeros((6, model.nv))
         self._operational: Any = None
         if kind == "osc":
             from pat3d.envs.robots.operational_space import OperationalSpace
 
             ids = [joint.id for joint in joints]
             self._operational = OperationalSpace(
-                model, data, ids, self._site, self._actuators, self._limits, self._bias
+                model, data, ids, self._site, self._actuators, self._limits, self._bias, uncoupled=False
             )
             self._kp = np.full(6, STIFFNESS["osc"])
             self._kd = 2.0 * np.sqrt(self._kp)
@@ -144,12 +139,9 @@ class TorqueController:
         data = self._data
         np.subtract(data.qfrc_bias, data.qfrc_passive, out=self._bias)
         if self.kind == "osc":
-            if not self._operational.apply(self._goal, self._goal_rotation, self._kp, self._kd, self._posture):
-                self._near_singular()
+            self._operational.apply(self._goal, self._goal_rotation, self._kp, self._kd, self._posture)
         else:
             self._follow()
-        if self._friction.any():
-            self._overcome_friction()
 
     def _follow(self) -> None:
         """Torques towards positions or velocities of the joints."""
@@ -161,34 +153,6 @@ class TorqueController:
         else:
             wanted = SPEED_GAIN * (self._goal - speed)
         self._write(self._mass() @ wanted + self._bias[self._dofs])
-
-    def _overcome_friction(self) -> None:
-        """Add what dry friction takes, in the direction in which a joint is pushed."""
-        torques, bias = self._data.ctrl[self._actuators], self._bias[self._dofs]
-        least = np.maximum(self._friction, 1e-9)
-        self._write(torques + OVERCOME * self._friction * np.tanh(SHARP * (torques - bias) / least))
-
-    def _near_singular(self) -> None:
-        """The same torques with pseudo-inverses: a stretched arm, or one of fewer than six joints."""
-        import mujoco
-
-        from pat3d.envs.robots.operational_space import POSTURE_STIFFNESS
-
-        model, data = self._model, self._data
-        mujoco.mj_jacSite(model, data, self._jacobian[:3], self._jacobian[3:], self._site)
-        j, speed = self._jacobian[:, self._dofs], data.qvel[self._dofs]
-        mass = self._mass()
-        inverse = np.linalg.inv(mass)
-        rotation = data.site_xmat[self._site].reshape(3, 3)
-        turn = 0.5 * np.cross(rotation.T, self._goal_rotation.T).sum(axis=0)
-        error = np.concatenate([self._goal - data.site_xpos[self._site], turn])
-        wrench = self._kp * error - self._kd * (j @ speed)
-        mobility = j @ inverse @ j.T
-        forces = [np.linalg.pinv(mobility[k : k + 3, k : k + 3], rcond=1e-3) @ wrench[k : k + 3] for k in (0, 3)]
-        k = POSTURE_STIFFNESS
-        wanted = k * (self._posture - data.qpos[self._positions]) - 2.0 * math.sqrt(k) * speed
-        free = mass @ wanted - j.T @ (np.linalg.pinv(mobility, rcond=1e-3) @ (j @ wanted))
-        self._write(j.T @ np.concatenate(forces) + free + self._bias[self._dofs])
 
     def _mass(self) -> Array:
         inertia_matrix(self._model, self._data, self._inertia)

@@ -36,6 +36,12 @@ SLICE = 0.003
 FLAT = 0.004
 """Pads are as high as the gap between the fingers stays this near to that at the tips [m]."""
 
+NARROWER = 0.001
+"""What enters a gap that is narrower than the opening by more than this [m] gets stuck in it."""
+
+JAW_LENGTH = 0.045
+"""What of a hand reaches this near to its tip [m] is the jaw on which a single finger closes."""
+
 TIP_LENGTH = 0.03
 """Fingers are as thick as they are over this length from the tips [m]."""
 
@@ -93,7 +99,11 @@ def find_grip(model: Any, parts: Parts, told: Description) -> GripFrame:
     sides = [[geom for geom, shift in moved.items() if sign * (shift @ across) > 0.0] for sign in (-1.0, 1.0)]
     if not all(sides):
         # One jaw moves towards one that is part of the hand.
-        sides[not sides[0]], sides[bool(sides[0])] = [g for g in geoms if g not in moved], sides[bool(sides[0])]
+        ahead = {geom: float((clouds[0][geom] @ approach).max()) for geom in geoms}
+        fixed = [g for g in geoms if g not in moved and ahead[g] > max(ahead.values()) - JAW_LENGTH]
+        if not fixed:
+            raise EnvironmentSetupError(f"{told.name}: one finger moves, and nothing for it to close on collides.")
+        sides[0 if not sides[0] else 1] = fixed
     middle = [[np.concatenate([cloud[g] for g in side]).mean(axis=0) @ across for side in sides] for cloud in clouds]
     gaps = [abs(high - low) for low, high in middle]
     opened = int(gaps[1] > gaps[0])
@@ -150,10 +160,12 @@ def measure(robot: Robot, model: Any) -> Gripper:
     tip = max(float(cloud[:, 2].max()) for side in opened for cloud in side)
     gaps = _gaps(opened, tip)
     near = next((k for k, gap in enumerate(gaps) if np.isfinite(gap)), 0)
-    best = float(gaps[near : near + 4].min())
-    flat = [bool(abs(gap - best) < FLAT) for gap in gaps[near:]]
+    narrowest = near + int(gaps[near : near + 4].argmin())
+    # The tips of a jaw that turns are further apart than what is behind them.
+    flat = [number <= narrowest or bool(abs(gap - gaps[narrowest]) < FLAT) for number, gap in enumerate(gaps)][near:]
     pad = SLICE * (near + (flat.index(False) if False in flat else len(flat)))
     inner = _inner(opened, tip - pad, tip)
+    narrow_at = [number for number, gap in enumerate(gaps) if number > near and gap < inner[1] - inner[0] - NARROWER]
     ends = [np.concatenate([_slice(cloud, _UP, tip - TIP_LENGTH, tip) for cloud in side]) for side in opened]
     closed = _inner(shut, tip - pad, tip)
     return Gripper(
@@ -168,6 +180,7 @@ def measure(robot: Robot, model: Any) -> Gripper:
         closing_axis=(0.0, 1.0, 0.0),
         open_joints=wide,
         closed_joints=narrow,
+        throat=SLICE * narrow_at[0] if narrow_at else np.inf,
     )
 
 

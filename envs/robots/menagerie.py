@@ -23,12 +23,14 @@ class Entry:
     file: str
     """Of the model's entry points."""
     payload: float
-    """By the maker's data sheet [kg]."""
+    """By the maker's data sheet [kg]; of so101, which has none, what its shoulder holds when it is stretched."""
     gripper: str = ""
     """Of GRIPPERS; none where the robot has its own."""
     attach: str = "attachment_site"
     """The site that carries the gripper."""
     grip_stiffness: float = 1.0
+    """See Description."""
+    hand: str = ""
     """See Description."""
     torques: tuple[float, ...] = ()
     """By the maker's data sheet [N m], where the model does not limit them."""
@@ -50,6 +52,7 @@ ARMS = {
     "xarm7": Entry(model="ufactory_xarm7", file="xarm7", payload=3.5),
     "sawyer": Entry(model="rethink_robotics_sawyer", file="sawyer", payload=4.0, gripper="2f85"),
     "vx300s": Entry(model="trossen_vx300s", file="vx300s", payload=0.75),
+    "so101": Entry(model="robotstudio_so101", file="so101", payload=0.5, hand="gripper"),
 }  # fmt: skip
 """Every arm by its short name."""
 
@@ -75,6 +78,23 @@ def menagerie_file(model: str, file: str) -> Path:
         ) from error
 
 
+def arms_here() -> tuple[str, ...]:
+    """Names of ARMS whose models, and those of their grippers, are on this computer; needs mujoco_menagerie."""
+    import mujoco_menagerie
+
+    store = mujoco_menagerie.Cache()
+
+    def here(model: str) -> bool:
+        known = mujoco_menagerie.get(model)
+        return (store.root / known.name).is_dir() if store.root else store.is_cached(known)
+
+    return tuple(
+        name
+        for name, entry in ARMS.items()
+        if here(entry.model) and (not entry.gripper or here(_HANDS[entry.gripper][0]))
+    )
+
+
 GRIPPERS = {name: partial(menagerie_file, *where) for name, where in _HANDS.items()}
 """MJCF file of every gripper that an arm can carry."""
 
@@ -91,6 +111,7 @@ def menagerie_robot(name: str) -> Robot:
             gripper=GRIPPERS[entry.gripper]() if entry.gripper else None,
             attach=entry.attach,
             torques=entry.torques,
+            hand=entry.hand,
             payload=entry.payload,
             grip_stiffness=entry.grip_stiffness,
         )

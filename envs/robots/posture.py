@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 FORWARD, UPWARD = 0.42, 0.25
 """Where the hand starts, as shares of the length of the arm."""
 
+LOWER = (0.0, -0.15)
+"""The same shares for arms that cannot point down so high."""
+
 TRIES = 24
 """Random postures from which a solution is searched."""
 
@@ -39,8 +42,9 @@ def start_posture(robot: Robot, known: Sequence[Array]) -> Robot:
     starts += [(low + high) / 2, *(low + random.random((TRIES, len(low))) * (high - low))]
     found = []
     down = np.array([0.0, 0.0, -1.0])
-    for share in (1.0, 0.85, 0.7):
-        place = share * length * np.array([FORWARD, 0.0, UPWARD])
+    shares = (1.0, 0.85, 0.7)
+    for share, upward in [*((share, UPWARD) for share in shares), *((1.0, lower) for lower in LOWER)]:
+        place = share * length * np.array([FORWARD, 0.0, upward])
         for start in starts:
             for side in (1.0, -1.0):
                 closing = np.array([0.0, side, 0.0])

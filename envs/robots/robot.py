@@ -6,6 +6,7 @@ tasks and worlds: they go by joints, by the geometry of the hand, and by two sit
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -34,7 +35,7 @@ class Gripper:
     tip: float
     """How far the fingers reach beyond the grip site along the approach direction [m]."""
     palm: float
-    """How far the palm is behind the fingertips [m]: the deepest bite."""
+    """How far the palm is behind the fingertips [m]."""
     hand: tuple[float, float]
     """Width of the hand along and across the closing direction [m]."""
     pad: float
@@ -45,6 +46,13 @@ class Gripper:
     """Positions of the gripper's joints when it is open."""
     closed_joints: tuple[float, ...] = ()
     """The same when it is closed."""
+    throat: float = math.inf
+    """How far behind the fingertips [m] linkages make the gap between the fingers narrower than the opening."""
+
+    @property
+    def deepest(self) -> float:
+        """Bite of what goes in until it meets the palm or the linkages [m]."""
+        return min(self.palm, self.throat)
 
     def joints(self, width: float) -> Array:
         """Positions of the gripper's joints when its pads are about `width` [m] apart."""

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.robots.arms import default_robot
 from pat3d.errors import SpecError, SuiteError
 from pat3d.scene.model import check_least_tilt
 from pat3d.scene.physics import LEAST_TILT
@@ -44,8 +45,9 @@ class Request:
     seed: int = 0
     objects: tuple[int, int] = (5, 8)
     """Fewest and most objects of a scene; containers count."""
-    robot: str = "Panda"
-    """That has to be able to reach and take what a task needs."""
+    robot: str = ""
+    """That has to be able to reach and take what a task needs; "" for the default one, see
+    `pat3d.envs.robots.arms.default_robot`."""
     least_tilt: float = LEAST_TILT
     """Tilt of the ground [degrees], whichever way, that every scene has to stand."""
     picture: int = 320
@@ -55,6 +57,7 @@ class Request:
     a CPU to about 1e-9 m, not bit for bit."""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "robot", self.robot or default_robot())
         unknown = [name for name in self.tasks if name not in TASKS]
         if unknown or not self.tasks or len(set(self.tasks)) != len(self.tasks):
             what = f'no task "{unknown[0]}"' if unknown else "name each task once, and at least one"

@@ -8,6 +8,7 @@ import platform
 import re
 import sys
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
 
@@ -53,6 +54,7 @@ def doctor(options: argparse.Namespace) -> int:
         _packages(table)
         _warp(table)
         _parts(table, progress)
+        _menagerie(table)
         _egl(table)
         _engines(table)
     from pat3d.scene.cache import cache_root
@@ -126,6 +128,19 @@ def _warp(table: Table) -> None:
     except Exception as error:
         # Whatever a broken installation raises is the finding.
         table.add("FAULT", "simulator", f"Warp does not start: {type(error).__name__}: {error}")
+
+
+def _menagerie(table: Table) -> None:
+    """Report which robots' models are here; the others are downloaded when they are first asked for."""
+    from pat3d.envs.robots.menagerie import ARMS, arms_here
+
+    if find_spec("mujoco_menagerie") is None:
+        table.add("no", "robots", "MuJoCo Menagerie would bring them: pip install 'pat3d[robots]'")
+        return
+    here = arms_here()
+    rest = [name for name in ARMS if name not in here]
+    later = f"; downloaded on first use: {', '.join(rest)}" if rest else ""
+    table.add("ok", "robots", f"here: {', '.join(here) or 'none'}{later}")
 
 
 def _engines(table: Table) -> None:

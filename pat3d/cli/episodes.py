@@ -30,7 +30,7 @@ EPISODES = (
 
 SETTINGS = fields(
     RolloutSettings,
-    robot="Panda, UR5e, Sawyer or IIWA",
+    robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
     control_freq="actions a second",

@@ -18,6 +18,7 @@ ENABLES = {
     "eval": "policy evaluation: records, servers, films, demonstrations",
     "ray": "suites made by a cluster",
     "gpu": "thousands of scenes at once on a GPU",
+    "all": "all of these",
 }
 """What an extra is for; one that is not listed is told without words."""
 

@@ -19,23 +19,43 @@ OUTCOME_COLOURS = {
 }
 
 
+EDGE = 18
+"""Room at both ends of an axis for half of its labels [pixel]."""
+
+
+def axis(width: int) -> str:
+    """Labels of the line that `interval_bar` draws, to stand above or below bars of the same width."""
+    labels = "".join(
+        f'<text x="{_x(k / 4, width):.1f}" y="11" text-anchor="middle" font-size="11" fill="#667085">{25 * k} %</text>'
+        for k in range(5)
+    )
+    return f'<svg viewBox="0 0 {width} 14" role="img" style="{_fits(width)}">{labels}</svg>'
+
+
 def interval_bar(rate: Rate, width: int) -> str:
     """A rate and its interval on a line from 0 to 100 %."""
     if not rate.episodes:
         return ""
-
-    def x(share: float) -> float:
-        return 8 + share * (width - 16)
-
     ticks = "".join(
-        f'<line x1="{x(k / 4):.1f}" x2="{x(k / 4):.1f}" y1="6" y2="18" stroke="#d0d5dd"/>' for k in range(5)
+        f'<line x1="{_x(k / 4, width):.1f}" x2="{_x(k / 4, width):.1f}" y1="6" y2="18" stroke="#d0d5dd"/>'
+        for k in range(5)
     )
+    low, high = _x(rate.low, width), _x(rate.high, width)
     return (
-        f'<svg width="{width}" height="24" viewBox="0 0 {width} 24" role="img" style="max-width:100%">'
-        f'<title>{rate}</title><line x1="{x(0):.1f}" x2="{x(1):.1f}" y1="12" y2="12" stroke="#e4e7ec"/>{ticks}'
-        f'<rect x="{x(rate.low):.1f}" y="8" width="{max(x(rate.high) - x(rate.low), 2):.1f}" height="8" rx="4" '
-        f'fill="#9ec9b5"/><circle cx="{x(rate.value):.1f}" cy="12" r="5" fill="#1f7a51"/></svg>'
+        f'<svg viewBox="0 0 {width} 24" role="img" style="{_fits(width)}"><title>{rate}</title>'
+        f'<line x1="{_x(0.0, width):.1f}" x2="{_x(1.0, width):.1f}" y1="12" y2="12" stroke="#e4e7ec"/>{ticks}'
+        f'<rect x="{low:.1f}" y="8" width="{max(high - low, 2):.1f}" height="8" rx="4" '
+        f'fill="#9ec9b5"/><circle cx="{_x(rate.value, width):.1f}" cy="12" r="5" fill="#1f7a51"/></svg>'
     )
+
+
+def _x(share: float, width: int) -> float:
+    return EDGE + share * (width - 2 * EDGE)
+
+
+def _fits(width: int) -> str:
+    """As wide as its place, up to `width`: bars and their axis shrink together."""
+    return f"display:block;width:100%;max-width:{width}px"
 
 
 def outcome_bar(outcomes: Mapping[str, int], width: int) -> str:

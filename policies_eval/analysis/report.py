@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from pat3d.policies_eval.analysis.charts import OUTCOME_COLOURS, interval_bar, outcome_bar
+from pat3d.policies_eval.analysis.charts import OUTCOME_COLOURS, axis, interval_bar, outcome_bar
 from pat3d.policies_eval.analysis.summary import Summary
 from pat3d.policies_eval.run.failures import OUTCOMES
 from pat3d.policies_eval.run.records import Evaluation, write_text
@@ -55,7 +55,12 @@ th, td { padding: 5px 10px 5px 0; border-bottom: 1px solid var(--line); vertical
 .chip { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 7px; }
 video { max-width: 100%; border-radius: 6px; } details summary { cursor: pointer; color: var(--soft); }
 code { background: var(--back); padding: 1px 5px; border-radius: 4px; font-size: 13px; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; } .bar { width: 45%; min-width: 180px; }
+.facts th { width: 180px; vertical-align: top; } .facts td { overflow-wrap: anywhere; }
+@media (max-width: 600px) {
+  main { padding: 16px 10px 40px; } section { padding: 14px 12px; } .big { font-size: 34px; }
+  body { font-size: 14px; } .facts th { width: 110px; } .strip img { width: calc(50% - 4px); }
+}
 """
 
 
@@ -78,6 +83,7 @@ def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, p
             replayer.close()
     parts = [
         _head(evaluation, summary),
+        _settings(evaluation),
         _failures(summary),
         _tables(summary),
         _section("What it looked like", "".join([*films, *strips])) if films or strips else "",
@@ -119,8 +125,29 @@ def _head(evaluation: Evaluation, summary: Summary) -> str:
         f"<p>of the episodes were successful. With 95 % confidence the true rate is between "
         f"<b>{100 * rate.low:.1f} %</b> and <b>{100 * rate.high:.1f} %</b> "
         f'<span class="soft">({escape(summary.interval)} interval, {rate.successes} of {rate.episodes}).</span></p>'
-        f"{interval_bar(rate, 640)}</section>"
+        f"{interval_bar(rate, 640)}{axis(640)}</section>"
     )
+
+
+def _settings(evaluation: Evaluation) -> str:
+    """What was asked for, in words."""
+    said = {**evaluation.manifest["source"], **evaluation.manifest["settings"]}
+    rows = "".join(
+        f"<tr><th>{escape(name.replace('_', ' '))}</th><td>{escape(_in_words(value))}</td></tr>"
+        for name, value in said.items()
+    )
+    return _section("Settings", f'<table class="facts">{rows}</table>')
+
+
+def _in_words(value: Any) -> str:
+    """A value of the manifest without brackets; what is zero in a table of amounts is left out."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_in_words(one)}" for name, one in value.items() if one) or "none"
+    if isinstance(value, list | tuple):
+        return ", ".join(map(_in_words, value)) or "none"
+    return f"{value:g}" if isinstance(value, float) else "none" if value is None else str(value)
 
 
 def _failures(summary: Summary) -> str:
@@ -133,8 +160,8 @@ def _failures(summary: Summary) -> str:
     events = ", ".join(f"{name} in {count}" for name, count in summary.events.items() if count)
     return _section(
         "How the episodes ended",
-        f"{outcome_bar(summary.outcomes, 1000)}<table><tr><th>outcome</th><th class='num'>episodes</th>"
-        f"<th class='num'>share</th><th>meaning</th></tr>{rows}</table>"
+        f"{outcome_bar(summary.outcomes, 1000)}<div class='scroll'><table><tr><th>outcome</th>"
+        f"<th class='num'>episodes</th><th class='num'>share</th><th>meaning</th></tr>{rows}</table></div>"
         f'<p class="soft">Counted from the state of the simulation. Whatever the outcome: {events or "nothing"}.</p>',
     )
 
@@ -146,14 +173,14 @@ def _tables(summary: Summary) -> str:
             continue
         rows = "".join(
             f'<tr><td>{escape(key)}</td><td class="num">{rate.successes}/{rate.episodes}</td>'
-            f'<td class="num">{100 * rate.value:.1f} %</td><td>{interval_bar(rate, 320)}</td></tr>'
+            f'<td class="num">{100 * rate.value:.1f} %</td><td class="bar">{interval_bar(rate, 320)}</td></tr>'
             for key, rate in table.items()
         )
         shown.append(
             _section(
                 f"By {name}",
-                f"<table><tr><th>{escape(name)}</th><th class='num'>successes</th><th class='num'>rate</th>"
-                f"<th>95 % interval, 0 to 100 %</th></tr>{rows}</table>",
+                f"<div class='scroll'><table><tr><th>{escape(name)}</th><th class='num'>successes</th>"
+                f"<th class='num'>rate</th><th class='bar'>95 % interval{axis(320)}</th></tr>{rows}</table></div>",
             )
         )
     return "".join(shown)
@@ -190,14 +217,11 @@ def _happened(result: Result) -> str:
 def _made_with(evaluation: Evaluation, summary: Summary) -> str:
     total = max(sum(summary.seconds.values()), 1e-9)
     times = ", ".join(f"{name} {value:.1f} s ({100 * value / total:.1f} %)" for name, value in summary.seconds.items())
-    settings = ", ".join(f"{name} {value}" for name, value in sorted(evaluation.manifest["settings"].items()))
-    source = ", ".join(f"{name} {value}" for name, value in sorted(evaluation.manifest["source"].items()))
     versions = ", ".join(f"{name} {value}" for name, value in sorted(summary.engine.items()))
     folder = escape(str(evaluation.folder))
     return _section(
         "Made with",
-        f"<p><b>Engine</b> {escape(versions)}</p><p><b>Episodes</b> {escape(source)}</p>"
-        f"<p><b>Settings</b> {escape(settings)}</p><p><b>Time</b> {times}</p>"
+        f"<p><b>Engine</b> {escape(versions)}</p><p><b>Time</b> {times}</p>"
         f"<p>Any episode, again, bit for bit: <code>pat3d replay {folder} --episode N --video out.mp4</code>. "
         f"Another policy on the same episodes: <code>pat3d compare {folder} OTHER</code>.</p>",
     )

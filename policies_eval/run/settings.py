@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.robots.arms import default_robot
 from pat3d.errors import EvaluationError
 
 
@@ -12,7 +13,8 @@ from pat3d.errors import EvaluationError
 class RolloutSettings:
     """What is the same for every episode of an evaluation."""
 
-    robot: str = "Panda"
+    robot: str = ""
+    """"" for the default one, see `pat3d.envs.robots.arms.default_robot`."""
     control: str = "osc"
     obs: str = "state"
     control_freq: float = 20.0
@@ -28,6 +30,7 @@ class RolloutSettings:
     """A policy that thinks for longer hangs [s]."""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "robot", self.robot or default_robot())
         for name, low, high in (("max_steps", 1, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
             if not low <= getattr(self, name) <= high:
                 raise EvaluationError(f"{name} is {low} to {high}, not {getattr(self, name)}.")

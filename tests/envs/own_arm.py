@@ -53,3 +53,32 @@ def own_arm(*, gripper: str = "position", torque: str = 'forcerange="-80 80"', f
     {tied if fingers else ""}
     <contact><exclude body1="base" body2="link1"/>{excluded}</contact>
     <actuator>{arm}{grip if fingers else ""}</actuator></mujoco>"""
+
+
+def jaw_arm() -> str:
+    """The MJCF of five hinges and one jaw that turns towards a fixed one."""
+    limit = 'range="-2.6 2.6" armature="0.03" damping="0.5" frictionloss="0.1"'
+    return f"""<mujoco model="jaw"><compiler angle="radian"/>
+    <worldbody><body name="base"><geom type="cylinder" size="0.05 0.04" pos="0 0 0.04" mass="2"/>
+     <body name="turn" pos="0 0 0.09"><joint name="turn" axis="0 0 1" {limit}/>
+      <geom type="sphere" size="0.03" mass="0.4"/>
+      <body name="upper" pos="0 0 0.04"><joint name="lift" axis="0 1 0" {limit}/>
+       <geom type="capsule" size="0.02" fromto="0 0 0.04 0 0 0.22" mass="0.4"/>
+       <body name="fore" pos="0 0 0.25"><joint name="bend" axis="0 1 0" {limit}/>
+        <geom type="capsule" size="0.02" fromto="0 0 0.04 0 0 0.19" mass="0.3"/>
+        <body name="wrist" pos="0 0 0.22"><joint name="flex" axis="0 1 0" {limit}/>
+         <geom type="sphere" size="0.02" mass="0.1"/>
+         <body name="palm" pos="0 0 0.05"><joint name="roll" axis="0 0 1" {limit}/>
+          <geom name="palm" type="box" size="0.015 0.03 0.01" pos="0 0 0.01" mass="0.1"/>
+          <geom name="fixed" type="box" size="0.01 0.004 0.03" pos="0 -0.01 0.05" mass="0.05" condim="4"/>
+          <body name="jaw" pos="0 0.02 0.02">
+           <joint name="jaw" axis="1 0 0" range="-1.7 0.2" armature="0.01" damping="0.5"/>
+           <geom name="moving" type="box" size="0.01 0.004 0.03" pos="0 -0.01 0.03" mass="0.05" condim="4"/>
+    </body></body></body></body></body></body></body></worldbody>
+    <contact><exclude body1="base" body2="turn"/><exclude body1="turn" body2="upper"/>
+     <exclude body1="upper" body2="fore"/><exclude body1="fore" body2="wrist"/>
+     <exclude body1="wrist" body2="palm"/><exclude body1="palm" body2="jaw"/></contact>
+    <actuator>
+     {"".join(f'<motor joint="{name}" ctrlrange="-15 15"/>' for name in ("turn", "lift", "bend", "flex", "roll"))}
+     <position name="jaw" joint="jaw" kp="50" ctrlrange="-1.7 0.2" forcerange="-4 4"/>
+    </actuator></mujoco>"""

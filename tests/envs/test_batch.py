@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -25,8 +23,8 @@ from pat3d.envs.physics.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError  # noqa: E402
 from pat3d.generation.pipeline import generate  # noqa: E402
+from tests.envs.mirror import WORLDS, mirrored  # noqa: E402
 
-WORLDS = 3
 SINGLE = 1e-5
 """Torques computed from single-precision states differ by a few rounding errors of 6e-8, times the arm's 40 N m range
 over the torques' size and the conditioning of its inertia."""
@@ -49,27 +47,6 @@ def envs(block, request):
     made = BatchedTabletopEnv(WORLDS, device=request.param, scene=block, max_episode_steps=3)
     yield made
     made.close()
-
-
-def mirrored(data: Any, control: Any = None) -> Any:
-    """MuJoCo's state as MuJoCo Warp holds it, in every world."""
-
-    def array(values, dtype):
-        repeated = np.broadcast_to(values, (WORLDS, *np.shape(values)))
-        return wp.array(np.ascontiguousarray(repeated), dtype=dtype, device="cpu")
-
-    return SimpleNamespace(
-        nworld=WORLDS,
-        qpos=array(data.qpos, wp.float32),
-        qvel=array(data.qvel, wp.float32),
-        qfrc_bias=array(data.qfrc_bias, wp.float32),
-        M=array(data.M[None], wp.float32),
-        ctrl=array(data.ctrl, wp.float32) if control is None else control,
-        site_xpos=array(data.site_xpos, wp.vec3),
-        site_xmat=array(data.site_xmat.reshape(-1, 3, 3), wp.mat33),
-        xanchor=array(data.xanchor, wp.vec3),
-        xaxis=array(data.xaxis, wp.vec3),
-    )
 
 
 @pytest.mark.parametrize(

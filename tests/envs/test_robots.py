@@ -14,14 +14,15 @@ from gymnasium.utils.env_checker import check_env
 
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.grasping.scripted import Servo
-from pat3d.envs.robots.arms import make_robot, measure_gripper
+from pat3d.envs.robots.arms import arm_kinematics, make_robot, measure_gripper
 from pat3d.envs.robots.inertia import inertia_matrix
-from pat3d.envs.robots.menagerie import ARMS
+from pat3d.envs.robots.kinematics import PlacedArm
+from pat3d.envs.robots.menagerie import ARMS, arms_here
 from pat3d.envs.robots.robot import SteadyDrive
 from pat3d.errors import EnvironmentSetupError
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
-from tests.envs.own_arm import own_arm
+from tests.envs.own_arm import jaw_arm, own_arm
 
 CLOSE = 0.005
 """The hand gets this near to where it is sent [m]."""
@@ -32,6 +33,15 @@ def own(tmp_path_factory):
     """The file of an arm with a gripper."""
     path = tmp_path_factory.mktemp("robots") / "arm.xml"
     path.write_text(own_arm())
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def jaw(tmp_path_factory):
+    """The file of an arm of five joints whose gripper is one jaw that turns."""
+    path = tmp_path_factory.mktemp("robots") / "jaw.xml"
+    path.write_text(jaw_arm())
+    path.with_suffix(".yaml").write_text("hand: palm")
     return str(path)
 
 
@@ -96,6 +106,12 @@ def test_gymnasium_s_checker_accepts_an_environment_with_one_s_own_arm(made):
         check_env(made, skip_render_check=True)
 
 
+def _reaches(env, goal, rotation) -> bool:
+    place = env.placement
+    arm = PlacedArm(arm_kinematics(env.robot), place.base_position, place.yaw)
+    return arm.solve(goal, rotation, env.simulation.arm.copy()) is not None
+
+
 def _farthest(env) -> float:
     """How far the hand stays from poses around its start that it is sent to, at most [m]."""
     worst = 0.0
@@ -104,7 +120,9 @@ def _farthest(env) -> float:
     ):
         env.reset(seed=number)
         state, servo = env.simulation.state, Servo(env)
-        goal, rotation = state.hand + shift, state.hand_rotation.copy()
+        rotation = state.hand_rotation.copy()
+        while not _reaches(env, goal := state.hand + shift, rotation):
+            shift /= 2.0
         for _ in range(60):
             env.step(servo.towards(goal, rotation, -1.0)[0])
         worst = max(worst, float(np.linalg.norm(env.simulation.state.hand - goal)))
@@ -137,6 +155,26 @@ def test_one_s_own_arm_picks_up_the_mug(made):
     assert _picks(made, 3) == 3
 
 
+def test_one_turning_jaw_is_a_gripper(jaw):
+    robot, gripper = make_robot(jaw), measure_gripper(jaw)
+    assert robot.arm_joints == ("turn", "lift", "bend", "flex", "roll")
+    assert {frozenset(side) for side in robot.fingers} == {frozenset(["fixed"]), frozenset(["moving"])}
+    # The jaw turns about a line 20 mm beside and 60 mm behind its tip, by 0.7 rad; thickness and pads are taken off.
+    assert robot.gripper_home == pytest.approx([-0.7], abs=1e-3)
+    assert 0.03 < gripper.opening < 0.05
+    assert gripper.closed < 0.002
+    assert gripper.deepest == gripper.throat < gripper.palm
+
+
+def test_an_arm_of_five_joints_goes_where_it_is_sent_and_picks_up_the_mug(jaw):
+    env = TabletopEnv(robot=jaw, task="pick:red mug")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env, skip_render_check=True)
+    assert _farthest(env) < CLOSE
+    assert _picks(env, 3) == 3
+
+
 @pytest.mark.parametrize("control", ["joint_velocity", "joint_position"])
 def test_joint_control_moves_the_joint_it_names_and_holds_the_others(own, control):
     env = TabletopEnv(robot=own, task="pick:red mug", control=control)
@@ -150,22 +188,59 @@ def test_joint_control_moves_the_joint_it_names_and_holds_the_others(own, contro
     assert np.abs(moved[1:]).max() < 0.02
 
 
-def test_near_a_singular_posture_pseudo_inverses_give_the_same_torques(made):
-    """In regular postures both ways agree, so that the change from one to the other is no jolt."""
+def _accelerations(env, joints) -> tuple[np.ndarray, np.ndarray]:
+    """Of the hand at rest in a posture: what its controller wants, and what MuJoCo finds but for contacts."""
+    simulation, controller = env.simulation, env.simulation.controller
+    model, data = simulation.model, simulation.data
+    data.qpos[simulation._arm], data.qvel[:] = joints, 0.0
+    mujoco.mj_forward(model, data)
+    controller.set_action(np.array([0.3, -0.4, 0.2, 0.2, 0.1, -0.3, -1.0]))
+    limits = controller._limits.copy()
+    controller._limits[:] = [[-1e6] * len(joints), [1e6] * len(joints)]
+    controller.control()
+    controller._limits[:] = limits
+    wanted = controller._kp[0] * np.concatenate(
+        [
+            controller._goal - data.site_xpos[controller._site],
+            0.5 * np.cross(data.site_xmat[controller._site].reshape(3, 3).T, controller._goal_rotation.T).sum(axis=0),
+        ]
+    )
+    mujoco.mj_forward(model, data)
+    jacobian = np.zeros((6, model.nv))
+    mujoco.mj_jacSite(model, data, jacobian[:3], jacobian[3:], controller._site)
+    return wanted, jacobian @ data.qacc_smooth
+
+
+def test_the_hand_accelerates_as_the_controller_wants(made):
+    """2 %: what the regular inverse takes away, and the fingers, which move by themselves."""
     made.reset(seed=0)
-    simulation, controller = made.simulation, made.simulation.controller
     random = np.random.default_rng(0)
-    for _ in range(20):
-        simulation.data.qpos[simulation._arm] = made.placement.start + random.normal(0.0, 0.2, 7)
-        simulation.data.qvel[:] = random.normal(0.0, 0.2, simulation.model.nv)
-        mujoco.mj_forward(simulation.model, simulation.data)
-        controller.set_action(random.uniform(-1.0, 1.0, 7))
-        controller._limits[:] = [[-1e6] * 7, [1e6] * 7]
-        controller.control()
-        compiled = simulation.data.ctrl[controller._actuators].copy()
-        controller._near_singular()
-        np.testing.assert_allclose(simulation.data.ctrl[controller._actuators], compiled, rtol=1e-6, atol=1e-6)
-    controller._limits[:] = [[-80.0] * 7, [80.0] * 7]
+    for _ in range(10):
+        wanted, found = _accelerations(made, made.placement.start + random.normal(0.0, 0.2, 7))
+        np.testing.assert_allclose(found[:3], wanted[:3], atol=0.02 * np.linalg.norm(wanted[:3]))
+        np.testing.assert_allclose(found[3:], wanted[3:], atol=0.02 * np.linalg.norm(wanted[3:]))
+
+
+def test_a_stretched_arm_still_moves_its_hand_where_it_can(made):
+    """Straight up, all bending axes are x of the world: the hand goes along y, and neither along x nor up."""
+    made.reset(seed=0)
+    wanted, found = _accelerations(made, np.zeros(7))
+    np.testing.assert_allclose(found[1], wanted[1], rtol=0.02)
+    np.testing.assert_allclose(found[[0, 2]], 0.0, atol=1e-6)
+    assert np.abs(found).max() < 100.0
+
+
+def test_dry_friction_is_taken_from_the_torques_of_the_motors(tmp_path):
+    (tmp_path / "arm.xml").write_text(own_arm().replace('damping="1"', 'damping="1" frictionloss="2"'))
+    robot = make_robot(str(tmp_path / "arm.xml"))
+    model = robot.new_spec().compile()
+    dofs = [int(model.joint(name).dofadr[0]) for name in robot.arm_joints]
+    assert not model.dof_frictionloss[dofs].any()
+    assert not model.dof_damping[dofs].any()
+    assert [float(model.actuator(name).ctrlrange[1]) for name in robot.arm_actuators] == 7 * [78.0]
+    (tmp_path / "weak.xml").write_text(own_arm().replace('damping="1"', 'frictionloss="90"'))
+    with pytest.raises(EnvironmentSetupError, match=r'joint "j1": its dry friction is more than'):
+        make_robot(str(tmp_path / "weak.xml"))
 
 
 def test_the_inertia_matrix_is_that_of_the_kinetic_energy(own):
@@ -236,12 +311,6 @@ def test_no_such_robot_or_file_is_answered_with_what_there_is(tmp_path):
         make_robot(str(tmp_path / "nothing.xml"))
 
 
-FOLLOW = ("panda", "ur5e", "ur10e", "gen3", "sawyer")
-"""Arms whose hand gets within 5 mm of every pose that it is sent to."""
-
-PICK = tuple(name for name in ARMS if name not in ("ur10e", "vx300s"))
-
-
 def _of_the_menagerie(name: str) -> TabletopEnv:
     """The environment of an arm; without its model, which is downloaded, there is nothing to test."""
     try:
@@ -253,6 +322,18 @@ def _of_the_menagerie(name: str) -> TabletopEnv:
     return TabletopEnv(robot=name, task="pick:red mug")
 
 
+def test_arms_that_are_here_have_their_model_and_their_gripper_s(tmp_path, monkeypatch):
+    pytest.importorskip("mujoco_menagerie")
+    monkeypatch.setenv("MENAGERIE_ROOT", str(tmp_path))
+    assert arms_here() == ()
+    (tmp_path / "universal_robots_ur5e").mkdir()
+    assert arms_here() == ()
+    (tmp_path / "robotiq_2f85").mkdir()
+    assert arms_here() == ("ur5e",)
+    (tmp_path / "franka_emika_panda").mkdir()
+    assert arms_here() == ("panda", "ur5e")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ARMS)
 def test_gymnasium_s_checker_accepts_every_arm_of_the_menagerie(name):
@@ -262,12 +343,12 @@ def test_gymnasium_s_checker_accepts_every_arm_of_the_menagerie(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", FOLLOW)
+@pytest.mark.parametrize("name", ARMS)
 def test_an_arm_of_the_menagerie_goes_where_it_is_sent(name):
     assert _farthest(_of_the_menagerie(name)) < CLOSE
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", PICK)
+@pytest.mark.parametrize("name", ARMS)
 def test_an_arm_of_the_menagerie_picks_up_the_mug(name):
     assert _picks(_of_the_menagerie(name), 3) == 3

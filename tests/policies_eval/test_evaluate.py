@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import time
 from collections import deque
 from dataclasses import replace
@@ -17,8 +18,10 @@ pytest.importorskip("robosuite")
 
 from pat3d.cli.main import main
 from pat3d.errors import EvaluationError
+from pat3d.policies_eval.analysis.charts import axis, interval_bar
 from pat3d.policies_eval.analysis.compare import compare_evaluations, show_leaderboard, verdict
 from pat3d.policies_eval.analysis.report import write_report
+from pat3d.policies_eval.analysis.statistics import Rate
 from pat3d.policies_eval.analysis.summary import summarise
 from pat3d.policies_eval.policies.registry import RandomPolicy
 from pat3d.policies_eval.run import evaluate as module
@@ -175,6 +178,30 @@ def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
     out = capsys.readouterr().out
     assert out.count("policy errors") == 2
     assert "not comparable" in out
+
+
+def test_the_report_s_settings_come_first_and_without_brackets(done):
+    run = read_evaluation(done.folder)
+    run.manifest["source"] = {"perturbation": {"pose": 0.04, "mass": 0.0}, "tasks": ["pick:red mug", "pick:banana"]}
+    page = write_report(run, summarise(run), pictures=False).read_text(encoding="utf-8")
+    text = re.sub(r"<(style|svg)\b.*?</\1>|<[^>]*>", " ", page, flags=re.DOTALL)
+    assert not set("{}[]'") & set(text)
+    assert text.index("Settings") < text.index("How the episodes ended")
+    assert re.search(r"robot\s+\w+", text)
+    assert re.search(r"perturbation\s+pose 0.04\s+tasks\s+pick:red mug, pick:banana\s", text)
+
+
+def test_an_axis_says_where_on_a_bar_the_quarters_are():
+    """Labels, ticks, the rate and its interval are at the same places, whatever the width."""
+    for width in (320, 640):
+        rate = Rate(successes=1, episodes=2, low=0.25, high=0.75)
+        labels = [float(x) for x in re.findall(r'<text x="([\d.]+)"', axis(width))]
+        bar = interval_bar(rate, width)
+        assert labels == [float(x) for x in re.findall(r'x1="([\d.]+)"[^>]*y1="6"', bar)]
+        assert float(re.search(r'cx="([\d.]+)"', bar)[1]) == labels[2]
+        left, wide = map(float, re.search(r'<rect x="([\d.]+)" y="8" width="([\d.]+)"', bar).groups())
+        assert [left, left + wide] == pytest.approx([labels[1], labels[3]], abs=0.2)
+        assert 0.0 < labels[0] < labels[-1] < width
 
 
 def test_the_report_is_one_page_without_links_to_anything(done):
