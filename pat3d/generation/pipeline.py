@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -146,8 +146,11 @@ def run_prompt(
     folder, clock = check_target(out), Clock()
     with clock("planning"):
         progress(Event(stage="planning"))
-        plan = (planner or GrammarPlanner(allow_proxies)).plan(prompt)
-    return make(request_of(plan, allow_proxies), folder=folder, settings=settings, clock=clock, progress=progress)
+        chosen = planner or GrammarPlanner(allow_proxies)
+        request = request_of(chosen.plan(prompt), allow_proxies)
+        if record := getattr(chosen, "record", dict)():
+            request = replace(request, record={**request.record, "planner": record})
+    return make(request, folder=folder, settings=settings, clock=clock, progress=progress)
 
 
 def run_spec(
