@@ -46,7 +46,9 @@ class EpisodeConfig:
     control: str = "osc"
     """"osc", "joint_velocity" or "joint_position"."""
     reward: str = "sparse"
-    """"sparse" or "dense"."""
+    """"sparse", 1 at success; or "dense", see pat3d.envs.reward."""
+    discount: float = 0.99
+    """The learner's, a step, for the dense reward: with it, no episode without success returns more than one with."""
     control_freq: float = 20.0
     """Actions a second [1/s]."""
     start_noise: float = 0.02
@@ -55,6 +57,7 @@ class EpisodeConfig:
     def __post_init__(self) -> None:
         self._set("robot", self.robot or default_robot())
         one_of("reward", self.reward, REWARDS)
+        self._set("discount", number("discount", self.discount, 0.0, 1.0, "a step"))
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
         self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))
 

@@ -15,6 +15,7 @@ from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import compose
 from pat3d.envs.rendering.pictures import Pictures
+from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
@@ -31,8 +32,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     """A robot arm in front of a verified scene, with a task.
 
     Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the
-    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the
-    task's progress in [0, 1], see the judge of each task.
+    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one follows
+    the task's progress in [0, 1], see `pat3d.envs.reward` and the judge of each task.
 
     Args:
         scene: see TabletopConfig, whose fields are the keyword arguments.
@@ -79,6 +80,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._enter(self._loaded, self._task_given)
         self._judge: Judge | None = None
         self._verdicts: Verdicts
+        self._potential = 0.0
         self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
         size = self.simulation.controller.size
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
@@ -142,6 +144,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.judge(self.simulation.states)
         self._verdicts = self._judge.update(np.zeros(1))
+        self._potential = float(self._verdicts.progress[0])
         return self._observation(), self._info()
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -156,7 +159,10 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._verdicts = self._judge.update(self._period)
         broken = self.simulation.broken
         success = bool(self._verdicts.success[0]) and not broken
-        reward = float(success if self.reward == "sparse" else self._verdicts.progress[0])
+        before, self._potential = self._potential, 0.0 if broken else float(self._verdicts.progress[0])
+        reward = float(success)
+        if self.reward == "dense":
+            reward = dense(before, self._potential, success, self.config.discount)
         return self._observation(), reward, success, broken, self._info()
 
     def render(self) -> NDArray[Any] | None:  # type: ignore[override]

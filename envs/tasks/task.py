@@ -45,7 +45,7 @@ class Verdict:
     predicates: Mapping[str, bool] = field(default_factory=dict)
     """What success is made of, by name."""
     progress: float = 0.0
-    """In [0, 1]; the dense reward."""
+    """In [0, 1]; the dense reward is made of its differences."""
     target: str = ""
     """The object that the next move is about."""
     goal: tuple[float, float, float] = (0.0, 0.0, 0.0)

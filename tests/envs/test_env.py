@@ -17,6 +17,7 @@ import pat3d  # noqa: E402, F401
 from pat3d.envs.env import TabletopEnv  # noqa: E402
 from pat3d.envs.grasping.scripted import ScriptedPick  # noqa: E402
 from pat3d.envs.physics.loading import default_scene, load  # noqa: E402
+from pat3d.envs.reward import BONUS  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, TaskError  # noqa: E402
 
 
@@ -212,21 +213,25 @@ def test_a_reset_compiles_and_plans_nothing_again(env, monkeypatch):
     assert len(passes) <= 3
 
 
-def test_the_dense_reward_grows_along_a_pick():
-    made = TabletopEnv(reward="dense")
-    made.reset(seed=0)
+def test_the_progress_grows_along_a_pick_and_the_dense_reward_is_its_differences():
+    made = TabletopEnv(reward="dense", discount=0.97)
+    _, info = made.reset(seed=0)
     hand = ScriptedPick(made)
-    rewards = []
+    progress, rewards = [info["progress"]], []
     for _ in range(100):
-        _, reward, success, *_ = made.step(hand.action())
+        _, reward, success, _, info = made.step(hand.action())
+        progress.append(info["progress"])
         rewards.append(reward)
         if success:
             break
-    assert rewards[-1] == 1.0
-    assert 0.0 <= rewards[0] < 0.2
-    assert all(0.0 <= reward <= 1.0 for reward in rewards)
+    assert progress[-1] == 1.0
+    assert 0.0 <= progress[0] < 0.2
+    assert all(0.0 <= one <= 1.0 for one in progress)
     # From closing the fingers on it never falls back by more than the hand's wobble.
-    assert np.diff(rewards[36:]).min() > -0.05
+    assert np.diff(progress[37:]).min() > -0.05
+    differences = 0.97 * np.array(progress[1:]) - progress[:-1]
+    np.testing.assert_allclose(rewards[:-1], differences[:-1], atol=1e-12)
+    assert rewards[-1] == pytest.approx(differences[-1] + BONUS)
 
 
 def test_the_time_limit_truncates():
