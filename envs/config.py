@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.physics.world import CAMERAS
-from pat3d.envs.registration import MAX_EPISODE_STEPS
+from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.tasks.task import Task
@@ -71,7 +71,7 @@ class TabletopConfig(EpisodeConfig):
 
     cameras: Sequence[str] = ("agentview", "wrist")
     """Those of the rgb and rgbd observations."""
-    image_size: tuple[int, int] = (128, 128)
+    image_size: tuple[int, int] = (IMAGE_SIDE, IMAGE_SIDE)
     """Height and width of the pictures [pixel]."""
     segmentation: bool = False
     """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
@@ -102,13 +102,14 @@ class TabletopConfig(EpisodeConfig):
 class BatchConfig(EpisodeConfig):
     """Arguments of `pat3d.envs.vector.BatchedTabletopEnv`."""
 
-    max_episode_steps: int = MAX_EPISODE_STEPS
-    """After which an episode is truncated."""
+    max_episode_steps: int | None = None
+    """After which an episode is truncated; None for as many as the task takes."""
     capacity: tuple[int, int] | None = None
     """Contacts and rows of constraints that each world has buffers for; measured where None."""
 
     def __post_init__(self) -> None:
-        whole("max_episode_steps", self.max_episode_steps, 1)
+        if self.max_episode_steps is not None:
+            whole("max_episode_steps", self.max_episode_steps, 1)
         super().__post_init__()
         one_of("control", self.control, CONTROLS)
         if self.obs != "state":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any, ClassVar
 
 import gymnasium
@@ -101,6 +102,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         return self.task.instruction(self.scene)
 
     @property
+    def horizon(self) -> int:
+        """Steps in which the task can be done without haste."""
+        return self.task.horizon(self.scene, self.control_freq)
+
+    @property
     def objects(self) -> tuple[str, ...]:
         """Names of the rows of the state's "objects"."""
         return self.simulation.world.objects
@@ -174,6 +180,15 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth)
         return picture.depth if depth else picture.image
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies and pickles are environments about the same, with the same random numbers to come, before a reset."""
+        about = (self._loaded, self._task_given, None if self._chosen is None else self._chosen.current)
+        return _again, (self.config, about, self._np_random, self._np_random_seed)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TabletopEnv:
+        """As `__reduce__` says."""
+        return pickle.loads(pickle.dumps(self))
+
     def close(self) -> None:
         """Free the graphics context."""
         if self._pictures is not None:
@@ -225,6 +240,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         toppled, fell = state.states.upsets()
         return {
             "success": bool(verdicts.success[0]),
+            # As stable-baselines3 and LeRobot call it.
+            "is_success": bool(verdicts.success[0]),
             "predicates": {name: bool(holds[0]) for name, holds in verdicts.predicates.items()},
             "progress": float(verdicts.progress[0]),
             "toppled": state.named(toppled),
@@ -233,6 +250,19 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             **self._about,
             **({} if self._chosen is None else {"index": self._chosen.current}),
         }
+
+
+def _again(
+    config: TabletopConfig, about: tuple[LoadedScene, str | Task | None, int | None], random: Any, seed: int | None
+) -> TabletopEnv:
+    """The environment that `TabletopEnv.__reduce__` took apart."""
+    made = TabletopEnv(config=config)
+    made._loaded, made._task_given, index = about
+    if made._chosen is not None and index is not None:
+        made._chosen.current = index
+    made._enter(made._loaded, made._task_given)
+    made._np_random, made._np_random_seed = random, seed
+    return made
 
 
 def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:

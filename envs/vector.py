@@ -131,7 +131,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
         self.state = BatchState(self.physics)
         self.num_envs, self._reward, self._noise = num_envs, config.reward, config.start_noise
-        self._limit, self._discount = config.max_episode_steps, config.discount
+        self._limit = config.max_episode_steps or self.task.horizon(loaded.scene, control_freq)
+        self._discount = config.discount
         spec = ObservationSpec(
             kind="state", cameras=("agentview",), height=8, width=8, segmentation=False, max_objects=len(world.objects)
         )
@@ -233,6 +234,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         verdicts, (toppled, fell) = self._verdicts, self.state.upsets()
         return {
             "success": verdicts.success,
+            "is_success": verdicts.success,
             "progress": verdicts.progress,
             "predicates": dict(verdicts.predicates),
             "toppled": toppled[:, self._moving],
