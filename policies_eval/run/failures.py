@@ -94,7 +94,9 @@ class Watcher:
         self._touched: set[str] = set()
         self._collided: dict[str, None] = {}
         self._closest, self._highest = np.inf, 0.0
-        self._furthest, self._idle = float(env.verdict.progress), 0
+        self._furthest = float(env.verdict.progress)
+        self._idle = math.inf
+        """Control steps since it was further than ever before."""
         self._patience = GETTING_ON * env.control_freq
 
     def update(self, info: dict[str, Any]) -> None:
