@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.physics.world import CAMERAS
-from pat3d.envs.registration import MAX_EPISODE_STEPS
+from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.tasks.task import Task
@@ -46,7 +46,9 @@ class EpisodeConfig:
     control: str = "osc"
     """"osc", "joint_velocity" or "joint_position"."""
     reward: str = "sparse"
-    """"sparse" or "dense"."""
+    """"sparse", 1 at success; or "dense", see pat3d.envs.reward."""
+    discount: float = 0.99
+    """The learner's, a step, for the dense reward: with it, no episode without success returns more than one with."""
     control_freq: float = 20.0
     """Actions a second [1/s]."""
     start_noise: float = 0.02
@@ -55,6 +57,7 @@ class EpisodeConfig:
     def __post_init__(self) -> None:
         self._set("robot", self.robot or default_robot())
         one_of("reward", self.reward, REWARDS)
+        self._set("discount", number("discount", self.discount, 0.0, 1.0, "a step"))
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
         self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))
 
@@ -68,7 +71,7 @@ class TabletopConfig(EpisodeConfig):
 
     cameras: Sequence[str] = ("agentview", "wrist")
     """Those of the rgb and rgbd observations."""
-    image_size: tuple[int, int] = (128, 128)
+    image_size: tuple[int, int] = (IMAGE_SIDE, IMAGE_SIDE)
     """Height and width of the pictures [pixel]."""
     segmentation: bool = False
     """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
@@ -99,13 +102,14 @@ class TabletopConfig(EpisodeConfig):
 class BatchConfig(EpisodeConfig):
     """Arguments of `pat3d.envs.vector.BatchedTabletopEnv`."""
 
-    max_episode_steps: int = MAX_EPISODE_STEPS
-    """After which an episode is truncated."""
+    max_episode_steps: int | None = None
+    """After which an episode is truncated; None for as many as the task takes."""
     capacity: tuple[int, int] | None = None
     """Contacts and rows of constraints that each world has buffers for; measured where None."""
 
     def __post_init__(self) -> None:
-        whole("max_episode_steps", self.max_episode_steps, 1)
+        if self.max_episode_steps is not None:
+            whole("max_episode_steps", self.max_episode_steps, 1)
         super().__post_init__()
         one_of("control", self.control, CONTROLS)
         if self.obs != "state":

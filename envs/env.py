@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any, ClassVar
 
 import gymnasium
@@ -15,6 +16,7 @@ from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import compose
 from pat3d.envs.rendering.pictures import Pictures
+from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
@@ -31,8 +33,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     """A robot arm in front of a verified scene, with a task.
 
     Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the
-    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one is the
-    task's progress in [0, 1], see the judge of each task.
+    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one follows
+    the task's progress in [0, 1], see `pat3d.envs.reward` and the judge of each task.
 
     Args:
         scene: see TabletopConfig, whose fields are the keyword arguments.
@@ -79,6 +81,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._enter(self._loaded, self._task_given)
         self._judge: Judge | None = None
         self._verdicts: Verdicts
+        self._potential = 0.0
         self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
         size = self.simulation.controller.size
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
@@ -97,6 +100,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     def instruction(self) -> str:
         """The task as one tells it to a person."""
         return self.task.instruction(self.scene)
+
+    @property
+    def horizon(self) -> int:
+        """Steps in which the task can be done without haste."""
+        return self.task.horizon(self.scene, self.control_freq)
 
     @property
     def objects(self) -> tuple[str, ...]:
@@ -142,6 +150,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.judge(self.simulation.states)
         self._verdicts = self._judge.update(np.zeros(1))
+        self._potential = float(self._verdicts.progress[0])
         return self._observation(), self._info()
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -156,7 +165,10 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._verdicts = self._judge.update(self._period)
         broken = self.simulation.broken
         success = bool(self._verdicts.success[0]) and not broken
-        reward = float(success if self.reward == "sparse" else self._verdicts.progress[0])
+        before, self._potential = self._potential, 0.0 if broken else float(self._verdicts.progress[0])
+        reward = float(success)
+        if self.reward == "dense":
+            reward = dense(before, self._potential, success, self.config.discount)
         return self._observation(), reward, success, broken, self._info()
 
     def render(self) -> NDArray[Any] | None:  # type: ignore[override]
@@ -167,6 +179,15 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         depth = self.render_mode == "depth_array"
         picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth)
         return picture.depth if depth else picture.image
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies and pickles are environments about the same, with the same random numbers to come, before a reset."""
+        about = (self._loaded, self._task_given, None if self._chosen is None else self._chosen.current)
+        return _again, (self.config, about, self._np_random, self._np_random_seed)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TabletopEnv:
+        """As `__reduce__` says."""
+        return pickle.loads(pickle.dumps(self))
 
     def close(self) -> None:
         """Free the graphics context."""
@@ -219,6 +240,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         toppled, fell = state.states.upsets()
         return {
             "success": bool(verdicts.success[0]),
+            # As stable-baselines3 and LeRobot call it.
+            "is_success": bool(verdicts.success[0]),
             "predicates": {name: bool(holds[0]) for name, holds in verdicts.predicates.items()},
             "progress": float(verdicts.progress[0]),
             "toppled": state.named(toppled),
@@ -227,6 +250,19 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             **self._about,
             **({} if self._chosen is None else {"index": self._chosen.current}),
         }
+
+
+def _again(
+    config: TabletopConfig, about: tuple[LoadedScene, str | Task | None, int | None], random: Any, seed: int | None
+) -> TabletopEnv:
+    """The environment that `TabletopEnv.__reduce__` took apart."""
+    made = TabletopEnv(config=config)
+    made._loaded, made._task_given, index = about
+    if made._chosen is not None and index is not None:
+        made._chosen.current = index
+    made._enter(made._loaded, made._task_given)
+    made._np_random, made._np_random_seed = random, seed
+    return made
 
 
 def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:

@@ -1,4 +1,9 @@
-"""Suites for LeRobot's evaluation: what `make_env` of an EnvHub folder returns, and observations under its names."""
+"""Suites for LeRobot's evaluation: what `make_env` of an EnvHub folder returns, and observations under its names.
+
+LeRobot's evaluator (0.4) reads success from `info["final_info"]["is_success"]`, which a vector environment gives that
+resets in the same step; asks the outermost wrapper for `task_description` and `task`; calls `render` for its films; and
+runs every batch of episodes up to `_max_episode_steps` after a reset with seeds.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +15,13 @@ from typing import Any
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.vector import AutoresetMode
 
+from pat3d.envs.config import TabletopConfig
 from pat3d.envs.env import TabletopEnv
-from pat3d.envs.registration import MAX_EPISODE_STEPS
+from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.suites.suite import Suite
+from pat3d.envs.tasks.task import steps_for
 
 _STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
 
@@ -24,9 +32,12 @@ def make_env(
     n_envs: int = 1,
     use_async_envs: bool = False,
     split: str = "test",
-    image_size: tuple[int, int] = (256, 256),
+    image_size: tuple[int, int] = (IMAGE_SIDE, IMAGE_SIDE),
 ) -> dict[str, dict[int, gymnasium.vector.VectorEnv]]:
     """A vector environment for every kind of task with scenes in `split`: {"pick": {0: env}, "place": {0: env}, ...}.
+
+    Episodes go through the scenes in order: the batches of `n_envs` that LeRobot evaluates hold scenes 0 to n - 1, then
+    n to 2 n - 1, and so on, each once before any is there twice.
 
     Raises:
         SuiteError: no such suite or split.
@@ -35,21 +46,70 @@ def make_env(
     kinds = [kind for kind in found.request.tasks if any(one.kind == kind for one in found.select(split))]
     made: dict[str, dict[int, gymnasium.vector.VectorEnv]] = {}
     for kind in kinds:
+        entries = found.select(split, kind)
+        # One limit for the whole vector environment: what the largest scene could take.
+        moves = 1 if kind in ("pick", "place", "stack") else max(int(one.axes["objects"]) for one in entries) - 1
+        turns = (n_envs, len(entries), steps_for(moves, TabletopConfig.control_freq))
         builders: list[Callable[[], gymnasium.Env[Any, Any]]] = [
-            partial(_one, os.fspath(suite), split, kind, found.request.robot, image_size) for _ in range(n_envs)
+            partial(_one, os.fspath(suite), split, kind, found.request.robot, image_size, (number, *turns))
+            for number in range(n_envs)
         ]
         together = gymnasium.vector.AsyncVectorEnv if use_async_envs else gymnasium.vector.SyncVectorEnv
-        made[kind] = {0: together(builders)}
+        made[kind] = {0: together(builders, autoreset_mode=AutoresetMode.SAME_STEP)}
     return made
 
 
-def _one(suite: str, split: str, kind: str, robot: str, image_size: tuple[int, int]) -> gymnasium.Env[Any, Any]:
-    env = TabletopEnv(suite=suite, split=split, task=kind, robot=robot, obs="rgb", image_size=image_size)
-    return gymnasium.wrappers.TimeLimit(PixelsAndState(env), MAX_EPISODE_STEPS)
+def _one(
+    suite: str, split: str, kind: str, robot: str, image_size: tuple[int, int], turns: tuple[int, int, int, int]
+) -> gymnasium.Env[Any, Any]:
+    env = TabletopEnv(
+        suite=suite,
+        split=split,
+        task=kind,
+        robot=robot,
+        obs="rgb",
+        image_size=image_size,
+        render_mode="rgb_array",
+        render_size=image_size,
+    )
+    first, step, count, limit = turns
+    return PixelsAndState(InTurn(env, first=first, step=step, count=count, limit=limit))
+
+
+class InTurn(gymnasium.Wrapper[Any, Any, Any, Any]):
+    """Every episode is about the next scene of a suite that is this environment's turn, and has its task's time.
+
+    A vector environment resets what has ended without a seed and goes on with it until all have ended. Nobody counts
+    those episodes, so they take no turn.
+    """
+
+    def __init__(self, env: TabletopEnv, *, first: int, step: int, count: int, limit: int) -> None:
+        """Take scenes `first`, `first + step`, ... of `count`, over and over; no task takes more than `limit` steps."""
+        super().__init__(env)
+        self._next, self._step, self._count = first, step, count
+        self._index, self.limit = first, limit
+        self._ended, self._steps = False, 0
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Start the next episode; the same one again where the last has just ended and no seed is given."""
+        if seed is not None or not self._ended:
+            self._index, self._next = self._next % self._count, self._next + self._step
+        observation, info = self.env.reset(seed=seed, options={"index": self._index, **(options or {})})
+        self._ended, self._steps = False, 0
+        return observation, info
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """Do one action; the end of the time truncates."""
+        observation, reward, success, truncated, info = self.env.step(action)
+        self._steps += 1
+        over = self._steps >= min(self.limit, self.env.unwrapped.horizon)  # type: ignore[attr-defined]
+        truncated = truncated or (over and not success)
+        self._ended = success or truncated
+        return observation, reward, success, truncated, info
 
 
 class PixelsAndState(gymnasium.ObservationWrapper[Any, Any, Any]):
-    """Observations as {"pixels": {camera: image}, "agent_pos": state of the robot}."""
+    """Observations as {"pixels": {camera: image}, "agent_pos": state of the robot}; the outermost wrapper."""
 
     def __init__(self, env: gymnasium.Env[Any, Any]) -> None:
         super().__init__(env)
@@ -73,6 +133,11 @@ class PixelsAndState(gymnasium.ObservationWrapper[Any, Any, Any]):
     def task(self) -> str:
         """The task's specification."""
         return self.env.unwrapped.task.spec  # type: ignore[attr-defined]
+
+    @property
+    def _max_episode_steps(self) -> int:
+        """LeRobot's name for the most steps that an episode takes."""
+        return self.get_wrapper_attr("limit")
 
     def observation(self, observation: Any) -> Any:
         """Under LeRobot's names."""

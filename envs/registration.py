@@ -8,7 +8,10 @@ from __future__ import annotations
 ENV_ID = "PAT3D-v0"
 
 MAX_EPISODE_STEPS = 400
-"""20 s at 20 actions a second."""
+"""20 s at 20 actions a second: time to move one object. Tasks that move several say themselves how long they take."""
+
+IMAGE_SIDE = 128
+"""Of observed pictures, unless one asks for another [pixel]: in environments, evaluations, demonstrations, LeRobot."""
 
 
 def register_with_gymnasium() -> None:

@@ -20,6 +20,7 @@ from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
 from pat3d.envs.physics.world import furnish, index
+from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.robosuite_arms import robosuite_module
 from pat3d.envs.tasks.task import Judge, Task, Verdict
@@ -35,7 +36,10 @@ class PAT3DScene(_Base):
         robots: one of the arms of PAT3D-v0.
         scene: a scene folder or a pat3d.Scene; None for the one that ships with the package.
         task: as for PAT3D-v0.
-        reward_shaping: the progress in [0, 1] instead of 1 at success.
+        reward_shaping: the dense reward of PAT3D-v0 instead of 1 at success.
+        reward_scale: factor on either.
+        discount: of the learner, for the dense reward.
+        use_object_obs: whether the poses of objects are observed.
         **options: of robosuite's ManipulationEnv.
     """
 
@@ -45,6 +49,9 @@ class PAT3DScene(_Base):
         scene: Source = None,
         task: str | Task | None = None,
         reward_shaping: bool = False,
+        reward_scale: float = 1.0,
+        discount: float = 0.99,
+        use_object_obs: bool = True,
         **options: Any,
     ) -> None:
         if not isinstance(robots, str):
@@ -53,16 +60,28 @@ class PAT3DScene(_Base):
         self._loaded = load(scene)
         given = DEFAULT_TASK if scene is None and task is None else task
         self.task, self.placement = choose(self._loaded.scene, given, robots)
-        self.reward_shaping = reward_shaping
+        self.reward_shaping, self.reward_scale, self.discount = reward_shaping, reward_scale, discount
+        self.use_object_obs = use_object_obs
+        self.placement_initializer = None
+        """Where robosuite's own tasks draw their objects' places; here the scene says them."""
         self._judge: Judge | None = None
-        self._verdict = Verdict(success=False)
+        self._verdict = self._before = Verdict(success=False)
         options.setdefault("gripper_types", self._robot.robosuite.gripper_name)
         super().__init__(robots=robots, base_types="NullMount", **options)
 
     def reward(self, action: Any = None) -> float:
-        """1 at success, or the progress with reward_shaping."""
-        self._verdict = self._follow(self.control_timestep)
-        return float(self._verdict.progress if self.reward_shaping else self._verdict.success)
+        """Of the last step: 1 at success, or the dense one with reward_shaping; times reward_scale."""
+        now = self._verdict
+        if not self.reward_shaping:
+            return self.reward_scale * float(now.success)
+        # An episode goes on here after success, for which there is one bonus.
+        first = now.success and not self._before.success
+        return self.reward_scale * float(dense(self._before.progress, now.progress, first, self.discount))
+
+    def _post_action(self, action: Any) -> tuple[float, bool, dict[str, Any]]:
+        self._before, self._verdict = self._verdict, self._follow(self.control_timestep)
+        reward, done, info = super()._post_action(action)
+        return reward, done, {**info, "success": self._verdict.success, "progress": self._verdict.progress}
 
     def _initialize_sim(self, xml_string: str | None = None) -> None:
         """Attach robosuite's own world, which is the robot alone, to the scene, and compile both as they are.
@@ -106,7 +125,7 @@ class PAT3DScene(_Base):
         self.sim.forward()
         self.states.begin()
         self._judge = self.task.judge(self.states)
-        self._verdict = self._follow(0.0)
+        self._before = self._verdict = self._follow(0.0)
 
     def _follow(self, seconds: float) -> Verdict:
         if self._judge is None:
@@ -119,6 +138,8 @@ class PAT3DScene(_Base):
 
     def _setup_observables(self) -> Any:
         observables = super()._setup_observables()
+        if not self.use_object_obs:
+            return observables
         observable = robosuite_module("utils.observables")
         sensor: Any = observable.sensor
         for name in self.state.world.objects:

@@ -18,6 +18,7 @@ from pat3d.envs.observations import ObservationSpec, Observer
 from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.world import compose
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
+from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.task import Judge, Verdicts
@@ -130,7 +131,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self.physics = BatchedPhysics(world, num_envs, control, control_freq, device, sizes)
         self.state = BatchState(self.physics)
         self.num_envs, self._reward, self._noise = num_envs, config.reward, config.start_noise
-        self._limit = config.max_episode_steps
+        self._limit = config.max_episode_steps or self.task.horizon(loaded.scene, control_freq)
+        self._discount = config.discount
         spec = ObservationSpec(
             kind="state", cameras=("agentview",), height=8, width=8, segmentation=False, max_objects=len(world.objects)
         )
@@ -145,6 +147,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self._generators: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, dtype=bool)
         self._steps = np.zeros(num_envs, dtype=np.int64)
+        self._potential = np.zeros(num_envs)
 
     @property
     def objects(self) -> tuple[str, ...]:
@@ -172,6 +175,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self._start(np.arange(self.num_envs))
         self._judge = self.task.judge(self.state)
         self._verdicts = self._judge.update(np.zeros(self.num_envs))
+        self._potential = self._verdicts.progress.copy()
         return self._observations(self.physics.lost), self._info()
 
     def step(
@@ -198,7 +202,10 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self._steps[going] += 1
         success = verdicts.success & going & ~lost
         truncated = going & ~success & (lost | (self._steps >= self._limit))
-        rewards = success.astype(np.float64) if self._reward == "sparse" else self._verdicts.progress * going
+        before, self._potential = self._potential, np.where(lost, 0.0, self._verdicts.progress)
+        rewards = success.astype(np.float64)
+        if self._reward == "dense":
+            rewards = np.where(going, dense(before, self._potential, success, self._discount), 0.0)
         self._ended = success | truncated
         return self._observations(lost), rewards, success, truncated, {**self._info(), "lost": lost}
 
@@ -227,6 +234,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         verdicts, (toppled, fell) = self._verdicts, self.state.upsets()
         return {
             "success": verdicts.success,
+            "is_success": verdicts.success,
             "progress": verdicts.progress,
             "predicates": dict(verdicts.predicates),
             "toppled": toppled[:, self._moving],

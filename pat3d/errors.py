@@ -16,6 +16,14 @@ class PromptError(Pat3dError):
     """The prompt cannot be planned: an unknown noun, an impossible count, nothing to place."""
 
 
+class ModelError(Pat3dError):
+    """A language model is not set up, cannot be reached, or gives no answer that can be used."""
+
+
+class AnswerError(ModelError):
+    """One answer of a language model is not what was asked for; the model is told and may answer again."""
+
+
 class SpecError(Pat3dError):
     """A scene specification or a scene file is invalid."""
 

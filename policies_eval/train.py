@@ -14,6 +14,7 @@ from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstra
 from pat3d.policies_eval.datasets.files import write_demonstrations
 from pat3d.policies_eval.policies.cloning import features, make_network, save
 from pat3d.policies_eval.run.episodes import Episode
+from pat3d.policies_eval.run.settings import NOISE
 
 BATCH = 256
 RATE = 1e-3
@@ -65,7 +66,7 @@ def train(
     *,
     epochs: int = 200,
     seed: int = 0,
-    noise: float = 0.3,
+    noise: float = NOISE,
     successes: int | None = None,
     demonstrations: str | Path | None = None,
     overwrite: bool = False,

@@ -81,7 +81,7 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
         furnish(spec, placement)
         spec.camera(PREFIX + robot.wrist_camera).name = "wrist"
         model = spec.compile()
-    except ValueError as error:
+    except (ValueError, mujoco.FatalError) as error:
         raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
     return index(model, scene, robot, placement)
 

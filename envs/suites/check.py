@@ -10,9 +10,11 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from pat3d.envs.suites.folder import RECORD, checksum_of, read_document
+from pat3d.envs.suites.folder import MANIFEST, RECORD, SELF, checksum_of, checksum_of_document, read_document
 from pat3d.envs.suites.suite import Entry, Suite
-from pat3d.errors import Pat3dError, SuiteError
+from pat3d.envs.tasks.registry import parse_task
+from pat3d.errors import Pat3dError, SuiteError, TaskError
+from pat3d.scene.io import load_scene
 
 
 def check_suite(
@@ -26,7 +28,7 @@ def check_suite(
         workers: processes that do so.
         tell: told how many scenes are done, of how many.
     """
-    lines = check_splits(suite)
+    lines = check_manifest(suite) + check_splits(suite)
     job = partial(check_scene, suite.folder.path, settle=settle)
     with _mapping(workers if settle else 1) as apply:
         for number, found in enumerate(apply(job, suite.entries)):
@@ -41,12 +43,17 @@ def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
 
     folder = path / "scenes" / f"{entry.place:06d}"
     try:
-        if read_document(folder / RECORD).get("checksum") != entry.checksum:
+        record = read_document(folder / RECORD)
+        if record.get("checksum") != entry.checksum:
             return [f"scene {entry.place}: record.json and suite.json differ."]
+        told = ("split", "kind", "task", "prompt", "instruction")
+        if wrong := [name for name in told if record.get(name) != getattr(entry, name)]:
+            return [f"scene {entry.place}: record.json and suite.json differ in {', '.join(wrong)}."]
         if checksum_of(folder) != entry.checksum:
             return [f"scene {entry.place}: its files are not those that were verified (their checksum differs)."]
+        lines = check_task(folder, entry)
         if not settle:
-            return []
+            return lines
         report = settle_in_mujoco(folder / "mjcf" / "scene.xml")
     except Pat3dError as error:
         return [f"scene {entry.place}: {error}"]
@@ -55,7 +62,32 @@ def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
         f"degrees in {report.seconds:g} s of MuJoCo {report.version}."
         for one in report.moved()
     ]
-    return moved + [f"scene {entry.place}: MuJoCo warns: {warning}" for warning in report.warnings]
+    return lines + moved + [f"scene {entry.place}: MuJoCo warns: {warning}" for warning in report.warnings]
+
+
+def check_task(folder: Path, entry: Entry) -> list[str]:
+    """Whether the scene in `folder` allows the task, and the instruction is that task's, made anew from the scene."""
+    scene = load_scene(folder)
+    try:
+        task = parse_task(entry.task)
+        task.check(scene)
+    except TaskError as error:
+        return [f"scene {entry.place}: its task is not one of its scene: {error}"]
+    if task.kind != entry.kind or task.instruction(scene) != entry.instruction:
+        return [
+            f'scene {entry.place}: "{entry.instruction}" is not the instruction of {entry.task}, which is '
+            f'"{task.instruction(scene)}".'
+        ]
+    return []
+
+
+def check_manifest(suite: Suite) -> list[str]:
+    """Whether suite.json is as it was written."""
+    if SELF not in suite.document:
+        return [f"{MANIFEST} has no checksum of itself; generate the suite again from its request."]
+    if suite.document[SELF] != checksum_of_document(suite.document):
+        return [f"{MANIFEST} was edited: it is not what its checksum ({SELF}) was made of."]
+    return []
 
 
 def check_splits(suite: Suite) -> list[str]:

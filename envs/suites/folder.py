@@ -19,7 +19,7 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,8 @@ MANIFEST, SCENES, REJECTED, WORK, LOCK, LOG, PAGE, HUB = (
     "env.py",
 )
 RECORD = "record.json"
+SELF = "manifest_sha256"
+"""Key of suite.json's checksum of itself."""
 FORMAT, VERSION = "pat3d-suite", 2
 
 MAX_MANIFEST_BYTES = 2 * 2**30
@@ -172,6 +174,12 @@ def read_document(path: Path, limit: int = MAX_MANIFEST_BYTES) -> dict[str, Any]
     if not isinstance(document, dict):
         raise SuiteError(f"{path}: damaged (no JSON object).")
     return document
+
+
+def checksum_of_document(document: Mapping[str, Any]) -> str:
+    """SHA-256 over a suite.json without SELF, whatever its white space and the order of its keys."""
+    content = finite({name: value for name, value in document.items() if name != SELF})
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def checksum_of(folder: Path) -> str:

@@ -15,8 +15,10 @@ from pat3d.envs.suites.folder import (
     PAGE,
     RECORD,
     REJECTED,
+    SELF,
     VERSION,
     SuiteFolder,
+    checksum_of_document,
     read_document,
     write_document,
     write_text,
@@ -73,6 +75,7 @@ def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
         "scenes": scenes,
         "rejected": rejected,
     }
+    document[SELF] = checksum_of_document(document)
     write_document(folder.path / MANIFEST, document)
     write_text(folder.path / HUB, _HUB)
     write_text(folder.path / PAGE, page(folder.path.name, document))

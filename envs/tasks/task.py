@@ -7,6 +7,7 @@ worlds at once.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, fields
@@ -22,6 +23,15 @@ from pat3d.scene.model import GROUND, Scene
 
 if TYPE_CHECKING:
     from pat3d.envs.physics.state import SimState, States
+
+
+FIRST_MOVE, FURTHER_MOVE = 20.0, 15.0
+"""Time for the first object that a task moves, and for each of the others [s]."""
+
+
+def steps_for(moves: int, control_freq: float) -> int:
+    """Control steps in which that many objects can be moved without haste, at `control_freq` actions a second."""
+    return math.ceil((FIRST_MOVE + FURTHER_MOVE * max(0, moves - 1)) * control_freq)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +55,7 @@ class Verdict:
     predicates: Mapping[str, bool] = field(default_factory=dict)
     """What success is made of, by name."""
     progress: float = 0.0
-    """In [0, 1]; the dense reward."""
+    """In [0, 1]; the dense reward is made of its differences."""
     target: str = ""
     """The object that the next move is about."""
     goal: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -131,6 +141,10 @@ class Task(ABC):
     @abstractmethod
     def needs(self, scene: Scene) -> Needs:
         """What the robot has to reach."""
+
+    def horizon(self, scene: Scene, control_freq: float) -> int:
+        """Control steps in which the task can be done without haste, at `control_freq` actions a second."""
+        return steps_for(len(self.needs(scene).grasp), control_freq)
 
     @abstractmethod
     def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:

@@ -23,7 +23,7 @@ def read_mjcf(path: str | Path) -> tuple[BodyReadback, ...]:
 
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
-    except ValueError as error:
+    except (ValueError, mujoco.FatalError) as error:
         raise CheckError(f"MuJoCo {mujoco.__version__} refuses {path}: {error}") from error
     volumes: dict[int, float] = {}
     return tuple(

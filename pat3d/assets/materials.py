@@ -96,6 +96,11 @@ def material(name: str) -> Material:
     return Material(name=name, density=density, friction=friction)
 
 
+def material_names() -> tuple[str, ...]:
+    """Every material."""
+    return tuple(_TABLE)
+
+
 def find_material(word: str) -> str | None:
     """Name of the material that an English `word` means ("wooden" -> "wood"), or None."""
     return word if word in _TABLE else MATERIAL_WORDS.get(word)

@@ -88,7 +88,7 @@ def ground_drop(mjcf_path: str | Path, *, heights: float = HEIGHTS) -> DropRepor
 
     try:
         model = mujoco.MjModel.from_xml_path(str(mjcf_path))
-    except ValueError as error:
+    except (ValueError, mujoco.FatalError) as error:
         raise CheckError(f"MuJoCo {mujoco.__version__} refuses {mjcf_path}: {error}") from error
     if model.njnt != 1 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
         raise CheckError(f"{mjcf_path} has {model.njnt} joints; a drop needs one free object.")

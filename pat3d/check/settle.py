@@ -174,7 +174,7 @@ def settle_in_mujoco(
         start = time.perf_counter()
         try:
             model = mujoco.MjModel.from_xml_path(str(mjcf_path))
-        except ValueError as error:
+        except (ValueError, mujoco.FatalError) as error:
             raise CheckError(f"MuJoCo {mujoco.__version__} refuses {mjcf_path}: {error}") from error
         if change is not None:
             change(model)

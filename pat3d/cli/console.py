@@ -274,11 +274,28 @@ def show_report(target: Console, report: Report, folder: Path) -> None:
         target.print(f"note  the layout was not optimised, for want of torch: {TORCH}", markup=False)
     if len(chosen.tried) > 1:
         target.print(f"note  attempt {best.number + 1} of {len(chosen.tried)} was kept", markup=False)
+    for line in _critic_words(report.critic):
+        target.print(line, markup=False)
     if report.reused:
         target.print(f"note  taken from an earlier run: {', '.join(report.reused)}", markup=False)
     target.print(f"\n{report.seconds['total']:.1f} s in all; written to:", markup=False)
     mains = [f"{name}/{Path(export.path).name}" for name, export in report.exports.items()]
     show_files(target, folder, mains)
+
+
+def _critic_words(critic: Mapping[str, Any] | None) -> tuple[str, ...]:
+    """What a critic said of the scene that was kept, and what came of planning again."""
+    if critic is None:
+        return ()
+    rounds = critic["rounds"]
+    kept = next(one for one in rounds if one["kept"])
+    answers = kept["answers"]
+    agreed = sum(one["answer"] == "yes" for one in answers)
+    lines = [f"critic  {critic['model']}: yes to {agreed} of {len(answers)} questions"]
+    lines += [f"critic  {one['question']} {one['answer']}: {one['seen']}" for one in answers if one["answer"] != "yes"]
+    if len(rounds) > 1:
+        lines.append(f"critic  planned once more; {'that' if rounds[1]['kept'] else 'the first'} scene was kept")
+    return tuple(lines)
 
 
 def _said_back(understood: Mapping[str, Any]) -> tuple[str, ...]:

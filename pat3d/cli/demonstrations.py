@@ -9,6 +9,7 @@ from pat3d.cli.console import console, verdict
 from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
+from pat3d.policies_eval.run.settings import NOISE
 
 ATTEMPTS_PER_SUCCESS = 10
 """With --successes N, this many episodes for each are tried at most."""
@@ -32,7 +33,7 @@ _HOW_MANY = (
         metavar="N",
         rival="count",
     ),
-    option("--noise", "of the hand while it demonstrates", type=float, default=0.3),
+    option("--noise", "of the hand while it demonstrates", type=float, default=NOISE),
     option("--overwrite", "replace demonstrations that are there", action="store_true"),
 )
 

@@ -15,6 +15,7 @@ from typing import Literal
 from pat3d.cli.console import console, watch
 from pat3d.cli.extras import DEVELOPMENT, ENABLES, requirements
 from pat3d.cli.options import command
+from pat3d.errors import ModelError
 from pat3d.progress import Event, Progress
 from pat3d.scene.versions import version_of
 
@@ -57,6 +58,7 @@ def doctor(options: argparse.Namespace) -> int:
         _menagerie(table)
         _egl(table)
         _engines(table)
+        _model(table)
     from pat3d.scene.cache import cache_root
 
     table.add("ok", "mesh cache", _folder(cache_root()))
@@ -152,6 +154,20 @@ def _engines(table: Table) -> None:
             table.add("ok", name, f"engine for pat3d check --engines, in {engines_root() / name}")
         else:
             table.add("no", name, f"would let pat3d check --engines run scenes there: {how_to_get(name)}")
+
+
+def _model(table: Table) -> None:
+    """Report which language model is set up; nobody is asked."""
+    from pat3d.plan.llm.settings import KEYS, load_settings
+
+    try:
+        settings = load_settings()
+    except ModelError as error:
+        table.add("no", "language model", f"for --planner llm and --critic: {error}")
+        return
+    key = "a key from the environment" if settings.key else f"no key ({' or '.join(KEYS)})"
+    looks = f", pictures by {settings.vision}" if settings.vision else ""
+    table.add("ok", "language model", f"{settings.name} on {settings.server}{looks}, with {key}")
 
 
 def _egl(table: Table) -> None:

@@ -30,6 +30,7 @@ EPISODES = (
 
 SETTINGS = fields(
     RolloutSettings,
+    {"max_steps": {"shown": "20 s, and 15 s for each further object that the task moves"}},
     robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
@@ -38,7 +39,7 @@ SETTINGS = fields(
     image_size="of observations [pixel]",
     replan="actions done of a chunk before the policy is asked again",
     act_seconds="a policy that thinks for longer hangs [s]",
-    clip="clip actions that are out of range",
+    strict="actions out of range are policy errors, instead of clipped and counted",
 )
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections import Counter
 from typing import TYPE_CHECKING
 
-from pat3d.cli.console import console, watch
+from pat3d.cli.console import console, verdict, watch
 from pat3d.cli.episodes import EPISODES, SETTINGS, episodes_from, settings_of
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     """,
 )
 def evaluate(options: argparse.Namespace) -> int:
-    """`pat3d evaluate`."""
+    """`pat3d evaluate`: exit code 1 where no episode got beyond an error of the policy."""
     from pat3d.envs.suites.worker_pool import worker_count
     from pat3d.policies_eval.run.evaluate import evaluate as run
 
@@ -70,7 +71,14 @@ def evaluate(options: argparse.Namespace) -> int:
     summary = summarise(done, options.interval)
     show_summary(console(), summary)
     write_report(done, summary, videos=options.videos, pictures=not options.no_pictures)
+    clipped = sum(one.clipped for one in done.results)
+    if clipped:
+        values = sum(one.actions.size for one in done.results)
+        console().print(f"clipped: {clipped} of {values} action values were out of [-1, 1]", markup=False)
     console().print(f"report: {done.folder / 'report.html'}", markup=False, soft_wrap=True)
+    if all(one.outcome == "policy_error" for one in done.results):
+        reasons = Counter(one.reason for one in done.results)
+        return verdict((f"every episode ended by an error of the policy, {reasons.most_common(1)[0][0]}: no score.",))
     return 0
 
 

@@ -17,6 +17,7 @@ ENABLES = {
     "robots": "robots and controllers",
     "eval": "policy evaluation: records, servers, films, demonstrations",
     "ray": "suites made by a cluster",
+    "models": "sentences read, and pictures judged, by a language model",
     "gpu": "thousands of scenes at once on a GPU",
     "all": "all of these",
 }

@@ -5,15 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
-from pat3d.cli.reading import PROXIES, AskingPlanner, Decided
+from pat3d.cli.reading import CRITIC, PLANNER, PROXIES, critic_of, planner_of
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS
 from pat3d.generation.settings import DEVICES, Settings
-from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.telling import tell
 
 if TYPE_CHECKING:
@@ -39,19 +38,22 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
 
 
 @command(
-    option("prompt", "what the scene shows, in English", metavar="PROMPT", nargs="?"),
+    option("prompt", "what the scene shows", metavar="PROMPT", nargs="?"),
     option(
         "--prompts",
         "a scene for every line of FILE, each in its own folder of --out; those that are there are kept",
         metavar="FILE",
     ),
     PROXIES,
+    PLANNER,
+    CRITIC,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
     examples="""
     pat3d generate "a red mug on a wooden table" --out scenes/mug
     pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
+    pat3d generate --planner llm --critic "una taza roja sobre la mesa" --out scenes/taza
     pat3d generate --prompts prompts.txt --out scenes      one a line; the same command goes on where it stopped
     """,
 )
@@ -64,30 +66,43 @@ def generate(options: argparse.Namespace) -> int:
     settings = Settings(**values(Settings, options))
     if options.prompts is not None:
         return _generate_many(options, settings)
-    from pat3d.generation.pipeline import run_prompt
-
-    plan = (AskingPlanner if options.ask else GrammarPlanner)(options.allow_proxies).plan(options.prompt)
+    planner, critic = planner_of(options), critic_of(options)
+    plan = planner.plan(options.prompt)
     console(stderr=True).print(tell(plan), markup=False, soft_wrap=True)
     with watch(console(stderr=True)) as progress:
-        outcome = run_prompt(
-            options.prompt,
-            out=options.out,
-            settings=settings,
-            allow_proxies=options.allow_proxies,
-            planner=Decided(plan),
-            progress=progress,
-        )
+        common: dict[str, Any] = {
+            "out": options.out,
+            "settings": settings,
+            "allow_proxies": options.allow_proxies,
+            "progress": progress,
+        }
+        if critic is not None:
+            from pat3d.generation.criticised import run_criticised
+
+            outcome = run_criticised(options.prompt, planner=planner, critic=critic, plan=plan, **common)
+        else:
+            from pat3d.generation.pipeline import run_prompt
+            from pat3d.plan.scene_plan import Decided
+
+            outcome = run_prompt(options.prompt, planner=Decided(decided=plan, source=planner), **common)
     return _finished(outcome, options.out)
 
 
 def _generate_many(options: argparse.Namespace, settings: Settings) -> int:
     from pat3d.generation.many import TABLE, generate_many, read_prompts
 
+    if options.critic:
+        raise SpecError("--critic looks at one scene; give a sentence instead of --prompts.")
     prompts, rows = read_prompts(options.prompts), []
     errors = console(stderr=True)
     with watch(errors) as progress:
         scenes = generate_many(
-            prompts, options.out, settings=settings, allow_proxies=options.allow_proxies, progress=progress
+            prompts,
+            options.out,
+            settings=settings,
+            allow_proxies=options.allow_proxies,
+            planner=planner_of(options),
+            progress=progress,
         )
         for row in scenes:
             rows.append(row)

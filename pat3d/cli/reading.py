@@ -4,27 +4,84 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import cache
+from typing import TYPE_CHECKING
 
 from pat3d.cli.options import command, option
 from pat3d.plan.describe import describe
 from pat3d.plan.grammar.planner import GrammarPlanner
-from pat3d.plan.scene_plan import ScenePlan
+from pat3d.plan.scene_plan import Planner, ScenePlan
 from pat3d.plan.telling import tell
+
+if TYPE_CHECKING:
+    from pat3d.plan.llm.chat import Chat
+    from pat3d.plan.llm.critic import Critic
 
 PROXIES = option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true")
 
+PLANNERS = ("grammar", "llm")
+PLANNER = option(
+    "--planner",
+    "who reads the sentence: the grammar, offline and in English; or a language model, in any language, on the server "
+    "that PAT3D_MODEL_URL, PAT3D_MODEL and PAT3D_MODEL_KEY or pat3d.toml name",
+    choices=PLANNERS,
+    default="grammar",
+)
+CRITIC = option(
+    "--critic",
+    "a vision-language model answers questions about the pictures, and where it says no, --planner llm plans once more",
+    action="store_true",
+)
+
+
+def planner_of(options: argparse.Namespace) -> Planner:
+    """The planner that a command line chooses.
+
+    Raises:
+        ModelError: it is a language model, and none is set up.
+    """
+    if options.planner == "llm":
+        from pat3d.plan.llm.planner import LLMPlanner
+
+        return LLMPlanner(chat(), options.allow_proxies)
+    return (AskingPlanner if getattr(options, "ask", False) else GrammarPlanner)(options.allow_proxies)
+
+
+def critic_of(options: argparse.Namespace) -> Critic | None:
+    """The critic that a command line asks for.
+
+    Raises:
+        ModelError: no model is set up.
+    """
+    if not options.critic:
+        return None
+    from pat3d.plan.llm.critic import Critic
+
+    return Critic(chat())
+
+
+@cache
+def chat() -> Chat:
+    """The model of the environment and the file, one for planner and critic."""
+    from pat3d.plan.llm.chat import Chat
+    from pat3d.plan.llm.settings import load_settings
+
+    return Chat(load_settings())
+
 
 @command(
-    option("prompt", "what the scene shows, or what a robot is to do, in English", metavar="PROMPT"),
+    option("prompt", "what the scene shows, or what a robot is to do", metavar="PROMPT"),
     PROXIES,
+    PLANNER,
     examples="""
     pat3d plan "a laptop, a mouse and two glasses on a desk"
     pat3d plan "put the soup in the basket"                        the scene before, and the task
+    pat3d plan --planner llm "una taza roja sobre la mesa"
     """,
 )
 def plan(options: argparse.Namespace) -> int:
     """`pat3d plan`."""
-    made = GrammarPlanner(options.allow_proxies).plan(options.prompt)
+    made = planner_of(options).plan(options.prompt)
     print(f"{tell(made)}\n\n{describe(made)}")
     if made.task is not None:
         print(f"task: {made.task}")
@@ -53,14 +110,3 @@ class AskingPlanner:
         answer = input(f"Which is meant, 1 to {len(readings)}? [1] ").strip()
         chosen = int(answer) if answer.isdecimal() and 1 <= int(answer) <= len(readings) else 1
         return readings[chosen - 1]
-
-
-class Decided:
-    """A planner that has decided already."""
-
-    def __init__(self, plan: ScenePlan) -> None:
-        self._plan = plan
-
-    def plan(self, prompt: str) -> ScenePlan:
-        """The plan decided on, whatever `prompt`."""
-        return self._plan

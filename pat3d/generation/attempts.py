@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.check.verification import Verification, broken, relations_at_rest, verify
-from pat3d.errors import LayoutError, Pat3dError, SimulationError
+from pat3d.errors import CheckError, LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf.writer import write_mjcf
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.optimize_stage import OPTIMISATION, available, lost, optimize_scene
@@ -176,7 +176,7 @@ class Attempts:
     def first(self) -> Attempt:
         """The first layout, settled, and checked where it came to rest; it may have failed."""
         attempt = self._attempt(0)
-        return attempt if attempt.failures else self._checked(attempt)
+        return attempt if attempt.failures else self._judged(attempt)
 
     def begun(self) -> Attempt:
         """The first layout, not settled yet: its scene, or its error."""
@@ -185,7 +185,7 @@ class Attempts:
     def settled(self, attempt: Attempt, settled: SettledScene) -> Attempt:
         """`attempt`, which is `begun`, at rest as somebody else settled it; checked like `first`."""
         attempt = _with_settled(attempt, settled)
-        return attempt if attempt.failures else self._checked(attempt)
+        return attempt if attempt.failures else self._judged(attempt)
 
     def layout(self) -> Scene:
         """The first layout: objects at poses where nothing touches.
@@ -304,6 +304,13 @@ class Attempts:
         self.workspace.save_settled(attempt.number, attempt.inputs, kept_scene, attempt.notes, kept)
         checked = replace(attempt.checked, settled=kept) if attempt.checked is not None else None
         return replace(attempt, settled=kept, checked=checked)
+
+    def _judged(self, attempt: Attempt) -> Attempt:
+        """`attempt`, checked; what an engine refuses to load has failed like what cannot be simulated."""
+        try:
+            return self._checked(attempt)
+        except CheckError as error:
+            return replace(attempt, scene=None, error=SimulationError(str(error)))
 
     def _checked(self, attempt: Attempt) -> Attempt:
         if attempt.checked is not None or attempt.scene is None or attempt.settled is None:

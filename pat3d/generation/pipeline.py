@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -166,8 +166,10 @@ def run_prompt(
     folder, clock, budget = check_target(out), Clock(), CpuBudget(settings.cpu_limit)
     with clock("planning"):
         progress(Event(stage="planning"))
-        plan = (planner or GrammarPlanner(allow_proxies)).plan(prompt)
-    request = request_of(plan, allow_proxies)
+        chosen = planner or GrammarPlanner(allow_proxies)
+        request = request_of(chosen.plan(prompt), allow_proxies)
+        if record := getattr(chosen, "record", dict)():
+            request = replace(request, record={**request.record, "planner": record})
     return make(request, folder=folder, settings=settings, clock=clock, progress=budget.watching(progress))
 
 

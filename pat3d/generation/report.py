@@ -30,6 +30,8 @@ class Report:
 
     exports: Mapping[str, ParityReport] = field(default_factory=dict)
     """What was found in every format when it was read back."""
+    critic: Mapping[str, Any] | None = None
+    """What a critic has said of the scene's pictures; None where nobody was asked."""
 
     @property
     def passed(self) -> bool:
@@ -63,6 +65,7 @@ class Report:
             "delivered_attempt": best.number + 1,
             "inputs": {"request": self.chosen.key, **best.inputs},
             "reused": list(self.reused),
+            **({} if self.critic is None else {"critic": dict(self.critic)}),
         }
 
 

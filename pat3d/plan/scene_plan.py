@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 from pat3d.errors import PromptError
 from pat3d.scene.relations import Relation, check_tree, parent_of
@@ -140,3 +140,20 @@ class Planner(Protocol):
             PromptError: the prompt names nothing that can be made.
         """
         ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decided:
+    """A planner that has decided already."""
+
+    decided: ScenePlan
+    source: Planner
+    """That decided, whose record it keeps."""
+
+    def plan(self, prompt: str) -> ScenePlan:
+        """The plan decided on, whatever `prompt`."""
+        return self.decided
+
+    def record(self) -> dict[str, Any]:
+        """What the report says of the planner; empty where it says nothing."""
+        return getattr(self.source, "record", dict)()

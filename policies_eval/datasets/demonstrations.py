@@ -18,7 +18,7 @@ from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Episode
 from pat3d.policies_eval.run.rollout import Runner
-from pat3d.policies_eval.run.settings import RolloutSettings
+from pat3d.policies_eval.run.settings import NOISE, RolloutSettings
 
 SHARE_NOISY = 0.7
 """Of the demonstrations; the rest are as good as the scripted policy is."""
@@ -70,7 +70,7 @@ class Demonstrator:
 def demonstrate(
     episodes: Sequence[Episode],
     *,
-    noise: float = 0.3,
+    noise: float = NOISE,
     successes: int | None = None,
     settings: RolloutSettings | None = None,
     target: Any = None,
@@ -82,7 +82,7 @@ def demonstrate(
 def demonstrations(
     episodes: Sequence[Episode],
     *,
-    noise: float = 0.3,
+    noise: float = NOISE,
     successes: int | None = None,
     settings: RolloutSettings | None = None,
     target: Any = None,

@@ -15,13 +15,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 OUT_OF_RANGE = 0.05
-"""Actions may pass 1 by this much, as regressions do; they are clipped."""
+"""Even where actions must be in range they may pass 1 by this much, as regressions do; they are clipped."""
 
 MAX_CHUNK = 1000
 """Actions that a policy may give at once."""
@@ -71,16 +71,25 @@ class PolicyHang(BaseException):
     """Interrupts a policy that thinks for too long; no `except Exception` of the policy swallows it."""
 
 
-def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32]:
-    """The actions in a policy's answer, in [-1, 1], shape (n, size).
+class Actions(NamedTuple):
+    """What a policy answered."""
+
+    values: NDArray[np.float32]
+    """In [-1, 1], shape (n, size)."""
+    clipped: NDArray[np.int64]
+    """How many values of each action were out of range, shape (n,)."""
+
+
+def checked(answer: Any, size: int, *, strict: bool = False) -> Actions:
+    """The actions in a policy's answer; what is out of range is clipped and counted.
 
     Args:
         answer: what the policy returned.
         size: values in one action.
-        clip: clip whatever is out of range.
+        strict: refuse what is further out of range than OUT_OF_RANGE.
 
     Raises:
-        PolicyError: not numbers, the wrong shape, not finite, or further out of range than OUT_OF_RANGE.
+        PolicyError: not numbers, the wrong shape, not finite, or out of range where that is refused.
     """
     if hasattr(answer, "detach"):
         answer = answer.detach().cpu().numpy()
@@ -99,9 +108,10 @@ def checked(answer: Any, size: int, *, clip: bool = False) -> NDArray[np.float32
     if not math.isfinite(largest):
         what = "NaN" if math.isnan(largest) else "infinite values"
         raise PolicyError("not finite", f"an action holds {what}")
-    if largest > 1.0 + OUT_OF_RANGE and not clip:
+    if largest > 1.0 + OUT_OF_RANGE and strict:
         raise PolicyError("out of range", f"a value of {largest:.4g}; actions are in [-1, 1]")
-    return (values if largest <= 1.0 else np.clip(values, -1.0, 1.0)).astype(np.float32)
+    clipped = (np.abs(values) > 1.0).sum(axis=1)
+    return Actions((values if largest <= 1.0 else np.clip(values, -1.0, 1.0)).astype(np.float32), clipped)
 
 
 def _short(error: object, limit: int = 200) -> str:

@@ -5,12 +5,15 @@ One outcome an episode, the first of these that holds:
     policy_error      the policy did what no policy may
     simulation_error  the simulation blew up
     success
+    timed_out         the task was still getting on when the time was over
     toppled           an object that is none of the task's was knocked over or off its surface
     dropped           an object of the task was lost from at least 2 cm above its place, or fell off the surface
     slipped           it was held and lost before that
     collided          it was never held, and the hand pushed it or something else by more than 2 cm
     missed            it was never held
     timed_out         held or put somewhere, but the task was not done in time
+
+Getting on means: within the last two seconds, further than ever before in the episode.
 """
 
 from __future__ import annotations
@@ -38,6 +41,12 @@ LIFTED = 0.02
 
 PUSHED = 0.02
 """An object that was moved this far without being held was pushed [m]."""
+
+GETTING_ON = 2.0
+"""Before the end [s]."""
+
+FURTHER = 0.01
+"""By this much at least, of a progress from 0 to 1."""
 
 LOST_STEPS = 3
 """Control steps without a finger on it after which an object is no longer held."""
@@ -85,11 +94,18 @@ class Watcher:
         self._touched: set[str] = set()
         self._collided: dict[str, None] = {}
         self._closest, self._highest = np.inf, 0.0
+        self._furthest = float(env.verdict.progress)
+        self._idle = math.inf
+        """Control steps since it was further than ever before."""
+        self._patience = GETTING_ON * env.control_freq
 
     def update(self, info: dict[str, Any]) -> None:
         """Look at the state after a control step, whose `info` the environment gave."""
         state = self._env.simulation.state
         hand = state.hand.tolist()
+        self._idle += 1
+        if info["progress"] > self._furthest + FURTHER:
+            self._furthest, self._idle = info["progress"], 0
         self._toppled.update(dict.fromkeys((*info["toppled"], *info["fell"])))
         for name in self._targets:
             centre = state.centre(name).tolist()
@@ -139,6 +155,8 @@ class Watcher:
             return "simulation_error"
         if success:
             return "success"
+        if self._idle < self._patience:
+            return "timed_out"
         if any(name not in self._targets for name in self._toppled):
             return "toppled"
         if self._dropped or (self._grasped and self._toppled):

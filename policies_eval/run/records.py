@@ -56,7 +56,7 @@ def schema() -> Any:
         ("lifted", pa.bool_()), ("slipped", pa.bool_()), ("dropped", pa.bool_()), ("toppled", names),
         ("collided", names), ("closest", real), ("highest", real), ("action_size", pa.int64()),
         ("actions", pa.binary()), ("state_hash", text), ("final_state", pa.binary()), ("policy_seconds", real),
-        ("physics_seconds", real), ("wall_seconds", real),
+        ("physics_seconds", real), ("wall_seconds", real), ("clipped", pa.int64()),
     ])  # fmt: skip
 
 
@@ -74,6 +74,7 @@ def row_of(result: Result) -> dict[str, Any]:
         "actions": np.ascontiguousarray(result.actions, dtype="<f4").tobytes(), "state_hash": result.state_hash,
         "final_state": result.final_state, "policy_seconds": result.policy_seconds,
         "physics_seconds": result.physics_seconds, "wall_seconds": result.wall_seconds,
+        "clipped": result.clipped,
     }  # fmt: skip
 
 
@@ -124,6 +125,8 @@ def result_of(row: dict[str, Any]) -> Result:
             policy_seconds=float(row["policy_seconds"]),
             physics_seconds=float(row["physics_seconds"]),
             wall_seconds=float(row["wall_seconds"]),
+            # Records of earlier versions have no such column.
+            clipped=int(row.get("clipped") or 0),
         )
     except (KeyError, TypeError, ValueError) as error:
         raise EvaluationError(f"a record that cannot be read: {type(error).__name__}: {error}") from error

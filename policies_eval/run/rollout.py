@@ -41,6 +41,8 @@ class Result:
     instruction: str = ""
     actions: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), dtype=np.float32))
     """Every action that was done, shape (steps, action size)."""
+    clipped: int = 0
+    """Values of those actions that were out of range."""
     state_hash: str = ""
     """SHA-256 over the state of the simulation after the reset and after every control step."""
     final_state: bytes = b""
@@ -120,7 +122,8 @@ class Runner:
         watcher, recorder = Watcher(env), Recorder(env)
         clock = {"policy": 0.0, "physics": time.perf_counter() - begun}
         size = int(env.action_space.shape[0])
-        pending: list[NDArray[np.float32]] = []
+        pending: list[tuple[NDArray[np.float32], int]] = []
+        clipped, limit = 0, settings.max_steps or env.horizon
         success, broken, fault = False, False, None
         if watch:
             watch(env)
@@ -138,11 +141,13 @@ class Runner:
             )
             with guard:
                 guard.ask("reset", policy.reset, begin)
-                while len(recorder.actions) < settings.max_steps and not (success or broken):
+                while len(recorder.actions) < limit and not (success or broken):
                     if not pending:
                         answer = guard.ask("act", policy.act, observation)
-                        pending = list(checked(answer, size, clip=settings.clip)[: settings.replan])
-                    action = pending.pop(0)
+                        given = checked(answer, size, strict=settings.strict)
+                        pending = list(zip(*given, strict=True))[: settings.replan]
+                    action, beyond = pending.pop(0)
+                    clipped += int(beyond)
                     start = time.perf_counter()
                     observation, _, success, broken, info = env.step(action)
                     clock["physics"] += time.perf_counter() - start
@@ -162,6 +167,7 @@ class Runner:
             progress=float(info["progress"]),
             instruction=info["instruction"],
             actions=recorder.array(size),
+            clipped=clipped,
             state_hash=recorder.digest(),
             final_state=recorder.state(),
             drawn=drawn,

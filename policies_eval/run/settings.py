@@ -5,8 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.errors import EvaluationError
+
+NOISE = 0.1
+"""Of the hand that demonstrates, in actions: most demonstrations succeed, at 0.3 most do not."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,20 +22,21 @@ class RolloutSettings:
     control: str = "osc"
     obs: str = "state"
     control_freq: float = 20.0
-    max_steps: int = 400
-    image_size: int = 128
+    max_steps: int = 0
+    """Of an episode; 0 for as many as its task takes (`Task.horizon`)."""
+    image_size: int = IMAGE_SIDE
     max_objects: int = 32
     """Rows of the state's "objects", so that every scene of a suite gives observations of one shape."""
     replan: int = 8
     """Actions that are done of several given at once before the policy is asked again."""
-    clip: bool = False
-    """Clip actions that are out of range; otherwise they are policy errors."""
+    strict: bool = False
+    """Actions that are out of range are policy errors; otherwise they are clipped and counted."""
     act_seconds: float = 30.0
     """A policy that thinks for longer hangs [s]."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "robot", self.robot or default_robot())
-        for name, low, high in (("max_steps", 1, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
+        for name, low, high in (("max_steps", 0, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
             if not low <= getattr(self, name) <= high:
                 raise EvaluationError(f"{name} is {low} to {high}, not {getattr(self, name)}.")
         if not 0.001 <= self.act_seconds <= 3600.0:

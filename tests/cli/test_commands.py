@@ -155,6 +155,23 @@ def test_doctor_names_a_package_that_is_too_old_or_missing(monkeypatch, capsys):
     assert "pat3d[usd]" in rows["absent-extra"]
 
 
+def test_doctor_says_which_model_is_set_up_and_what_is_missing(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    for name in ("PAT3D_MODEL", "PAT3D_MODEL_URL", "PAT3D_MODEL_KEY", "PAT3D_CONFIG", "OPENAI_API_KEY"):
+        monkeypatch.delenv(name, raising=False)
+    rows = []
+    monkeypatch.setattr(doctor.Table, "add", lambda table, *row: rows.append(row))
+    doctor._model(doctor.Table())
+    monkeypatch.setenv("PAT3D_MODEL", "small")
+    doctor._model(doctor.Table())
+    monkeypatch.setenv("PAT3D_MODEL_KEY", "sk-secret")
+    doctor._model(doctor.Table())
+    assert [row[0] for row in rows] == ["no", "ok", "ok"]
+    assert "PAT3D_MODEL" in rows[0][2]
+    assert rows[1][2] == "small on api.openai.com, with no key (PAT3D_MODEL_KEY or OPENAI_API_KEY)"
+    assert "sk-secret" not in rows[2][2]
+
+
 @pytest.mark.parametrize(
     ("line", "name", "least", "extra"),
     [

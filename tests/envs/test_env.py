@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 import warnings
 
 import numpy as np
@@ -17,6 +19,7 @@ import pat3d  # noqa: E402, F401
 from pat3d.envs.env import TabletopEnv  # noqa: E402
 from pat3d.envs.grasping.scripted import ScriptedPick  # noqa: E402
 from pat3d.envs.physics.loading import default_scene, load  # noqa: E402
+from pat3d.envs.reward import BONUS  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, TaskError  # noqa: E402
 
 
@@ -212,21 +215,67 @@ def test_a_reset_compiles_and_plans_nothing_again(env, monkeypatch):
     assert len(passes) <= 3
 
 
-def test_the_dense_reward_grows_along_a_pick():
-    made = TabletopEnv(reward="dense")
-    made.reset(seed=0)
+def test_the_progress_grows_along_a_pick_and_the_dense_reward_is_its_differences():
+    made = TabletopEnv(reward="dense", discount=0.97)
+    _, info = made.reset(seed=0)
     hand = ScriptedPick(made)
-    rewards = []
+    progress, rewards = [info["progress"]], []
     for _ in range(100):
-        _, reward, success, *_ = made.step(hand.action())
+        _, reward, success, _, info = made.step(hand.action())
+        progress.append(info["progress"])
         rewards.append(reward)
         if success:
             break
-    assert rewards[-1] == 1.0
-    assert 0.0 <= rewards[0] < 0.2
-    assert all(0.0 <= reward <= 1.0 for reward in rewards)
+    assert progress[-1] == 1.0
+    assert 0.0 <= progress[0] < 0.2
+    assert all(0.0 <= one <= 1.0 for one in progress)
     # From closing the fingers on it never falls back by more than the hand's wobble.
-    assert np.diff(rewards[36:]).min() > -0.05
+    assert np.diff(progress[37:]).min() > -0.05
+    differences = 0.97 * np.array(progress[1:]) - progress[:-1]
+    np.testing.assert_allclose(rewards[:-1], differences[:-1], atol=1e-12)
+    assert rewards[-1] == pytest.approx(differences[-1] + BONUS)
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+def test_an_environment_can_be_copied_and_pickled(again):
+    """The copy is about the same and draws the same numbers; it begins with a reset."""
+    made = TabletopEnv(task="place:green apple:blue bowl", reward="dense", start_noise=0.1)
+    made.reset(seed=3)
+    made.reset(options={"task": "pick:banana"})
+    other = again(made)
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        other.step(np.zeros(7))
+    first, info = made.reset()
+    second, same = other.reset()
+    assert same["task"] == info["task"] == "pick:banana"
+    assert other.config.reward == "dense"
+    for name in first:
+        np.testing.assert_array_equal(first[name], second[name])
+    one, two = made.step(np.full(7, 0.3)), other.step(np.full(7, 0.3))
+    assert one[1] == two[1]
+    np.testing.assert_array_equal(one[0]["joint_pos"], two[0]["joint_pos"])
+    made.close()
+    assert other.simulation.data is not made.simulation.data
+    whole = again(gymnasium.make("PAT3D-v0", start_noise=0.0))
+    assert whole.reset(seed=0)[1]["task"] == "pick:red mug"
+
+
+def test_a_scene_that_mujoco_cannot_compile_is_an_error_of_ours(monkeypatch):
+    class Spec:
+        @staticmethod
+        def from_file(path):
+            raise mujoco.FatalError("out of memory")
+
+    monkeypatch.setattr(mujoco, "MjSpec", Spec)
+    with pytest.raises(EnvironmentSetupError, match="refuses the scene: out of memory"):
+        TabletopEnv()
+
+
+def test_tasks_that_move_more_take_longer(breakfast):
+    assert TabletopEnv(task="pick:red mug").horizon == 400
+    assert TabletopEnv(task="pick:red mug", control_freq=10.0).horizon == 200
+    env = TabletopEnv(task="unload:wooden tray")
+    assert env.horizon == 400 + 300 * (len(env.task.needs(breakfast).grasp) - 1)
 
 
 def test_the_time_limit_truncates():

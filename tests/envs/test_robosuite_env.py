@@ -59,3 +59,41 @@ def test_success_is_the_task_s(native):
     rewards = [native.step(np.zeros(native.action_dim))[1] for _ in range(60)]
     assert rewards[0] == 0.0
     assert rewards[-1] == 1.0
+
+
+@pytest.mark.parametrize("objects", [True, False])
+def test_robosuite_s_gym_wrapper_runs_it(objects):
+    from robosuite.wrappers import GymWrapper
+
+    made = robosuite.make(
+        "PAT3DScene",
+        robots="Panda",
+        task="place:green apple:blue bowl",
+        has_renderer=False,
+        has_offscreen_renderer=False,
+        use_camera_obs=False,
+        use_object_obs=objects,
+        hard_reset=False,
+        reward_shaping=True,
+        reward_scale=2.0,
+        horizon=3,
+    )
+    wrapped = GymWrapper(made)
+    assert wrapped.reward_range == (0, 2.0)
+    first, _ = wrapped.reset(seed=0)
+    assert ("object-state" in made.reset()) == objects
+    assert wrapped.observation_space.shape == first.shape
+    before = made._verdict.progress
+    observation, reward, ended, _, info = wrapped.step(np.zeros(made.action_dim))
+    assert observation.shape == first.shape
+    assert not info["success"]
+    assert reward == pytest.approx(2.0 * (0.99 * info["progress"] - before), abs=1e-9)
+    # Asked once more, the reward is the same and no time has passed.
+    assert wrapped.compute_reward(None, None, {}) == reward
+    wrapped.step(np.zeros(made.action_dim))
+    assert wrapped.step(np.zeros(made.action_dim))[2]
+    assert not ended
+    # What every task of robosuite has.
+    for name in ("reward_scale", "reward_shaping", "use_object_obs", "use_camera_obs", "placement_initializer"):
+        assert hasattr(wrapped, name)
+    made.close()

@@ -23,7 +23,7 @@ import pat3d  # noqa: E402, F401
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
-from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder  # noqa: E402
+from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder, checksum_of_document  # noqa: E402
 from pat3d.envs.suites.generate import generate  # noqa: E402
 from pat3d.envs.suites.page import page  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
@@ -257,6 +257,119 @@ def test_lerobot_gets_a_vector_environment_for_every_kind_of_task(made):
     assert observations["pixels"]["agentview"].shape == (1, 32, 32, 3)
     assert envs["pick"][0].call("task_description")[0].startswith("pick up the ")
     assert observations in envs["pick"][0].observation_space
+
+
+def evaluated(envs, episodes: int, *, seed: int | None, films: int = 0):
+    """What `lerobot.scripts.lerobot_eval.eval_policy` (0.4.4) does with a vector environment and a still policy.
+
+    Returns:
+        Successes and instructions by episode, and the pictures of the first ones.
+    """
+    successes, told, pictures = [], [], []
+    for batch in range(-(-episodes // envs.num_envs)):
+        first = None if seed is None else seed + batch * envs.num_envs
+        envs.reset(seed=None if first is None else list(range(first, first + envs.num_envs)))
+        limit = envs.call("_max_episode_steps")[0]
+        assert hasattr(envs.envs[0], "task_description")
+        assert hasattr(envs.envs[0], "task")
+        told += envs.call("task_description")
+        done, won = np.zeros(envs.num_envs, dtype=bool), np.zeros(envs.num_envs, dtype=bool)
+        for step in range(limit):
+            pictures += [one.render() for one in envs.envs[:films]]
+            *_, ended, cut, info = envs.step(np.zeros((envs.num_envs, 7), dtype=np.float32))
+            if "final_info" in info:
+                won |= ~done & np.array(info["final_info"]["is_success"].tolist())
+            done |= ended | cut | (step + 1 == limit)
+            if done.all():
+                break
+        successes += won.tolist()
+    return successes[:episodes], told[:episodes], pictures
+
+
+@pytest.mark.parametrize(("count", "seed"), [(1, 1000), (2, 1000), (1, None)])
+def test_lerobot_s_evaluator_sees_successes_instructions_films_and_every_scene_once(made, monkeypatch, count, seed):
+    """The pick of the first scene succeeds by itself after three steps; nothing else is ever done."""
+    from pat3d.envs.tasks import judges, task
+
+    monkeypatch.setattr(task, "FIRST_MOVE", 0.3)
+    entries = Suite.open(made).select("train", "pick")
+    assert len(entries) == 2
+    update, calls = judges.LiftJudge.update, []
+
+    def won(judge, seconds):
+        calls.append(judge)
+        verdicts = update(judge, seconds)
+        lucky = calls.count(judge) > 3 and entries[0].task.endswith(
+            judge.states.world.scene.objects[judge._target].name
+        )
+        return verdicts._replace(success=np.array([lucky]))
+
+    monkeypatch.setattr(judges.LiftJudge, "update", won)
+    envs = make_env(made, split="train", n_envs=count, image_size=(32, 32))["pick"][0]
+    successes, told, pictures = evaluated(envs, 2, seed=seed, films=1)
+    assert told == [one.instruction for one in entries]
+    assert successes == [True, False]
+    assert pictures[0].shape == (32, 32, 3)
+    assert pictures[0].dtype == np.uint8
+    assert envs.unwrapped.metadata["render_fps"] == 20
+    assert len({type(one) for one in envs.envs}) == 1
+    envs.close()
+
+
+def test_pictures_are_of_one_size_wherever_nobody_asks_for_another(made):
+    from inspect import signature
+
+    from pat3d.envs.config import TabletopConfig
+    from pat3d.policies_eval.run.settings import RolloutSettings
+
+    side = RolloutSettings().image_size
+    assert TabletopConfig().image_size == signature(make_env).parameters["image_size"].default == (side, side)
+
+
+@pytest.mark.parametrize("everywhere", [False, True])
+def test_check_convicts_an_edited_task_or_instruction(copy, everywhere):
+    """Where the record and the manifest's checksum were edited too, the scene itself says what its instruction is."""
+    document = json.loads((copy / MANIFEST).read_text())
+    scene = document["scenes"][0]
+    scene["instruction"] = "throw it all on the floor"
+    if everywhere:
+        record = copy / "scenes" / "000000" / RECORD
+        record.write_text(json.dumps({**json.loads(record.read_text()), "instruction": scene["instruction"]}))
+        document["manifest_sha256"] = checksum_of_document(document)
+    (copy / MANIFEST).write_text(json.dumps(document))
+    found = "\n".join(check_suite(Suite.open(copy), settle=False))
+    if everywhere:
+        assert '"throw it all on the floor" is not the instruction of' in found
+    else:
+        assert "suite.json was edited" in found
+        assert "scene 0: record.json and suite.json differ in instruction." in found
+    document["scenes"][0]["task"] = "pick:moon"
+    (copy / MANIFEST).write_text(json.dumps(document))
+    assert "suite.json was edited" in "\n".join(check_suite(Suite.open(copy), settle=False))
+
+
+def test_a_scene_that_mujoco_cannot_compile_is_rejected_and_its_worker_goes_on(tmp_path, monkeypatch):
+    """`mujoco.FatalError` is no ValueError: the first file of the run raises it, and another candidate is made."""
+    import mujoco
+
+    from pat3d.envs.suites.unit import make_unit
+
+    load, calls = mujoco.MjModel.from_xml_path, []
+
+    class Model(mujoco.MjModel):
+        @staticmethod
+        def from_xml_path(*given):
+            calls.append(given)
+            if len(calls) == 1:
+                raise mujoco.FatalError("mj_stackAlloc: insufficient memory")
+            return load(*given)
+
+    monkeypatch.setattr(mujoco, "MjModel", Model)
+    folder = SuiteFolder(tmp_path / "one")
+    answers = [make_unit(folder, REQUEST, 0, candidate) for candidate in (0, 1)]
+    assert answers[0]["reason"] == "simulation"
+    assert "insufficient memory" in json.dumps(json.loads(folder.rejection(0, 0).read_text()))
+    assert len(calls) >= 2
 
 
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):

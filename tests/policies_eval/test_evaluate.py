@@ -257,3 +257,27 @@ def test_a_film_shows_one_episode(done, tmp_path, capsys):
 def test_what_the_user_got_wrong_is_said_without_a_traceback(arguments, words, tmp_path, capsys):
     assert main(["evaluate", *arguments, "--out", str(tmp_path / "o")]) == 2
     assert words in capsys.readouterr().err
+
+
+class Broken:
+    def reset(self, episode):
+        pass
+
+    def act(self, observation):
+        raise RuntimeError("no weights")
+
+
+class Excessive(Broken):
+    def act(self, observation):
+        return np.full(7, 3.0)
+
+
+def test_an_evaluation_of_nothing_but_policy_errors_exits_with_1_and_says_so(tmp_path, capsys):
+    common = ["--episodes", "2", "--max-steps", "3", "--no-pictures"]
+    assert main(["evaluate", "--policy", f"{__name__}:Broken", *common, "--out", str(tmp_path / "broken")]) == 1
+    assert "every episode ended by an error of the policy, RuntimeError: no weights" in capsys.readouterr().err
+    assert main(["evaluate", "--policy", f"{__name__}:Excessive", *common, "--out", str(tmp_path / "loud")]) == 0
+    assert "clipped: 42 of 42 action values" in capsys.readouterr().out
+    assert (
+        main(["evaluate", "--policy", f"{__name__}:Excessive", "--strict", *common, "--out", str(tmp_path / "x")]) == 1
+    )

@@ -142,7 +142,7 @@ def test_a_checkpoint_is_evaluated_like_any_policy(lerobot, tmp_path):
     pytest.importorskip("robosuite")
     spec = checkpoint(tmp_path / "a")
     episode = Episode(index=0, scene="", task="pick:red mug", seed=0)
-    done = evaluate(spec, [episode], tmp_path / "out", settings=RolloutSettings(max_steps=3, clip=True), workers=0)
+    done = evaluate(spec, [episode], tmp_path / "out", settings=RolloutSettings(max_steps=3), workers=0)
     assert [(one.steps, one.reason) for one in done.results] == [(3, "")]
     assert done.manifest["policy_details"] == identity(spec)
     assert len(identity(spec)["checkpoint_sha256"]) == 64

@@ -33,14 +33,18 @@ from pat3d.policies_eval.policies.registry import make_policy
 )
 def test_invalid_answers_are_named(answer, kind):
     with pytest.raises(PolicyError) as caught:
-        checked(answer, 7)
+        checked(answer, 7, strict=True)
     assert caught.value.kind == kind
 
 
-def test_valid_answers_are_a_row_or_rows_and_small_excess_is_clipped():
-    assert checked([0.5] * 7, 7).shape == (1, 7)
-    assert checked(np.full((3, 7), 1.04), 7).max() == 1.0
-    assert checked(np.full(7, -9.0), 7, clip=True).min() == -1.0
+def test_valid_answers_are_a_row_or_rows_and_what_is_out_of_range_is_clipped_and_counted():
+    assert checked([0.5] * 7, 7).values.shape == (1, 7)
+    assert checked(np.full((3, 7), 1.04), 7, strict=True).values.max() == 1.0
+    values, clipped = checked([[0.0] * 7, [-9.0, 1.05, 1.0, 0.0, 0.0, 0.0, 0.0]], 7)
+    assert values.min() == -1.0
+    assert clipped.tolist() == [0, 2]
+    with pytest.raises(PolicyError, match="NaN"):
+        checked(np.full(7, np.nan), 7)
 
 
 def wave(observation):

@@ -13,6 +13,7 @@ from pat3d.policies_eval.policies.registry import RandomPolicy
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Episode, Setting, episodes_of, settings_of
 from pat3d.policies_eval.run.perturb import Perturbation, parse, reworded
+from pat3d.policies_eval.run.records import result_of, row_of
 
 MUG = Setting(scene="", task="pick:red mug")
 ALL = Perturbation(pose=0.03, friction=0.5, mass=0.5, camera=0.02, light=0.2)
@@ -136,3 +137,53 @@ def test_failures_are_counted_from_the_state(runner, episode):
     missed = runner.run(episode, Away())
     assert (missed.outcome, missed.events.grasped, missed.events.collided) == ("missed", False, ())
     assert missed.events.closest > 0.05
+
+
+def test_an_episode_that_was_still_getting_on_timed_out(runner, episode, monkeypatch):
+    """The scripted hand stopped on its way; and one that stands still all the time, which has missed."""
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, max_steps=25))
+    assert runner.run(episode, ScriptedPolicy()).outcome == "timed_out"
+
+    class Still:
+        def reset(self, start):
+            self.size = start.action_size
+
+        def act(self, observation):
+            return np.zeros(self.size)
+
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, max_steps=60))
+    assert runner.run(episode, Still()).outcome == "missed"
+
+
+def test_without_a_limit_an_episode_has_its_task_s_time(runner, episode, monkeypatch):
+    monkeypatch.setattr("pat3d.envs.tasks.task.FIRST_MOVE", 0.35)
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, max_steps=0))
+    assert runner.run(episode, RandomPolicy()).steps == 7
+
+
+class Loud:
+    """Every fourth action, of a chunk of two, is far out of range in two values."""
+
+    def reset(self, start):
+        self.count = 0
+
+    def act(self, observation):
+        self.count += 1
+        chunk = np.zeros((2, 7))
+        if self.count % 2 == 0:
+            chunk[1, :2] = 1.05, -40.0
+        return chunk
+
+
+def test_actions_out_of_range_are_clipped_and_counted_unless_one_is_strict(runner, episode, monkeypatch):
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, max_steps=10))
+    result = runner.run(episode, Loud())
+    assert (result.outcome != "policy_error", result.steps, result.clipped) == (True, 10, 4)
+    assert np.abs(result.actions).max() == 1.0
+    assert result_of(row_of(result)).clipped == 4
+    older = {name: value for name, value in row_of(result).items() if name != "clipped"}
+    assert result_of(older).clipped == 0
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, strict=True))
+    refused = runner.run(episode, Loud())
+    assert (refused.outcome, refused.clipped) == ("policy_error", 0)
+    assert "40" in refused.reason

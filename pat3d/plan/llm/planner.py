@@ -1,0 +1,175 @@
+"""A planner that asks a language model; its plan passes every check that the grammar's passes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from pat3d.errors import AnswerError, PromptError
+from pat3d.plan.grammar.measures import LARGEST, SMALLEST
+from pat3d.plan.grammar.world import MAX_OBJECTS
+from pat3d.plan.llm.chat import Chat, Message
+from pat3d.plan.llm.language import quoted, scene_language
+from pat3d.plan.llm.schema import Shape
+from pat3d.plan.scene_plan import ScenePlan
+from pat3d.scene.relations import GROUND
+
+MAX_CHARACTERS = 4000
+"""Of a prompt."""
+MAX_NAME = 80
+"""Characters of an object's name."""
+PROXY = "box"
+_SCALE = (0.05, 20.0)
+_TASK = re.compile(r"sort|(pick|unload):([^:]+)|(place|stack):([^:]+):([^:]+)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What the model answers."""
+
+    plan: ScenePlan
+    missing: tuple[str, ...] = ()
+    """Words of the description that name objects which no noun of the catalogue names."""
+
+
+class LLMPlanner:
+    """Plans prompts of any language with the model that `chat` asks."""
+
+    def __init__(self, chat: Chat, allow_proxies: bool = False) -> None:
+        """Ask `chat`; with `allow_proxies` plain boxes stand in for what the catalogue lacks."""
+        self._chat = chat
+        self._proxies = allow_proxies
+
+    def plan(self, prompt: str) -> ScenePlan:
+        """Plan `prompt`.
+
+        Raises:
+            PromptError: the prompt is empty or too long, or names what the catalogue lacks.
+            ModelError: the model gives no plan that can be made.
+        """
+        return self._ask(prompt, self._messages(prompt))
+
+    def revise(self, prompt: str, plan: ScenePlan, faults: Sequence[str]) -> ScenePlan:
+        """Another plan of `prompt`, where the scene of `plan` was seen to have `faults`.
+
+        Raises:
+            PromptError: as for `plan`.
+            ModelError: as for `plan`.
+        """
+        from pat3d.plan.describe import describe
+
+        seen = "\n".join(f"- {fault}" for fault in faults)
+        words = (
+            f"A plan of this description was:\n{describe(plan)}\n\n"
+            f"Who looked at pictures of its scene says:\n{seen}\n\n"
+            "Plan the description again so that this becomes right. Change nothing that is right already."
+        )
+        return self._ask(prompt, [*self._messages(prompt), {"role": "user", "content": words}])
+
+    def record(self) -> dict[str, Any]:
+        """What the report says: the model and what it has cost so far."""
+        settings = self._chat.settings
+        return {"planner": "llm", "model": settings.name, "server": settings.server, **self._chat.usage.as_dict()}
+
+    def _messages(self, prompt: str) -> list[Message]:
+        if not prompt.strip():
+            raise PromptError('the prompt is empty. Describe a scene: "a red mug on a wooden table".')
+        if len(prompt) > MAX_CHARACTERS:
+            raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
+        names = self._names
+        told = scene_language(
+            names["PlannedObject.noun"],
+            names["PlannedObject.colours"],
+            names["PlannedObject.material"],
+            allow_proxies=self._proxies,
+        )
+        return [{"role": "system", "content": told}, {"role": "user", "content": quoted(prompt)}]
+
+    def _ask(self, prompt: str, messages: list[Message]) -> ScenePlan:
+        hidden: dict[str, Any] = {"ScenePlan.prompt": prompt, "ScenePlan.otherwise": ""}
+        if not self._proxies:
+            hidden["PlannedObject.proxy"] = False
+        shape = Shape(kind=Answer, choices=self._names, hidden=hidden)
+
+        def made(data: Any) -> Answer:
+            missing = tuple(data.get("missing", ()))
+            # What is missing is said before a plan without it is looked at.
+            return replace(_NONE, missing=missing) if missing else _checked(shape.made(Answer, data))
+
+        answer = self._chat.ask(messages, shape, made=made)
+        if answer.missing:
+            words = ", ".join(f'"{word}"' for word in answer.missing)
+            raise PromptError(
+                f"{words}: not in the catalogue. `pat3d catalogue` lists what is; use meshes of your own with pat3d "
+                "build, or accept a plain box with --allow-proxies."
+            )
+        return _noted(answer.plan)
+
+    @cached_property
+    def _names(self) -> Mapping[str, Sequence[str]]:
+        """The names that the catalogue, the colours and the materials have."""
+        from pat3d.assets.colours import COLOURS
+        from pat3d.assets.materials import material_names
+        from pat3d.plan.grammar.names import catalogue_names
+
+        known = catalogue_names()
+        nouns = {found.noun for name in known.names() if (found := known.find(name)) is not None}
+        return {
+            "PlannedObject.noun": sorted(nouns),
+            "PlannedObject.colours": sorted(COLOURS),
+            "PlannedObject.material": material_names(),
+        }
+
+
+_NONE = Answer(plan=None)  # type: ignore[arg-type]
+
+
+def _checked(answer: Answer) -> Answer:
+    """`answer`, if it can be made.
+
+    Raises:
+        AnswerError: the types allow what no scene can have.
+    """
+    plan, faults = answer.plan, []
+    names = {obj.name for obj in plan.objects}
+    if len(names) > MAX_OBJECTS:
+        faults.append(f"{len(names)} objects; at most {MAX_OBJECTS}.")
+    for obj in plan.objects:
+        if not obj.name or len(obj.name) > MAX_NAME or obj.name == GROUND or ":" in obj.name:
+            faults.append(f'"{obj.name}" is no name: 1 to {MAX_NAME} characters, no colon, not "{GROUND}".')
+        if not _SCALE[0] <= obj.scale <= _SCALE[1]:
+            faults.append(f'scale {obj.scale} of "{obj.name}": it must be from {_SCALE[0]} to {_SCALE[1]}.')
+        if obj.extent is not None and not SMALLEST <= obj.extent.metres <= LARGEST:
+            faults.append(f'{obj.extent.metres} m of "{obj.name}": it must be from {SMALLEST} to {LARGEST}.')
+        if obj.proxy and obj.noun != PROXY:
+            faults.append(f'"{obj.name}" is a proxy, so its noun must be "{PROXY}".')
+    for relation in plan.relations:
+        if not relation.supports and plan.parent(relation.child) != plan.parent(relation.parent):
+            faults.append(f'"{relation}" holds only between two objects with the same support.')
+    if plan.task is not None:
+        found = _TASK.fullmatch(plan.task)
+        if found is None or not {found[at] for at in (2, 4, 5) if found[at]} <= names:
+            faults.append(
+                f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, unload:A or sort, with names of objects.'
+            )
+    if faults:
+        raise AnswerError("\n".join(faults))
+    return answer
+
+
+def _noted(plan: ScenePlan) -> ScenePlan:
+    """`plan` with a note on everything that it records and does not bring about."""
+    notes = list(plan.notes)
+    for each in plan.arrangements:
+        if not getattr(each, "arranged", True):
+            notes.append(f"not arranged: {', '.join(each.objects)} {each.kind.replace('_', ' ')}")
+    for each in plan.postures:
+        if not getattr(each, "arranged", True):
+            notes.append(f'not arranged: "{each.said}" of "{each.object}"')
+    for obj in plan.objects:
+        if obj.proxy:
+            notes.append(f'"{obj.phrase or obj.name}" is not in the catalogue: a plain box stands in.')
+    return replace(plan, notes=tuple(dict.fromkeys(notes)))
