@@ -84,5 +84,6 @@ def _without(scene: Scene, gone: Collection[str]) -> Scene:
     """The scene when some objects are gone."""
     objects = tuple(obj for obj in scene.objects if obj.name not in gone)
     relations = tuple(one for one in scene.relations if not {one.child, one.parent} & set(gone))
+    arrangements = tuple(one for one in scene.arrangements if not {*one.names} & set(gone))
     attachments = tuple(one for one in scene.attachments if not {one.child, one.parent} & set(gone))
-    return replace(scene, objects=objects, relations=relations, attachments=attachments)
+    return replace(scene, objects=objects, relations=relations, arrangements=arrangements, attachments=attachments)

@@ -69,7 +69,11 @@ def given_poses(scene: Scene) -> frozenset[str]:
 
 def lost(scene: Scene, at_rest: tuple[RelationResult, ...]) -> tuple[Relation, ...]:
     """Lateral relations that hold in the layout of `scene` and not in the results `at_rest`."""
-    missed = [result.relation for result in at_rest if not result.relation.supports and not result.holds]
+    missed = [
+        result.relation
+        for result in at_rest
+        if isinstance(result.relation, Relation) and not result.relation.supports and not result.holds
+    ]
     fulfilled = _fulfilled(scene) if missed else set()
     return tuple(rel for rel in missed if rel in fulfilled)
 
@@ -123,7 +127,8 @@ def optimize_scene(
 def _fulfilled(scene: Scene) -> set[Relation]:
     """Relations that hold in the layout of `scene`."""
     layout = replace(scene, objects=tuple(replace(obj, pose=obj.initial_pose) for obj in scene.objects))
-    return {result.relation for result in relations_at_rest(layout) if result.holds}
+    found = relations_at_rest(layout)
+    return {result.relation for result in found if result.holds and isinstance(result.relation, Relation)}
 
 
 def _count_broken(scene: Scene) -> int:

@@ -13,6 +13,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.plan.telling import tell
 from pat3d.progress import Event, Progress
+from pat3d.scene.arrangements import Arrangement, PostureKind
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
 
@@ -32,6 +33,8 @@ class UnplacedObject:
     """Where the user wants it; None where the layout decides."""
     note: str = ""
     """What was decided about it where the prompt was silent."""
+    posture: PostureKind | None = None
+    """How it is turned; None where nothing is said."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,6 +50,8 @@ class SceneRequest:
     """Makes the objects, in the order of `names`, for a seed."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """What the report says about how this was understood; JSON-serialisable."""
+    arrangements: tuple[Arrangement, ...] = ()
+    """What is said beyond the relations."""
     adjustable: bool = True
     """Whether another layout seed can make a difference."""
     provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
@@ -64,11 +69,15 @@ def derived_seed(seed: int, *words: str | int) -> int:
 def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
     """What `plan` asks for."""
     objects = [_plain(obj) for obj in plan.objects]
+    arranged = [[one.kind, one.objects, one.of] for one in plan.held()]
+    postured = [[one.object, one.kind] for one in plan.turned()]
     return SceneRequest(
         prompt=plan.prompt,
         names=tuple(obj.name for obj in plan.objects),
         relations=plan.relations,
-        fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies],
+        fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies]
+        + ([arranged, postured] if arranged or postured else []),
+        arrangements=plan.held(),
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
         record={
             "objects": objects,
@@ -121,8 +130,15 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     for name, (larger, factor) in enlarged_trays(plan, assets, make).items():
         assets[name] = larger
         notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
+    turned = {one.object: one.kind for one in plan.turned()}
     return tuple(
-        UnplacedObject(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
+        UnplacedObject(
+            name=obj.name,
+            asset=assets[obj.name],
+            phrase=obj.phrase,
+            note=notes.get(obj.name, ""),
+            posture=turned.get(obj.name),
+        )
         for obj in plan.objects
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Item:
     """Whether it may be turned by a quarter to fit."""
     walled: bool = False
     """Whether it is furniture that stands with its back to a wall."""
+    middle: Array = field(default_factory=lambda: np.zeros(2))
+    """Middle of the root's bounding box [m], shape (2,): what is aligned in rows."""
 
     @property
     def size(self) -> Array:
@@ -51,6 +53,7 @@ class Item:
             alike=self.alike,
             turnable=False,
             walled=self.walled,
+            middle=turn @ self.middle,
         )
 
 
