@@ -6,7 +6,7 @@ touches; here the upward force of each carrier on it is compared with its weight
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -56,7 +56,7 @@ def carried_loads(scene: Scene, mjcf_path: str | Path, seconds: float = STILL_SE
     mujoco.mj_step(model, data, nstep=max(1, round(seconds / model.opt.timestep)))
     mujoco.mj_forward(model, data)
     names = {body: object_name(mujoco, model, body) for body in range(1, model.nbody)}
-    upward: Counter[tuple[str, str]] = Counter()
+    upward: defaultdict[tuple[str, str], float] = defaultdict(float)
     force = np.zeros(6)
     for index in range(data.ncon):
         contact = data.contact[index]

@@ -16,6 +16,7 @@ from pat3d.progress import Event, Progress
 from pat3d.scene.arrangements import Arrangement, PostureKind
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
+from pat3d.scene.relations import built_together
 
 MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 """Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""
@@ -115,6 +116,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
             asked *= obj.extent.factor(shape(scale=asked).size.tolist())
         return shape(scale=asked * factor)
 
+    together = built_together([obj.name for obj in plan.objects], plan.relations)
     made: dict[tuple, Asset] = {}
     assets: dict[str, Asset] = {}
     for number, obj in enumerate(plan.objects):
@@ -122,7 +124,8 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
         look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
         entry = catalogue.find(obj.noun)
         shared = entry is not None and entry.family in MATCHING
-        key = (look, obj.phrase if shared else obj.name)
+        # What carries one thing together has to be of one height.
+        key = (look, obj.phrase if shared else together.get(obj.name, obj.name))
         if key not in made:
             made[key] = make(obj.name)
         assets[obj.name] = made[key]
@@ -130,7 +133,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     for name, (larger, factor) in enlarged_trays(plan, assets, make).items():
         assets[name] = larger
         notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
-    turned = {one.object: one.kind for one in plan.turned()}
+    turned: dict[str, PostureKind] = {one.object: one.kind for one in plan.turned()}
     return tuple(
         UnplacedObject(
             name=obj.name,

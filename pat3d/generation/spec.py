@@ -22,6 +22,7 @@ from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
 from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.relations import built_together
 
 MESH_KEYS = ("units", "up", "parts", "thickness")
 NOUN_KEYS = ("colour", "colours")
@@ -79,10 +80,13 @@ class Spec:
     def make_objects(self, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
         found = []
+        # Of what carries one thing together, the same noun is the same thing: a pyramid needs cans of one height.
+        together = built_together([obj["name"] for obj in self.objects], self.relations)
         for number, obj in enumerate(self.objects):
             progress(Event(stage="making assets", detail=obj["name"], step=number, steps=len(self.objects)))
+            own = derived_seed(seed, together.get(obj["name"], obj["name"]))
             try:
-                asset = self._import(obj) if "mesh" in obj else _from_catalogue(obj, derived_seed(seed, obj["name"]))
+                asset = self._import(obj) if "mesh" in obj else _from_catalogue(obj, own)
             except (AssetError, PromptError) as error:
                 key = "mesh" if "mesh" in obj else "noun"
                 place = ("objects", number, key)

@@ -93,3 +93,9 @@ class Spot:
     """[m], shape (2,)."""
     quarter: bool = False
     """Whether it was turned by 90 degrees."""
+
+
+def natural_gap(first: Array, second: Array) -> float:
+    """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
+    small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))
+    return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))

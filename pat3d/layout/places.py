@@ -9,11 +9,13 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from pat3d.layout.bodies import Array, Placed
-from pat3d.layout.flat import Item, Surface
+from pat3d.layout.flat import Item, Surface, natural_gap
+from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import upright
 from pat3d.scene.asset import Region
 
@@ -29,10 +31,22 @@ _DISC_ANGLES = (1.5, 0.5, 0.0, 1.0, 1.75, 1.25, 0.25, 0.75)
 
 
 def pins(
-    places: Mapping[str, str], items: Sequence[Item], surface: Surface, rng: np.random.Generator
+    wishes: Wishes, items: Sequence[Item], surface: Surface, rng: np.random.Generator
 ) -> Iterator[dict[str, Array]]:
-    """Ways to put everything of `places` where it belongs: origins relative to the surface's centre [m], shape (2,)."""
-    wanted = [item for item in items if item.name in places]
+    """Ways to put everything where it is wanted: origins relative to the surface's centre [m], shape (2,).
+
+    Of things in one formation (a row at the edge) the first alone is put there, with room for the others.
+    """
+    places = wishes.places
+    formed = [one for one in wishes.formations if sum(name in places for name in one.names) > 1]
+    led = {name for one in formed for name in [name for name in one.names if name in places][1:]}
+    by_name = {item.name: item for item in items}
+    whole = {
+        lead: _joined(lead, one.offsets(by_name, (), lambda a, b: natural_gap(a.size, b.size)), by_name)
+        for one in formed
+        if (lead := next(name for name in one.names if name in places)) not in led
+    }
+    wanted = [whole.get(item.name, item) for item in items if item.name in places and item.name not in led]
     options = [_spots(places[item.name], item, surface) for item in wanted]
     for one in options:
         # The near ones by chance, so that not everything is in the same corner.
@@ -43,6 +57,15 @@ def pins(
         clear = all(np.maximum(a[0] - b[1], b[0] - a[1]).max() > 0.004 for a, b in itertools.combinations(boxes, 2))
         if clear:
             yield found
+
+
+def _joined(lead: str, offsets: Mapping[str, Array], items: Mapping[str, Item]) -> Item:
+    """The outline of a formation as that of its `lead`, whose origin it keeps."""
+    moved = {name: at - offsets[lead] + items[lead].middle - items[name].middle for name, at in offsets.items()}
+    low = np.min([at + items[name].low for name, at in moved.items()], axis=0)
+    high = np.max([at + items[name].high for name, at in moved.items()], axis=0)
+    outlines = np.concatenate([at + items[name].outline for name, at in moved.items()])
+    return replace(items[lead], low=low, high=high, outline=outlines, middle=(low + high) / 2)
 
 
 def _spots(kind: str, item: Item, surface: Surface) -> list[Array]:
@@ -62,8 +85,9 @@ def _spots(kind: str, item: Item, surface: Surface) -> list[Array]:
     signs = [(i, j) for i in (-1, 1) for j in (-1, 1)]
     if kind == "in_corner":
         return [room * np.array(sign) - centre for sign in signs]
-    at = [np.array([x, y]) for x, y in ((0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0))]
-    at += [np.array([0.5 * i, float(j)]) for i, j in signs]
+    at = [np.array([0.5 * i, float(j)]) for i in (0, -1, 1) for j in (-1, 1)]
+    # A row along x is at an edge in front or behind only.
+    at += [np.array([float(i), 0.0]) for i in (-1, 1) if item.size[0] <= 2.0 * item.size[1]]
     return [room * one - centre for one in at]
 
 
@@ -77,6 +101,9 @@ def place_holds(kind: str, body: Placed, carrier: Placed) -> tuple[bool, str]:
         off = np.abs(middle)
         holds = bool(np.all(off <= np.maximum(MIDDLE[0], MIDDLE[1] * half)))
         return holds, f"{1e3 * float(np.linalg.norm(off)):.0f} mm from the middle"
+    centre = ((body.centre_of_mass - carrier.position) @ carrier.rotation - np.array(region.floor))[:2] / half
+    if (np.linalg.norm(centre) if region.shape == "disc" else np.abs(centre).max()) > 1.0:
+        return False, "centre of mass beyond the edge"
     near = np.maximum(NEAR[0], NEAR[1] * half)
     if region.shape == "disc":
         free = float(half[0] - np.linalg.norm(local, axis=1).max())

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import Item, Lateral, Spot, Surface
+from pat3d.layout.flat import Item, Lateral, Spot, Surface, natural_gap
 from pat3d.layout.formations import CLOSE, Wishes, far_gap, start_angle
 
 BRANCHES = 4
@@ -95,12 +95,6 @@ def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> b
     widest = np.full(2, sizes.max()) if strategy.quarters else sizes.max(axis=0)
     space = 2 * np.array(surface.half_size) + 2 * strategy.overhang * widest + strategy.least
     return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(space))
-
-
-def natural_gap(first: Array, second: Array) -> float:
-    """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
-    small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))
-    return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))
 
 
 def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:

@@ -216,7 +216,7 @@ def _on_region(
     items = [item_of(group, turnable=group.name in top.turnable) for group in share]
     pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
     every = [*(item_of(group, turnable=False) for group in top.given), *items]
-    ways = pins(top.wishes.places, items, region.surface, rng) if top.wishes.places else [{}]
+    ways = pins(top.wishes, items, region.surface, rng) if top.wishes.places else [{}]
     spots = next(
         (
             found

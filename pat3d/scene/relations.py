@@ -5,6 +5,7 @@ The viewer stands at -y and looks along +y, so left is -x, right is +x, in front
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -66,6 +67,20 @@ def parent_of(name: str, relations: tuple[Relation, ...]) -> str:
 def carriers_of(name: str, relations: tuple[Relation, ...]) -> tuple[str, ...]:
     """Everything that carries object `name`, in the order of the relations; the ground where nothing is said."""
     return tuple(rel.parent for rel in relations if rel.supports and rel.child == name) or (GROUND,)
+
+
+def built_together(names: Sequence[str], relations: tuple[Relation, ...]) -> dict[str, str]:
+    """The first of every structure of things with several carriers (a pyramid), by each object that is part of one."""
+    first: dict[str, str] = {}
+    for name in names:
+        carriers = carriers_of(name, relations)
+        if len(carriers) < 2:
+            continue
+        joined = {first.get(one, one) for one in (name, *carriers)}
+        lead = min(joined, key=list(names).index)
+        first |= dict.fromkeys((name, *carriers), lead)
+        first |= {one: lead for one, old in first.items() if old in joined}
+    return first
 
 
 def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
