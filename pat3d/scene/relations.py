@@ -111,7 +111,7 @@ def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
         others.append(relation)
         if len(others) > MAX_CARRIERS:
             raise SpecError(f'"{relation.child}" has more than {MAX_CARRIERS} carriers.')
-    _check_acyclic({name: [edge.parent for edge in edges] for name, edges in parents.items()})
+    _check_acyclic({name: [edge.parent for edge in parents[name]] for name in names if name in parents})
 
 
 def _check_acyclic(parents: dict[str, list[str]]) -> None:
