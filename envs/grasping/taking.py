@@ -40,7 +40,7 @@ def grasps_of(scene: Scene, names: Sequence[str], robot: str, *, put: bool, clea
         refused: TaskError | None = None
         for name in left:
             # What still carries one of the others has to wait for it.
-            if any(rest.parent(other) == name for other in left):
+            if any(name in rest.carriers(other) for other in left):
                 continue
             try:
                 grasps[name] = _grasps(rest, name, robot, put=True)
