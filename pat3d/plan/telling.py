@@ -130,7 +130,21 @@ class _Teller:
 
     def _rows(self) -> list[str]:
         rows = [each for each in self._plan.arrangements if each.kind == "row" and each.arranged]
-        return [f"{self._all(each.objects)} are in a row from left to right" for each in rows if len(each.objects) > 1]
+        return [
+            f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in rows if len(each.objects) > 1
+        ]
+
+    def _direction(self, row: Arrangement) -> str:
+        """Where a row runs: as a relation of its first two has it, else to the right."""
+        first, second = row.objects[:2]
+        ways = {"in_front_of": ("front", "back"), "behind": ("back", "front"), "right_of": ("right", "left")}
+        turned = {"in_front_of": "behind", "behind": "in_front_of", "left_of": "right_of"}
+        kinds = [rel.kind for rel in self._plan.relations if (rel.child, rel.parent) == (first, second)]
+        kinds += [
+            turned.get(rel.kind, "") for rel in self._plan.relations if (rel.child, rel.parent) == (second, first)
+        ]
+        start, end = next((ways[kind] for kind in kinds if kind in ways), ("left", "right"))
+        return f"from {start} to {end}"
 
     def _arranged(self) -> list[str]:
         """Every other arrangement that the scene is to hold."""

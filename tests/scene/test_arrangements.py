@@ -12,13 +12,20 @@ from pat3d.errors import SpecError
 from pat3d.generation.optimize_stage import arranged
 from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES, Arrangement, ArrangementKind, Posture, PostureKind
 from pat3d.scene.model import Relation, Scene, check_tree
-from pat3d.scene.relations import LATERAL_KINDS, RELATION_WORDS, SUPPORT_KINDS, built_together, carriers_of
+from pat3d.scene.relations import (
+    LATERAL_KINDS,
+    RELATION_WORDS,
+    SUPPORT_KINDS,
+    RelationKind,
+    built_together,
+    carriers_of,
+)
 from tests.scenes import asset_of, placed, scene_of
 
 BLOCK = asset_of(box(0.05, 0.05, 0.05))
 
 
-def on(child: str, *parents: str, kind="on") -> tuple[Relation, ...]:
+def on(child: str, *parents: str, kind: RelationKind = "on") -> tuple[Relation, ...]:
     return tuple(Relation(child=child, kind=kind, parent=parent) for parent in parents)
 
 
