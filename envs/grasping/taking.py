@@ -40,7 +40,7 @@ def grasps_of(scene: Scene, names: Sequence[str], robot: str, *, put: bool, clea
         refused: TaskError | None = None
         for name in left:
             # What still carries one of the others has to wait for it.
-            if any(rest.parent(other) == name for other in left):
+            if any(name in rest.carriers(other) for other in left):
                 continue
             try:
                 grasps[name] = _grasps(rest, name, robot, put=True)
@@ -84,5 +84,6 @@ def _without(scene: Scene, gone: Collection[str]) -> Scene:
     """The scene when some objects are gone."""
     objects = tuple(obj for obj in scene.objects if obj.name not in gone)
     relations = tuple(one for one in scene.relations if not {one.child, one.parent} & set(gone))
+    arrangements = tuple(one for one in scene.arrangements if not {*one.names} & set(gone))
     attachments = tuple(one for one in scene.attachments if not {one.child, one.parent} & set(gone))
-    return replace(scene, objects=objects, relations=relations, attachments=attachments)
+    return replace(scene, objects=objects, relations=relations, arrangements=arrangements, attachments=attachments)

@@ -13,7 +13,7 @@ from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.task import Goal, Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
-from pat3d.scene.model import Scene
+from pat3d.scene.model import GROUND, Scene
 
 if TYPE_CHECKING:
     from pat3d.envs.physics.state import SimState, States
@@ -129,11 +129,12 @@ def check_move(scene: Scene, target: str, where: str) -> None:
     present(scene, where)
     if target == where:
         raise TaskError(f'"{target}" cannot be put into or onto itself.')
-    above_target = where
-    while above_target in {obj.name for obj in scene.objects}:
-        above_target = scene.parent(above_target)
-        if above_target == target:
+    below = [where]
+    while below:
+        carriers = [one for one in scene.carriers(below.pop()) if one != GROUND]
+        if target in carriers:
             raise TaskError(f'"{where}" stands on "{target}".')
+        below += carriers
     region = scene[where].asset.region("in")
     if region is not None:
         width, inside = narrowest(scene[target]), 2 * min(region.half_size)

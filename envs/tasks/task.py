@@ -178,7 +178,7 @@ def present(scene: Scene, name: str) -> None:
 
 def children(scene: Scene, parent: str) -> tuple[str, ...]:
     """Objects directly on or in `parent`, in the order of the scene."""
-    return tuple(obj.name for obj in scene.objects if scene.parent(obj.name) == parent)
+    return tuple(obj.name for obj in scene.objects if parent in scene.carriers(obj.name))
 
 
 def standing_on(scene: Scene, parent: str) -> tuple[str, ...]:

@@ -228,7 +228,7 @@ def _run(mujoco: Any, model: Any, data: Any, seconds: float, alive: Callable[[],
             records = []
             break
     late = creep(*map(np.array, zip(*records, strict=True))) if records else (worst[0], worst[2])
-    names = [_object_name(mujoco, model, body) for body in bodies]
+    names = [object_name(mujoco, model, body) for body in bodies]
     return tuple(
         ObjectDrift(
             name=name,
@@ -258,7 +258,7 @@ def _angle(now: np.ndarray, start: np.ndarray) -> np.ndarray:
     return 4.0 * np.arcsin(np.clip(np.linalg.norm(aligned - start, axis=1) / 2.0, 0.0, 1.0))
 
 
-def _object_name(mujoco: Any, model: Any, body: int) -> str:
+def object_name(mujoco: Any, model: Any, body: int) -> str:
     """The object's own name where the file carries one, else the body's."""
     name = model.body(body).name or f"body {body}"
     text = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, name)

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.check.certificate import Certificate, certify
+from pat3d.check.loads import Load, carried_loads
 from pat3d.check.metrics import displacement, share_still
 from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
-from pat3d.layout.predicates import RelationResult, check_relations
+from pat3d.layout.predicates import RelationResult, check_arranged, check_relations
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.model import Scene
 from pat3d.scene.physics import STILL_SECONDS
@@ -25,6 +26,9 @@ class Verification:
     penetration: PenetrationReport
     mujoco: SettleReport
     relations: tuple[RelationResult, ...]
+    """Relations, arrangements and postures."""
+    loads: tuple[Load, ...] = ()
+    """What lies on several objects, and how much of its weight each carries in MuJoCo."""
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -53,6 +57,7 @@ class Verification:
             for obj in self.mujoco.moved()
         ]
         lines += [f"MuJoCo warns: {warning}" for warning in self.mujoco.warnings]
+        lines += [str(load) for load in self.loads if not load.carries]
         return (*lines, *self.broken, *(f"not met: {line}." for line in self.unmet))
 
     @property
@@ -86,6 +91,7 @@ class Verification:
             "settings": "MuJoCo with the options of mjcf/scene.xml; for others see: pat3d check --settings all",
             "displacement_m": displacement(self.mujoco),
             "share_still": share_still(self.mujoco),
+            **({"loads": [load.as_dict() for load in self.loads]} if self.loads else {}),
             "relations": {
                 "held": held,
                 "count": len(self.relations),
@@ -116,12 +122,11 @@ def broken(relations: tuple[RelationResult, ...]) -> tuple[str, ...]:
 
 
 def relations_at_rest(scene: Scene) -> tuple[RelationResult, ...]:
-    """Every relation of `scene` with whether it holds at the objects' poses."""
-    return check_relations(
-        scene.relations,
-        {obj.name: obj.asset for obj in scene.objects},
-        {obj.name: obj.pose for obj in scene.objects},
-        attachments=scene.attachments,
+    """Every relation, arrangement and posture of `scene` with whether it holds at the objects' poses."""
+    assets, poses = ({obj.name: getattr(obj, what) for obj in scene.objects} for what in ("asset", "pose"))
+    return (
+        *check_relations(scene.relations, assets, poses, attachments=scene.attachments),
+        *check_arranged(scene.arrangements, scene.postures, assets, poses),
     )
 
 
@@ -142,5 +147,9 @@ def verify(
     mujoco = settle_in_mujoco(mjcf_path, seconds, alive=lambda: progress(running))
     progress(Event(stage="verifying", detail="relations", step=3, steps=4))
     return Verification(
-        certificate=certificate, penetration=overlaps, mujoco=mujoco, relations=relations_at_rest(scene)
+        certificate=certificate,
+        penetration=overlaps,
+        mujoco=mujoco,
+        relations=relations_at_rest(scene),
+        loads=carried_loads(scene, mjcf_path, seconds),
     )

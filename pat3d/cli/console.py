@@ -121,7 +121,7 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
             obj.name,
             ("fixed by the user, afloat" if obj.name in verification.penetration.afloat else "fixed")
             if obj.fixed
-            else scene.parent(obj.name),
+            else ", ".join(scene.carriers(obj.name)),
             f"{obj.asset.mass_properties.mass:.3g}",
             "-" if drift is None else f"{max(drift.centre_mm, drift.origin_mm):.3f}",
             "-" if drift is None else f"{drift.degrees:.3f}",

@@ -239,11 +239,14 @@ class Attempts:
                 self.request.relations,
                 seed=layout_seed,
                 fixed_poses={one.name: one.pose for one in self._objects if one.pose is not None},
+                arrangements=self.request.arrangements,
+                postures={one.name: one.posture for one in self._objects if one.posture is not None},
             )
         objects = tuple(_placed(one, layout.poses[one.name], self.request.relations) for one in self._objects)
         scene = Scene(
             objects=objects,
             relations=self.request.relations,
+            arrangements=self.request.arrangements,
             attachments=layout.attachments,
             prompt=self.request.prompt,
             seed=self.seed,
@@ -345,4 +348,12 @@ def _placed(one: UnplacedObject, pose: Pose, relations: tuple[Relation, ...]) ->
         lowest = min(float(pose.apply(part.vertices)[:, 2].min()) for part in one.asset.parts)
         x, y, z = pose.position
         pose = Pose(position=(x, y, z - lowest + CLEARANCE), quat_wxyz=pose.quat_wxyz)
-    return SceneObject(name=one.name, phrase=one.phrase, asset=one.asset, pose=pose, initial_pose=pose, fixed=one.fixed)
+    return SceneObject(
+        name=one.name,
+        phrase=one.phrase,
+        asset=one.asset,
+        pose=pose,
+        initial_pose=pose,
+        fixed=one.fixed,
+        posture=one.posture,
+    )

@@ -58,7 +58,7 @@ def laid_out_as_posed(scene: Scene, changed: Collection[str] = ()) -> Scene:
     lifts = dict.fromkeys(placed, 0.0)
     order = sorted(moving, key=lambda obj: (_depth(scene, obj.name), obj.name in changed, placed[obj.name].low[2]))
     for obj in order:
-        carried = lifts.get(scene.parent(obj.name), 0.0)
+        carried = max(lifts.get(one, 0.0) for one in scene.carriers(obj.name))
         body = _raised(placed[obj.name], carried)
         more = _lift(body, settled)
         lifts[obj.name] = carried + more
@@ -72,11 +72,8 @@ def laid_out_as_posed(scene: Scene, changed: Collection[str] = ()) -> Scene:
 
 
 def _depth(scene: Scene, name: str) -> int:
-    """How many objects are under `name` in the scene tree."""
-    depth = 0
-    while (name := scene.parent(name)) != GROUND:
-        depth += 1
-    return depth
+    """How many objects are under `name` in the scene tree, at most."""
+    return max(0 if one == GROUND else 1 + _depth(scene, one) for one in scene.carriers(name))
 
 
 def _lift(body: Placed, others: Sequence[Placed]) -> float:

@@ -18,7 +18,7 @@ from pat3d.errors import SpecError
 from pat3d.generation.settle_stage import SettledScene, settle_scene
 from pat3d.layout.predicates import RelationResult
 from pat3d.progress import Event, Progress, silent
-from pat3d.scene.model import Relation, Scene
+from pat3d.scene.model import GROUND, Relation, Scene
 from pat3d.scene.versions import versions
 
 if TYPE_CHECKING:
@@ -67,9 +67,29 @@ def given_poses(scene: Scene) -> frozenset[str]:
     return frozenset(obj.name for obj in scene.objects if obj.name in names)
 
 
+def arranged(scene: Scene) -> frozenset[str]:
+    """Names of the objects of `scene` whose places follow from more than relations, and of all that carries them.
+
+    The optimisation knows relations alone: what is arranged, turned or carried by several objects starts where the
+    layout put it.
+    """
+    names = {name for one in scene.arrangements for name in one.names} | {one.object for one in scene.postures}
+    several = [obj.name for obj in scene.objects if len(scene.carriers(obj.name)) > 1]
+    waiting = [*names, *several]
+    while waiting:
+        name = waiting.pop()
+        names.add(name)
+        waiting += [one for one in scene.carriers(name) if one != GROUND and one not in names]
+    return frozenset(names)
+
+
 def lost(scene: Scene, at_rest: tuple[RelationResult, ...]) -> tuple[Relation, ...]:
     """Lateral relations that hold in the layout of `scene` and not in the results `at_rest`."""
-    missed = [result.relation for result in at_rest if not result.relation.supports and not result.holds]
+    missed = [
+        result.relation
+        for result in at_rest
+        if isinstance(result.relation, Relation) and not result.relation.supports and not result.holds
+    ]
     fulfilled = _fulfilled(scene) if missed else set()
     return tuple(rel for rel in missed if rel in fulfilled)
 
@@ -80,7 +100,7 @@ def optimize_scene(
     """Optimise the initial layout of `scene` and settle from the best one.
 
     Lateral relations that the layout never fulfilled (one object carries the other, things lie as they fit) are left
-    aside.
+    aside; arranged objects stay where the layout has them.
 
     Args:
         scene: laid out.
@@ -104,7 +124,9 @@ def optimize_scene(
 
     fulfilled = _fulfilled(scene)
     wanted = replace(scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled))
-    found = optimize_scene(wanted, options=options, pinned=given_poses(scene), at_rest=at_rest, progress=tell)
+    found = optimize_scene(
+        wanted, options=options, pinned=given_poses(scene) | arranged(scene), at_rest=at_rest, progress=tell
+    )
     if not found.improved:
         return OptimizedScene(scene=scene, settled=None, found=found)
     after = scene_after(scene, found.best)
@@ -123,7 +145,8 @@ def optimize_scene(
 def _fulfilled(scene: Scene) -> set[Relation]:
     """Relations that hold in the layout of `scene`."""
     layout = replace(scene, objects=tuple(replace(obj, pose=obj.initial_pose) for obj in scene.objects))
-    return {result.relation for result in relations_at_rest(layout) if result.holds}
+    found = relations_at_rest(layout)
+    return {result.relation for result in found if result.holds and isinstance(result.relation, Relation)}
 
 
 def _count_broken(scene: Scene) -> int:

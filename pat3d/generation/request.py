@@ -13,8 +13,10 @@ from pat3d.geometry.pose import Pose
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.plan.telling import tell
 from pat3d.progress import Event, Progress
+from pat3d.scene.arrangements import Arrangement, PostureKind
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
+from pat3d.scene.relations import built_together
 
 MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 """Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""
@@ -32,6 +34,8 @@ class UnplacedObject:
     """Where the user wants it; None where the layout decides."""
     note: str = ""
     """What was decided about it where the prompt was silent."""
+    posture: PostureKind | None = None
+    """How it is turned; None where nothing is said."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,6 +51,8 @@ class SceneRequest:
     """Makes the objects, in the order of `names`, for a seed."""
     record: Mapping[str, Any] = field(default_factory=dict)
     """What the report says about how this was understood; JSON-serialisable."""
+    arrangements: tuple[Arrangement, ...] = ()
+    """What is said beyond the relations."""
     adjustable: bool = True
     """Whether another layout seed can make a difference."""
     provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
@@ -64,11 +70,15 @@ def derived_seed(seed: int, *words: str | int) -> int:
 def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
     """What `plan` asks for."""
     objects = [_plain(obj) for obj in plan.objects]
+    arranged = [[one.kind, one.objects, one.of] for one in plan.held()]
+    postured = [[one.object, one.kind] for one in plan.turned()]
     return SceneRequest(
         prompt=plan.prompt,
         names=tuple(obj.name for obj in plan.objects),
         relations=plan.relations,
-        fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies],
+        fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies]
+        + ([arranged, postured] if arranged or postured else []),
+        arrangements=plan.held(),
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
         record={
             "objects": objects,
@@ -106,6 +116,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
             asked *= obj.extent.factor(shape(scale=asked).size.tolist())
         return shape(scale=asked * factor)
 
+    together = built_together([obj.name for obj in plan.objects], plan.relations)
     made: dict[tuple, Asset] = {}
     assets: dict[str, Asset] = {}
     for number, obj in enumerate(plan.objects):
@@ -113,7 +124,8 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
         look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
         entry = catalogue.find(obj.noun)
         shared = entry is not None and entry.family in MATCHING
-        key = (look, obj.phrase if shared else obj.name)
+        # What carries one thing together has to be of one height.
+        key = (look, obj.phrase if shared else together.get(obj.name, obj.name))
         if key not in made:
             made[key] = make(obj.name)
         assets[obj.name] = made[key]
@@ -121,8 +133,15 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     for name, (larger, factor) in enlarged_trays(plan, assets, make).items():
         assets[name] = larger
         notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
+    turned: dict[str, PostureKind] = {one.object: one.kind for one in plan.turned()}
     return tuple(
-        UnplacedObject(name=obj.name, asset=assets[obj.name], phrase=obj.phrase, note=notes.get(obj.name, ""))
+        UnplacedObject(
+            name=obj.name,
+            asset=assets[obj.name],
+            phrase=obj.phrase,
+            note=notes.get(obj.name, ""),
+            posture=turned.get(obj.name),
+        )
         for obj in plan.objects
     )
 

@@ -19,10 +19,11 @@ from pat3d.generation.spec_schema import BUILD_SCHEMA
 from pat3d.generation.yaml_source import Source, read_yaml
 from pat3d.geometry.pose import Pose
 from pat3d.progress import CpuBudget, Event, Progress
+from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
 from pat3d.scene.physics import SETTLING_FRICTION
-from pat3d.scene.relations import check_sides
+from pat3d.scene.relations import built_together, check_sides
 
 LIGHTEST, HEAVIEST = 1e-5, 1e5
 """Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
@@ -38,6 +39,7 @@ class Spec:
 
     source: Source
     relations: tuple[Relation, ...]
+    arrangements: tuple[Arrangement, ...] = ()
     poses: Mapping[str, Pose]
 
     @property
@@ -63,7 +65,13 @@ class Spec:
             prompt="",
             names=tuple(obj["name"] for obj in self.objects),
             relations=self.relations,
-            fingerprint=[document["objects"], document.get("relations", []), hashes],
+            arrangements=self.arrangements,
+            fingerprint=[
+                document["objects"],
+                document.get("relations", []),
+                hashes,
+                *([document["arrangements"]] if "arrangements" in document else []),
+            ],
             make_objects=partial(self.make_objects, budget=budget or CpuBudget()),
             record={"specification": document},
             adjustable=len(self.poses) < len(self.objects),
@@ -77,14 +85,13 @@ class Spec:
     def make_objects(self, seed: int, progress: Progress, budget: CpuBudget) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
         found = []
+        # Of what carries one thing together, the same noun is the same thing: a pyramid needs cans of one height.
+        together = built_together([obj["name"] for obj in self.objects], self.relations)
         for number, obj in enumerate(self.objects):
             progress(Event(stage="making assets", detail=obj["name"], step=number, steps=len(self.objects)))
+            own = derived_seed(seed, together.get(obj["name"], obj["name"]))
             try:
-                asset = (
-                    self._import(obj, budget.left)
-                    if "mesh" in obj
-                    else _from_catalogue(obj, derived_seed(seed, obj["name"]))
-                )
+                asset = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
             except (AssetError, PromptError) as error:
                 key = "mesh" if "mesh" in obj else "noun"
                 place = ("objects", number, key)
@@ -98,7 +105,11 @@ class Spec:
                 )
             found.append(
                 UnplacedObject(
-                    name=obj["name"], asset=asset, fixed=obj.get("fixed", False), pose=self.poses.get(obj["name"])
+                    name=obj["name"],
+                    asset=asset,
+                    fixed=obj.get("fixed", False),
+                    pose=self.poses.get(obj["name"]),
+                    posture=obj.get("posture"),
                 )
             )
         return tuple(found)
@@ -134,24 +145,53 @@ def load_spec(path: str | os.PathLike[str]) -> Spec:
     document = source.document
     _check_objects(source, document["objects"], Path(path).parent)
     names = [obj["name"] for obj in document["objects"]]
-    relations = []
-    for number, entry in enumerate(document.get("relations", [])):
-        for end in ("child", "parent"):
-            if entry[end] not in names and not (end == "parent" and entry[end] == GROUND):
-                near = _nearest(entry[end], [*names, GROUND])
-                raise source.error(("relations", number, end), f'there is no object "{entry[end]}".{near}')
-        try:
-            relations.append(Relation(**entry))
-            check_tree(names, tuple(relations))
-            check_sides(tuple(relations))
-        except SpecError as error:
-            raise source.error(("relations", number), str(error)) from error
+    relations = _relations(source, names)
+    arrangements = _arrangements(source, names, relations)
     poses = {
         obj["name"]: _pose(source, number, obj["pose"])
         for number, obj in enumerate(document["objects"])
         if "pose" in obj
     }
-    return Spec(source=source, relations=tuple(relations), poses=poses)
+    return Spec(source=source, relations=relations, arrangements=arrangements, poses=poses)
+
+
+def _relations(source: Source, names: list[str]) -> tuple[Relation, ...]:
+    """The relations, one for each of several carriers."""
+    found: list[Relation] = []
+    for number, entry in enumerate(source.document.get("relations", [])):
+        place = ("relations", number)
+        _known(source, (*place, "child"), entry["child"], names)
+        parents = entry["parent"] if isinstance(entry["parent"], list) else [entry["parent"]]
+        for parent in parents:
+            _known(source, (*place, "parent"), parent, [*names, GROUND])
+        try:
+            found += [Relation(child=entry["child"], kind=entry["kind"], parent=parent) for parent in parents]
+            check_tree(names, tuple(found))
+            check_sides(tuple(found))
+        except SpecError as error:
+            raise source.error(place, str(error)) from error
+    return tuple(found)
+
+
+def _arrangements(source: Source, names: list[str], relations: tuple[Relation, ...]) -> tuple[Arrangement, ...]:
+    found: list[Arrangement] = []
+    for number, entry in enumerate(source.document.get("arrangements", [])):
+        place = ("arrangements", number)
+        for key in ("objects", "of"):
+            for at, name in enumerate(entry.get(key, [])):
+                _known(source, (*place, key, at), name, names)
+        try:
+            one = Arrangement(kind=entry["kind"], objects=tuple(entry["objects"]), of=tuple(entry.get("of", [])))
+            check_arrangements(names, relations, (one,))
+        except SpecError as error:
+            raise source.error(place, str(error)) from error
+        found.append(one)
+    return tuple(found)
+
+
+def _known(source: Source, place: tuple[str | int, ...], name: str, names: list[str]) -> None:
+    if name not in names:
+        raise source.error(place, f'there is no object "{name}".{_nearest(name, names)}')
 
 
 def _validate(source: Source) -> None:

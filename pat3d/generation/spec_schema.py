@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES
 from pat3d.scene.physics import SETTLING_FRICTION
-from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, MAX_CARRIERS, SUPPORT_KINDS
 
 KINDS = sorted(SUPPORT_KINDS | LATERAL_KINDS)
 
@@ -61,6 +62,7 @@ _OBJECT = {
         "density": {**_POSITIVE, "description": "[kg/m^3] of the closed surface, instead of the mass."},
         "friction": {"type": "number", "minimum": 0, "description": "Coulomb coefficient that exports carry."},
         "fixed": {"type": "boolean", "description": "Never moves, neither while settling nor in exports."},
+        "posture": {"enum": sorted(POSTURES), "description": "How it is turned before it settles, and checked after."},
         "pose": _POSE,
     },
     "required": ["name"],
@@ -69,8 +71,33 @@ _OBJECT = {
 
 _RELATION = {
     "type": "object",
-    "properties": {"child": _NAME, "kind": {"enum": KINDS}, "parent": _NAME},
+    "properties": {
+        "child": _NAME,
+        "kind": {"enum": KINDS},
+        "parent": {
+            "description": "A name; for what lies on several objects, a list of them.",
+            "anyOf": [
+                _NAME,
+                {"type": "array", "items": _NAME, "minItems": 2, "maxItems": MAX_CARRIERS, "uniqueItems": True},
+            ],
+        },
+    },
     "required": ["child", "kind", "parent"],
+    "additionalProperties": False,
+}
+
+_NAMES = {"type": "array", "items": _NAME, "maxItems": MANY}
+_ARRANGEMENT = {
+    "type": "object",
+    "properties": {
+        "kind": {
+            "enum": sorted(ARRANGEMENTS),
+            "description": "; ".join(f"{kind}: {rule.holds}" for kind, rule in ARRANGEMENTS.items()),
+        },
+        "objects": {**_NAMES, "minItems": 1, "description": "What stands so; in order, for rows and circles."},
+        "of": {**_NAMES, "description": "What it stands so to: the neighbours, the surface, what it leans on."},
+    },
+    "required": ["kind", "objects"],
     "additionalProperties": False,
 }
 
@@ -94,6 +121,7 @@ BUILD_SCHEMA: dict[str, Any] = {
             "maxItems": 5000,
             "description": "The parent may be ground; what nothing carries stands on the ground.",
         },
+        "arrangements": {"type": "array", "items": _ARRANGEMENT, "maxItems": 5000},
     },
     "required": ["objects"],
     "additionalProperties": False,

@@ -8,7 +8,7 @@ lowered exactly. Low potential energy is what the heap would look for itself, so
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,6 +87,7 @@ def pack(
     rng: np.random.Generator,
     gap: float,
     steady: bool = False,
+    kept: Collection[str] = (),
 ) -> list[Group]:
     """Place every group inside the container's cavity.
 
@@ -98,6 +99,7 @@ def pack(
         rng: orders equal places.
         gap: distance kept from everything [m].
         steady: whether to accept only places where nothing tips: there are no walls to lean on.
+        kept: what is only turned about the vertical, however it would fit.
 
     Raises:
         LayoutError: one is larger than the cavity, or the cavity is full.
@@ -115,7 +117,7 @@ def pack(
             found = next(
                 (
                     found
-                    for rotations in (orientations(group, column, rng), other_faces(group, rng))
+                    for rotations in _choices(group, column, rng, upright=group.name in kept)
                     if (found := heap.place(group, list(rotations), rng)) is not None
                 ),
                 None,
@@ -129,6 +131,16 @@ def pack(
         if not heap.placed:
             break
     raise refusals[-1]
+
+
+def _choices(group: Group, column: Column, rng: np.random.Generator, *, upright: bool) -> Iterator[Iterator[Array]]:
+    """Rotations for `group`, the likelier ones first."""
+    if upright:
+        start = float(rng.uniform(-math.pi, math.pi))
+        yield (yaw_matrix(start + k * math.pi / 4) for k in range(8))
+        return
+    yield orientations(group, column, rng)
+    yield other_faces(group, rng)
 
 
 def _compact(group: Group) -> bool:

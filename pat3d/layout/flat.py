@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Item:
     """Whether it may be turned by a quarter to fit."""
     walled: bool = False
     """Whether it is furniture that stands with its back to a wall."""
+    middle: Array = field(default_factory=lambda: np.zeros(2))
+    """Middle of the root's bounding box [m], shape (2,): what is aligned in rows."""
 
     @property
     def size(self) -> Array:
@@ -51,6 +53,7 @@ class Item:
             alike=self.alike,
             turnable=False,
             walled=self.walled,
+            middle=turn @ self.middle,
         )
 
 
@@ -90,3 +93,9 @@ class Spot:
     """[m], shape (2,)."""
     quarter: bool = False
     """Whether it was turned by 90 degrees."""
+
+
+def natural_gap(first: Array, second: Array) -> float:
+    """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
+    small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))
+    return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))

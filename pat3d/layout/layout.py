@@ -1,7 +1,8 @@
 """From assets and relations to poses where nothing touches: every object just above what will carry it.
 
 The scene tree is arranged from the leaves up: an object gathers what it contains and carries into a group
-that moves as one, and groups are arranged on what carries them, the ground last. All frames are parallel
+that moves as one, and groups are arranged on what carries them, the ground last. What has several carriers is put down
+on them once all of these stand, on the last surface that they share. All frames are parallel
 to the world's, so "left of" means the same everywhere. The result is checked before it is returned.
 """
 
@@ -22,10 +23,15 @@ from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group
 from pat3d.layout.hanging import attachment, hang
+from pat3d.layout.intents import Intents
+from pat3d.layout.leaning import leaning_rotation
+from pat3d.layout.postures import posture_rotation
+from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat, ring_angles
 from pat3d.layout.tops import Top, item_of, spread
+from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import GROUND, Attachment, Relation, check_tree, parent_of
+from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
 
 _SEATS = frozenset({"chair", "armchair", "stool", "bench"})
 """Nouns that turn towards what they stand around."""
@@ -53,6 +59,8 @@ def arrange(
     *,
     seed: int,
     fixed_poses: Mapping[str, Pose] | None = None,
+    arrangements: tuple[Arrangement, ...] = (),
+    postures: Mapping[str, str] | None = None,
     gap: float = 0.002,
 ) -> Layout:
     """Place every asset by its relations; the same arguments give the same layout.
@@ -62,6 +70,8 @@ def arrange(
         relations: the scene tree and the lateral relations.
         seed: of the small variations (yaw, jitter, order in containers).
         fixed_poses: objects that stay exactly where they are given.
+        arrangements: rows, circles, places on surfaces and the like.
+        postures: kind of the posture of objects that are turned.
         gap: distance that objects keep from what will carry them [m].
 
     Raises:
@@ -70,10 +80,11 @@ def arrange(
     """
     fixed = dict(fixed_poses or {})
     check_tree(list(assets), relations)
+    check_arrangements(list(assets), relations, arrangements)
     unknown = [name for name in fixed if name not in assets]
     if unknown:
         raise LayoutError(f'"{unknown[0]}" has a pose but is not in the scene. Objects: {", ".join(assets)}.')
-    arranger = _Arranger(assets, relations, seed, fixed, gap)
+    arranger = _Arranger(assets, relations, seed, fixed, gap, arrangements, postures or {})
     placed = {member.body.name: member for group in arranger.ground() for member in group.members}
     bodies = [placed[name] for name in assets]
     clearance = require_clearance(bodies)
@@ -90,17 +101,26 @@ class _Arranger:
         seed: int,
         fixed: dict[str, Pose],
         gap: float,
+        arrangements: tuple[Arrangement, ...],
+        postures: Mapping[str, str],
     ) -> None:
         self.seed, self.fixed, self.gap = seed, fixed, gap
         self.notes: list[str] = []
         self.attachments: dict[str, Attachment] = {}
         self.bodies = {name: Body(name, asset) for name, asset in assets.items()}
-        self.parents = {name: parent_of(name, relations) for name in assets}
+        self.parents, self.spans = homes(list(assets), relations)
         self.kinds = {rel.child: rel.kind for rel in relations if rel.supports}
         self.children: dict[str, list[str]] = {name: [] for name in (GROUND, *assets)}
         for name, parent in self.parents.items():
-            self.children[parent].append(name)
+            if name not in self.spans:
+                self.children[parent].append(name)
         self.laterals = self._sibling_laterals(relations)
+        self.intents = Intents(arrangements, self._path, self.kinds, self.laterals, self.spans)
+        self.notes.extend(self.intents.notes)
+        self.turned = {name: posture_rotation(self.bodies[name], kind) for name, kind in postures.items()}
+        """How objects are turned before their yaw, shape (3, 3), where they do not stand as they are made."""
+        for name, way in self.intents.leaning.items():
+            self.turned[name] = leaning_rotation(self.bodies[name], way)
         for name in fixed:
             parent = self.parents[name]
             if parent != GROUND and parent not in fixed:
@@ -116,9 +136,11 @@ class _Arranger:
         groups = {name: self._build(name, self._yaw(name, GROUND, 0.0, laterals)) for name in names}
         items = [item_of(group, turnable=False) for group in groups.values()]
         pinned = {name: np.array(self.fixed[name].position[:2]) for name in names if name in self.fixed}
-        spots = arrange_flat(items, laterals, Surface(), pinned=pinned)
+        wishes = self.intents.wishes(GROUND, groups, self._across, self.gap)
+        spots = arrange_flat(items, laterals, Surface(), pinned=pinned, wishes=wishes)
         if spots is None:
-            listed = ", ".join(f"{lat.child} {lat.kind} {lat.parent}" for lat in laterals)
+            said = [f"{lat.child} {lat.kind} {lat.parent}" for lat in laterals]
+            listed = ", ".join([*said, *(str(one.arrangement) for one in self.intents.by_surface.get(GROUND, []))])
             raise LayoutError(
                 f"no arrangement on the {GROUND} satisfies all of: {listed}. Remove one, or give poses. "
                 "Nothing was written."
@@ -130,11 +152,25 @@ class _Arranger:
             else:
                 height = self.gap - float(group.low[2])
                 result.append(group.shifted(np.array([*spots[name].position, height])))
-        return result
+        return self._span(GROUND, result)
+
+    def _span(self, home: str, placed: list[Group]) -> list[Group]:
+        """`placed`, all that stands on `home` or is it, with what has several carriers there."""
+        placed = list(placed)
+        for name, carriers in self.spans.items():
+            if self.parents[name] == home:
+                placed.append(put_across(self._across(name), carriers, placed, gap=self.gap))
+        return placed
+
+    def _across(self, name: str) -> Group:
+        """An object that has several carriers, with all that it carries."""
+        return self._build(name, 0.0)
 
     def _build(self, name: str, yaw: float) -> Group:
         """The object at the origin with everything that it contains, carries and holds."""
         rotation = self.fixed[name].rotation if name in self.fixed else yaw_matrix(yaw)
+        if name in self.turned and name not in self.fixed:
+            rotation = rotation @ self.turned[name]
         root = self.bodies[name].at(rotation, np.zeros(3))
         group = Group((root,))
         kids = self.children[name]
@@ -146,6 +182,7 @@ class _Arranger:
         onto = [kid for kid in kids if kid not in inside and kid not in hanging]
         group = self._fill(group, inside)
         group = self._load(group, onto, yaw)
+        group = self._with(group, self._span(name, [group])[1:])
         for kid in hanging:
             if kid in self.fixed:
                 found = self._pinned(kid, name)
@@ -165,7 +202,15 @@ class _Arranger:
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         groups = [self._build(kid, 0.0) for kid in names if kid not in self.fixed]
         obstacles = [member for other in given for member in other.members]
-        packed = pack(root, column, groups, obstacles=obstacles, rng=self._rng(group.name, "pack"), gap=self.gap)
+        packed = pack(
+            root,
+            column,
+            groups,
+            obstacles=obstacles,
+            rng=self._rng(group.name, "pack"),
+            gap=self.gap,
+            kept=set(self.turned),
+        )
         return self._with(group, [*given, *packed])
 
     def _load(self, group: Group, names: list[str], yaw: float) -> Group:
@@ -182,6 +227,8 @@ class _Arranger:
             given=given,
             turnable={kid for kid in free if not self.children[kid]},
             gap=self.gap,
+            wishes=self.intents.wishes(group.name, {one.name: one for one in groups}, self._across, self.gap),
+            leaning=frozenset(self.intents.leaning),
         )
         placed, notes = spread(top, groups, laterals, self._rng(group.name, "on"))
         self.notes.extend(notes)
@@ -196,6 +243,8 @@ class _Arranger:
         return Group((*group.members, *(member for other in others for member in other.members)))
 
     def _yaw(self, name: str, parent: str, base: float, laterals: list[Lateral]) -> float:
+        if name in self.intents.yaws:
+            return self.intents.yaws[name]
         angle = ring_angles(laterals).get(name)
         if angle is not None and _SEATS & set(self.bodies[name].asset.noun.split()):
             return float(np.arctan2(-np.cos(angle), np.sin(angle)))

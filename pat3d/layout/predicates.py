@@ -7,6 +7,8 @@ exported parts, and the viewer at -y:
   carried by the parent and whose centre of mass is over the parent's footprint.
 - on: carried, the child's centre of mass over the parent's footprint, and the child's lowest point above the
   parent's lowest point (a ball leaning on a table leg is not on the table).
+- on, with several carriers: the child touches each of them, its lowest point is above their lowest, and its centre of
+  mass is over the hull of all their footprints. That each carries weight is measured in MuJoCo (pat3d.check.loads).
 - in: carried, the lowest point below the rim, or, on a heap, above the rim by at most half the child's own
   height; and the centre of mass in the column over the cavity's floor, or, for what stands or leans on that
   floor (lowest point in the column and below the rim: a pen in a mug), over the parent's footprint. Without a
@@ -23,6 +25,9 @@ exported parts, and the viewer at -y:
   them, and the child touches neither the ground nor anything that it does not itself carry.
 - hangs_from, by contact (a handle on a hook): the child's top is not above the parent's, its centre of mass is
   below what it touches, and it is off the ground.
+
+Arrangements are judged in pat3d.layout.arranged; a posture by the angle of the asset's own vertical
+(pat3d.scene.arrangements).
 """
 
 from __future__ import annotations
@@ -36,10 +41,14 @@ import numpy as np
 from pat3d.errors import SpecError
 from pat3d.geometry.polygons import contains, outline, polygon_gap
 from pat3d.geometry.pose import Pose
+from pat3d.layout.arranged import arrangement_holds
 from pat3d.layout.bodies import Array, Placed, distance, place_all
+from pat3d.layout.formations import reach_of_beside
 from pat3d.layout.frames import column_of
+from pat3d.scene.arrangements import Arrangement, Posture
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation
+from pat3d.scene.relations import carriers_of
 
 TOUCH = 1.0e-3
 """Parts at most this far apart [m] touch."""
@@ -50,9 +59,9 @@ _SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behin
 
 @dataclass(frozen=True, kw_only=True)
 class RelationResult:
-    """Whether a relation holds, and what was measured."""
+    """Whether a relation, an arrangement or a posture holds, and what was measured."""
 
-    relation: Relation
+    relation: Relation | Arrangement | Posture
     holds: bool
     detail: str
     """For example "gap 0.02 mm, centre inside the footprint"."""
@@ -99,6 +108,28 @@ def check_relations(
     return tuple(view.judge(relation) for relation in relations)
 
 
+def check_arranged(
+    arrangements: tuple[Arrangement, ...],
+    postures: tuple[Posture, ...],
+    assets: Mapping[str, Asset],
+    poses: Mapping[str, Pose],
+    *,
+    touch: float = TOUCH,
+) -> tuple[RelationResult, ...]:
+    """Every arrangement and every posture with its verdict and what was measured; arguments as of `check_relations`."""
+    if not arrangements and not postures:
+        return ()
+    bodies = place_all(assets, poses)
+    found = []
+    for one in arrangements:
+        holds, detail = arrangement_holds(one, bodies, touch)
+        found.append(RelationResult(relation=one, holds=holds, detail=detail))
+    for one in postures:
+        holds, tilt = one.holds(bodies[one.object].rotation[:, 2].tolist())
+        found.append(RelationResult(relation=one, holds=holds, detail=f"its vertical is {tilt:.0f} degrees from up"))
+    return tuple(found)
+
+
 class _View:
     """The posed objects, with distances and footprints computed once."""
 
@@ -132,6 +163,9 @@ class _View:
 
     def _on(self, child: str, parent: str) -> tuple[bool, str]:
         body, under = self.bodies[child], self.bodies[parent]
+        carriers = carriers_of(child, self.relations)
+        if len(carriers) > 1:
+            return self._on_several(child, parent, carriers)
         carried, how = self._carried(child, parent)
         over = self._over(child, parent)
         # Of a playing card on another, the lowest point is no further up than a card is thick.
@@ -139,6 +173,15 @@ class _View:
         above = bool(body.low[2] > under.low[2] + min(self.touch, thickness / 2))
         where = f"centre {'inside' if over else 'outside'} the footprint"
         return carried and over and above, how + ", " + where + ("" if above else ", not above its base")
+
+    def _on_several(self, child: str, parent: str, carriers: tuple[str, ...]) -> tuple[bool, str]:
+        body, gap = self.bodies[child], self._gap(child, parent)
+        together = outline(np.concatenate([self._footprint(name) for name in carriers]))
+        over = contains(together, body.centre_of_mass[:2])
+        above = bool(body.low[2] > self.bodies[parent].low[2] + self.touch)
+        how = f"gap {max(gap, 0.0) * 1e3:.2f} mm" if math.isfinite(gap) else "far apart"
+        where = f"centre {'inside' if over else 'outside'} the footprint of all {len(carriers)} carriers"
+        return gap <= self.touch and over and above, f"{how}, {where}"
 
     def _in(self, child: str, parent: str) -> tuple[bool, str]:
         body, holder = self.bodies[child], self.bodies[parent]
@@ -219,8 +262,8 @@ class _View:
 
     def _beside(self, relation: Relation) -> tuple[bool, str]:
         a, b = self.bodies[relation.child], self.bodies[relation.parent]
-        reach = max(float((body.high - body.low)[:2].max()) for body in (a, b))
-        limit = min(max(0.25, reach), 1.0) * (2.0 if relation.kind == "around" else 1.0)
+        reach = reach_of_beside((a.high - a.low)[:2], (b.high - b.low)[:2])
+        limit = reach * (2.0 if relation.kind == "around" else 1.0)
         gap = polygon_gap(self._footprint(relation.child), self._footprint(relation.parent))
         apart = max(0.0, float(max(a.low[2] - b.high[2], b.low[2] - a.high[2])))
         stacked = self._over(relation.child, relation.parent) or self._over(relation.parent, relation.child)

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import Item, Lateral, Spot, Surface
+from pat3d.layout.flat import Item, Lateral, Spot, Surface, natural_gap
+from pat3d.layout.formations import CLOSE, Wishes, far_gap, start_angle
 
 BRANCHES = 4
 """Places tried for each thing before backing up."""
@@ -23,6 +24,10 @@ CHECKED = 30
 """Cheapest places of each thing that are checked exactly against the edge of the surface."""
 BUDGET = 150
 """Places tried in all before a strategy is given up."""
+ABOVE = 1e3
+"""Overlap [m] that things which stand above one another may have, seen from above."""
+
+NOTHING = Wishes()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +61,7 @@ def arrange_flat(
     *,
     pinned: Mapping[str, Array] | None = None,
     overhang: bool = True,
+    wishes: Wishes = NOTHING,
 ) -> dict[str, Spot] | None:
     """Where every item goes, or None where they do not fit.
 
@@ -65,12 +71,13 @@ def arrange_flat(
         surface: what they stand on; positions are relative to its centre.
         pinned: items already at a position [m], shape (2,).
         overhang: whether things may stand over the edge a little where they do not fit otherwise.
+        wishes: of the arrangements.
     """
     fixed = dict(pinned or {})
     for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
         if (strategy.overhang and not overhang) or _too_many(items, surface, strategy):
             continue
-        found = _Search(items, laterals, surface, fixed, strategy).run()
+        found = _Search(items, laterals, surface, fixed, strategy, wishes).run()
         if found is not None:
             return found
     return None
@@ -90,12 +97,6 @@ def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> b
     return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(space))
 
 
-def natural_gap(first: Array, second: Array) -> float:
-    """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
-    small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))
-    return float(np.clip(0.3 * small, 0.03, 0.08)) if small < 0.5 else float(np.clip(0.15 * small, 0.08, 0.25))
-
-
 def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:
     """Whether rectangles `low`..`high`, shape (n, 2), stand `kind` of one rectangle, clear of it along that axis."""
     axis, sign = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}[kind]
@@ -111,8 +112,7 @@ def ring_angles(laterals: Sequence[Lateral]) -> dict[str, float]:
     angles: dict[str, float] = {}
     for centre in dict.fromkeys(lat.parent for lat in laterals if lat.kind == "around"):
         members = [lat.child for lat in laterals if lat.kind == "around" and lat.parent == centre]
-        # Two stand left and right; more start at the left front, so that none hides the centre.
-        start = math.pi if len(members) <= 2 else math.pi + math.pi / len(members)
+        start = start_angle(len(members))
         for k, name in enumerate(members):
             angles[name] = start + 2 * math.pi * k / len(members)
     return angles
@@ -125,12 +125,17 @@ class _Search:
     surface: Surface
     pinned: dict[str, Array]
     strategy: _Strategy
+    wishes: Wishes = NOTHING
     budget: int = BUDGET
     placed: dict[str, tuple[Item, Array, bool]] = field(default_factory=dict)
     rings: dict[str, float] = field(default_factory=dict)
+    offsets: list[dict[str, Array]] = field(default_factory=list)
+    """Of every formation that is asked for, relative to a common point [m], shape (2,) each."""
 
     def run(self) -> dict[str, Spot] | None:
         by_name = {item.name: item for item in self.items}
+        self.wishes = self.wishes.among(by_name)
+        self.offsets = [one.offsets(by_name, self.laterals, self._natural) for one in self.wishes.formations]
         for name, position in self.pinned.items():
             self.placed[name] = (by_name[name], np.asarray(position, dtype=np.float64), False)
         order = self._order()
@@ -155,7 +160,10 @@ class _Search:
                 for item in waiting
                 if any({item.name, other} == {lat.child, lat.parent} for other in done for lat in self.laterals)
             ]
-            chosen = (tied or [item for item in waiting if self._leads(item.name)] or waiting)[0]
+            formed = [item for item in waiting if any(item.name in offsets for offsets in self.offsets)]
+            begun = [item for item in formed if any(self.wishes.together(item.name, other) for other in done)]
+            leading = [item for item in waiting if self._leads(item.name)]
+            chosen = (begun or formed or tied or leading or waiting)[0]
             waiting.remove(chosen)
             order.append(chosen)
             done.add(chosen.name)
@@ -170,7 +178,7 @@ class _Search:
             return True
         item = order[depth]
         variants = [(item, False)]
-        if self.strategy.quarters and item.turnable:
+        if self.strategy.quarters and item.turnable and item.name not in self.wishes.names:
             variants.append((item.quarter(), True))
         options: list[tuple[float, int, Item, Array, bool]] = []
         for variant, quarter in variants:
@@ -200,16 +208,9 @@ class _Search:
         boxes = [(spot + other.low, spot + other.high, other) for other, spot, _ in self.placed.values()]
         gaps = np.array([self._gap(item, other) for _, _, other in boxes])
         low, high = np.stack([box[0] for box in boxes]), np.stack([box[1] for box in boxes])
-        ring = self._ring_spots(item)
-        values = []
-        for axis in range(2):
-            # Beside, centred on, and flush with every placed rectangle.
-            edge = [low[:, axis] - gaps - half[axis], high[:, axis] + gaps + half[axis]]
-            edge += [(low + high)[:, axis] / 2, low[:, axis] + half[axis], high[:, axis] - half[axis]]
-            values.append(np.unique(np.round(np.concatenate(edge), 6)))
-        centres = np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, 2)
-        if ring:
-            centres = np.concatenate([np.array(ring), centres])
+        centres = self._forced(item)
+        if centres is None:
+            centres = self._beside(item, low, high, gaps)
         apart = np.maximum(low[None] - (centres + half)[:, None], (centres - half)[:, None] - high[None]).max(axis=-1)
         cost = np.where(np.all(apart >= 0.999 * gaps, axis=1), 0.0, np.inf)
         if self.surface.limited:
@@ -217,12 +218,89 @@ class _Search:
             largest = np.max([other.size for _, _, other in boxes] + [item.size], axis=0)
             space = 2 * np.array(self.surface.half_size) + 2 * self.strategy.overhang * largest
             cost[np.any(span > space + 1e-9, axis=1)] = np.inf
+        cost[~self._leaves_room(item, centres)] = np.inf
         cost += self._lateral_cost(item, centres)
         cost += self._taste(item, centres, low, high)
         return centres - (item.low + item.high) / 2, cost
 
-    def _gap(self, item: Item, other: Item) -> float:
+    def _beside(self, item: Item, low: Array, high: Array, gaps: Array) -> Array:
+        """Centres beside, centred on and flush with all that is placed [m], shape (n, 2)."""
+        half = item.size / 2
+        left, right = self._formation_reach(item, half)
+        ring = self._ring_spots(item)
+        values = []
+        for axis in range(2):
+            # Beside, centred on, and flush with every placed rectangle.
+            edge = [low[:, axis] - gaps - right[axis], high[:, axis] + gaps + left[axis]]
+            edge += [(low + high)[:, axis] / 2, low[:, axis] + half[axis], high[:, axis] - half[axis]]
+            if self.wishes.places:
+                edge.append(np.zeros(1))
+            values.append(np.unique(np.round(np.concatenate(edge), 6)))
+        centres = np.stack(np.meshgrid(*values, indexing="ij"), axis=-1).reshape(-1, 2)
+        if ring:
+            centres = np.concatenate([np.array(ring), centres])
+        return centres
+
+    def _natural(self, item: Item, other: Item) -> float:
         return max(self.strategy.least, self.strategy.spacing * natural_gap(item.size, other.size))
+
+    def _gap(self, item: Item, other: Item) -> float:
+        if frozenset((item.name, other.name)) in self.wishes.far:
+            return far_gap(item.size, other.size)
+        formation = self.wishes.together(item.name, other.name)
+        if formation is not None:
+            return -ABOVE if formation.overlapping else CLOSE / 2
+        return self._natural(item, other)
+
+    def _forced(self, item: Item) -> Array | None:
+        """The centre that placed members of its formations leave to `item` [m], shape (1, 2), or none of them."""
+        found = []
+        for offsets in self.offsets:
+            lead = next((name for name in offsets if name in self.placed), None)
+            if item.name in offsets and lead is not None:
+                other, spot, _ = self.placed[lead]
+                found.append(spot + other.middle + offsets[item.name] - offsets[lead])
+        if not found:
+            return None
+        agreed = all(np.allclose(one, found[0], atol=1e-6) for one in found)
+        centre = found[0] - item.middle + (item.low + item.high) / 2
+        return np.array([centre]) if agreed else np.zeros((0, 2))
+
+    def _formation_reach(self, item: Item, half: Array) -> tuple[Array, Array]:
+        """How far `item`, with the formation that it leads, goes from its centre to either side [m], shape (2,)."""
+        left, right = half, half
+        for offset, mate in self._mates(item):
+            left = np.maximum(left, -(offset + mate.low))
+            right = np.maximum(right, offset + mate.high)
+        return left, right
+
+    def _mates(self, item: Item) -> list[tuple[Array, Item]]:
+        """Members of its formations that are not placed, each with its origin's offset from the centre of `item`."""
+        found = []
+        for offsets in self.offsets:
+            if item.name in offsets:
+                for mate in self.items:
+                    if mate.name in offsets and mate.name != item.name and mate.name not in self.placed:
+                        away = item.middle - (item.low + item.high) / 2 - mate.middle
+                        found.append((offsets[mate.name] - offsets[item.name] + away, mate))
+        return found
+
+    def _leaves_room(self, item: Item, centres: Array) -> NDArray[np.bool_]:
+        """Whether all that has to stand around `item` then keeps clear of what is placed, shape (n,)."""
+        free = np.ones(len(centres), dtype=bool)
+        for offset, mate in self._mates(item):
+            for other, spot, _ in self.placed.values():
+                low, high = centres + offset + mate.low, centres + offset + mate.high
+                apart = np.maximum(spot + other.low - high, low - spot - other.high).max(axis=1)
+                free &= apart >= 0.999 * self._gap(mate, other)
+        origins = centres - (item.low + item.high) / 2
+        for sight in self.wishes.sights:
+            for own, sign in ((sight.observer, 1.0), (sight.target, -1.0)):
+                facing = sight.target if own == sight.observer else sight.observer
+                if item.name == own and facing in self.placed:
+                    other, spot, _ = self.placed[facing]
+                    free &= sight.meets(sign * (spot + other.middle - origins - item.middle))
+        return free
 
     def _lateral_cost(self, item: Item, centres: Array) -> Array:
         cost = np.zeros(len(centres))
@@ -261,7 +339,8 @@ class _Search:
 
     def _taste(self, item: Item, centres: Array, low: Array, high: Array) -> Array:
         """Near the middle, in rows along x, and nothing hidden behind something taller."""
-        cost = np.linalg.norm((centres - (low.min(axis=0) + high.max(axis=0)) / 2) * np.array([1.0, 1.6]), axis=1)
+        middle = np.zeros(2) if self.wishes.places else (low.min(axis=0) + high.max(axis=0)) / 2
+        cost = np.linalg.norm((centres - middle) * np.array([1.0, 1.6]), axis=1)
         half = item.size / 2
         for other, spot, _ in self.placed.values():
             a, b = spot + other.low, spot + other.high

@@ -16,9 +16,11 @@ from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, listed, lower, pack
 from pat3d.layout.flat import Item, Lateral
+from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
 from pat3d.layout.group import Group
-from pat3d.layout.surfaces import arrange_flat
+from pat3d.layout.places import pins
+from pat3d.layout.surfaces import NOTHING, arrange_flat
 
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
@@ -45,6 +47,10 @@ class Top:
     """Children that may be turned by a quarter to fit."""
     gap: float
     """[m]"""
+    wishes: Wishes = NOTHING
+    """Of the arrangements among the children."""
+    leaning: frozenset[str] = frozenset()
+    """Children that others keep from falling."""
 
     @property
     def name(self) -> str:
@@ -67,7 +73,7 @@ def spread(
     for region, share in zip(top.regions, waiting, strict=True):
         found, overflow = _as_many(top, region, [*overflow, *share], laterals, placed, rng, notes)
         placed.extend(found)
-    held = {lat.child for lat in laterals} | {lat.parent for lat in laterals}
+    held = {lat.child for lat in laterals} | {lat.parent for lat in laterals} | top.wishes.names
     if overflow or not all(_carried(top, group, placed) for group in placed):
         piled = None if any(group.name in held for group in groups) else _pile(top, groups, rng)
         if piled is not None:
@@ -102,6 +108,7 @@ def item_of(group: Group, *, turnable: bool) -> Item:
         alike=noun,
         turnable=turnable,
         walled=not _WALLED.isdisjoint({noun, *noun.split()}),
+        middle=((group.root.low + group.root.high) / 2)[:2] - origin,
     )
 
 
@@ -117,6 +124,9 @@ def _shares(top: Top, groups: Sequence[Group], laterals: Sequence[Lateral]) -> l
         if lat.child in cluster and lat.parent in cluster:
             old, new = cluster[lat.child], cluster[lat.parent]
             cluster = {name: new if label == old else label for name, label in cluster.items()}
+    for one in top.wishes.formations:
+        labels = {cluster[name] for name in one.names if name in cluster}
+        cluster = {name: min(labels) if label in labels else label for name, label in cluster.items()}
     turn = itertools.cycle(range(len(top.regions)))
     home: dict[str, int] = {}
     for group in groups:
@@ -132,6 +142,8 @@ def _carried(top: Top, group: Group, placed: Sequence[Group]) -> bool:
     others = [member for other in placed if other is not group for member in other.members]
     if group.low[2] <= top.root.low[2] + 2 * top.gap:
         return False
+    if group.name in top.leaning:
+        return True
     return support_margin(group, [*top.supports, *others], gap=top.gap) > -0.05 * float(group.size[:2].max())
 
 
@@ -198,13 +210,21 @@ def _on_region(
     if region.enclosed and any(group.size[2] + 3 * top.gap >= region.height for group in share):
         return None
     obstacles = [*top.supports, *(member for group in before for member in group.members)]
-    if len(share) == 1 and not top.given:
+    if len(share) == 1 and not top.given and share[0].name not in top.wishes.places:
         alone = _alone(top, region, share[0], obstacles, rng, notes)
         return None if alone is None else [alone]
     items = [item_of(group, turnable=group.name in top.turnable) for group in share]
     pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
-    spots = arrange_flat(
-        [*(item_of(group, turnable=False) for group in top.given), *items], laterals, region.surface, pinned=pinned
+    every = [*(item_of(group, turnable=False) for group in top.given), *items]
+    ways = pins(top.wishes, items, region.surface, rng) if top.wishes.places else [{}]
+    spots = next(
+        (
+            found
+            for way in ways
+            if (found := arrange_flat(every, laterals, region.surface, pinned={**pinned, **way}, wishes=top.wishes))
+            is not None
+        ),
+        None,
     )
     if spots is None:
         return None

@@ -24,6 +24,7 @@ from pat3d.optimize.lateral import SIDES, beside_loss, ring_loss, side_loss
 from pat3d.optimize.outline import Box, Outline, moved, outside
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation
+from pat3d.scene.relations import carriers_of
 
 MARGIN = 1.0e-3
 """By which relations must hold for no loss [m]."""
@@ -132,7 +133,8 @@ class SemanticLoss:
         if not rel.supports:
             return self._each(q, lambda state: self._beside(rel, state))
         loss = sunk(child, parent, self._least[rel])
-        if rel.kind == "hangs_from":
+        if rel.kind == "hangs_from" or len(carriers_of(rel.child, self.relations)) > 1:
+            # What lies on several objects is over none of them as a whole.
             return loss
         corners = moved(self.outlines[c].corners, q[..., c, :])
         counted = None

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, cast, get_args
 
 from pat3d.errors import PromptError
+from pat3d.scene import arrangements as scene_arrangements
 from pat3d.scene.relations import Relation, check_tree, parent_of
 
 Axis = Literal["height", "width", "depth", "length", "thickness"]
@@ -51,13 +52,11 @@ class PlannedObject:
     """Whether the noun was unknown and a plain box stands in for it."""
 
 
-ArrangementKind = Literal[
-    "above", "across", "at_edge", "between", "circle", "facing", "far_from", "in_corner", "in_middle",
-    "leaning_against", "row", "under",
-]  # fmt: skip
-"""What people say about places beyond the relations of the scene tree; "across": carried by all of `of`."""
+ArrangementKind = Literal[scene_arrangements.ArrangementKind, "above", "across"]
+"""What people say about places beyond the relations of the scene tree; "across": carried by all of `of`, to each of
+which a relation "on" leads. All but "above" and "across" are arrangements of a scene, see pat3d.scene.arrangements."""
 
-PostureKind = Literal["upright", "upside_down", "on_its_side", "tilted", "turned", "open", "closed"]
+PostureKind = Literal[scene_arrangements.PostureKind, "tilted", "turned", "open", "closed"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +69,7 @@ class Arrangement:
     of: tuple[str, ...] = ()
     """The landmarks: both neighbours of what is between, every carrier of what lies across."""
     arranged: bool = False
-    """Whether the plan's relations bring it about; where not, a note says so."""
+    """Whether the scene is to hold it: laid out so, and verified at rest. Where not, a note says so."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +81,7 @@ class Posture:
     said: str
     """As the prompt has it: "rotated by 45 degrees"."""
     arranged: bool = False
-    """Whether the object is so anyway; where not, a note says so."""
+    """Whether the scene is to hold it: turned so, and verified at rest. Where not, a note says so."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,9 +113,35 @@ class ScenePlan:
         for each in self.arrangements:
             if each.kind not in get_args(ArrangementKind) or not {*each.objects, *each.of} <= set(names):
                 raise PromptError(f'no arrangement "{each.kind}" of {", ".join((*each.objects, *each.of))}.')
+        scene_arrangements.check_arrangements(names, self.relations, self.held())
         for each in self.postures:
             if each.kind not in get_args(PostureKind) or each.object not in names:
                 raise PromptError(f'no posture "{each.kind}" of "{each.object}".')
+
+    def held(self) -> tuple[scene_arrangements.Arrangement, ...]:
+        """The arrangements that the scene is to hold, beyond what the relations say."""
+        return tuple(one for each in self.arrangements if (one := self._of_scene(each)) is not None)
+
+    def turned(self) -> tuple[scene_arrangements.Posture, ...]:
+        """The postures that the scene is to hold."""
+        return tuple(
+            scene_arrangements.Posture(object=each.object, kind=cast(scene_arrangements.PostureKind, each.kind))
+            for each in self.postures
+            if each.arranged and each.kind in scene_arrangements.POSTURES
+        )
+
+    def _of_scene(self, each: Arrangement) -> scene_arrangements.Arrangement | None:
+        rule = scene_arrangements.ARRANGEMENTS.get(each.kind)
+        if not each.arranged or rule is None or not rule.takes(len(each.objects), len(each.of)):
+            # One neighbour of what is between, a row of one: the relations say what there is to say.
+            return None
+        carried = {(rel.child, rel.parent) for rel in self.relations if rel.supports}
+        if any({(a, b), (b, a)} & carried for a in each.objects for b in each.of) and not rule.on_it:
+            # "A mat under a vase": the vase on the mat says it.
+            return None
+        return scene_arrangements.Arrangement(
+            kind=cast(scene_arrangements.ArrangementKind, each.kind), objects=each.objects, of=each.of
+        )
 
     def parent(self, name: str) -> str:
         """Name of what supports object `name`: another object or the ground."""

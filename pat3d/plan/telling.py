@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.scene.relations import GROUND, Relation
+from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
+from pat3d.scene.arrangements import ARRANGEMENTS
+from pat3d.scene.relations import GROUND, RELATION_WORDS, Relation, carriers_of
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
@@ -25,10 +26,6 @@ _MASSES = frozenset({
     "jewelry", "sandpaper", "tape", "cream cheese", "ginger",
 })  # fmt: skip
 """What is told of as "some flour" where there is one of it."""
-_WORDS = {
-    "on": "on", "in": "in", "hangs_from": "hanging from", "left_of": "to the left of", "right_of": "to the right of",
-    "in_front_of": "in front of", "behind": "behind", "next_to": "next to", "around": "around",
-}  # fmt: skip
 
 
 def tell(plan: ScenePlan) -> str:
@@ -51,7 +48,7 @@ class _Teller:
         self._below = {rel.child: rel for rel in plan.relations if rel.supports}
 
     def told(self) -> str:
-        sentences = [*self._supports(), *self._rows(), *self._between(), *self._laterals()]
+        sentences = [*self._supports(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]
         if self._plan.task is not None:
             sentences.append(f"The task is {self._plan.task}")
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
@@ -70,6 +67,11 @@ class _Teller:
             for kind in ("on", "in", "hangs_from"):
                 own = [name for name in children if self._kind(name) == kind and name not in told]
                 own = [name for name in own if not self._continues_stack(name)]
+                across = [name for name in own if len(self._carriers(name)) > 1]
+                for name in across:
+                    own.remove(name)
+                    told.add(name)
+                    made.append(f"{self._listed([name])} {self._is([name])} across {self._all(self._carriers(name))}")
                 if not own:
                     continue
                 told |= set(own)
@@ -81,12 +83,16 @@ class _Teller:
                     made.append(f"{self._listed(own)} {stand} on the ground")
                 else:
                     others, place = self._same_parents(parent, own)
-                    made.append(f"{self._listed(others)} {'are' if len(others) > 1 else verb} {_WORDS[kind]} {place}")
+                    is_or_are = "are" if len(others) > 1 else verb
+                    made.append(f"{self._listed(others)} {is_or_are} {RELATION_WORDS[kind]} {place}")
                     told |= set(others)
         return made
 
     def _kind(self, name: str) -> str:
         return self._below[name].kind if name in self._below else "on"
+
+    def _carriers(self, name: str) -> tuple[str, ...]:
+        return carriers_of(name, self._plan.relations)
 
     def _children(self, parent: str) -> list[str]:
         return [obj.name for obj in self._plan.objects if self._plan.parent(obj.name) == parent]
@@ -107,13 +113,15 @@ class _Teller:
         while True:
             above = [other for other in self._like[name]
                      if other in self._below and self._below[other].kind == "on"
-                     and self._below[other].parent == tower[-1]]  # fmt: skip
+                     and self._carriers(other) == (tower[-1],)]  # fmt: skip
             if len(above) != 1:
                 return tower
             tower.append(above[0])
 
     def _continues_stack(self, name: str) -> bool:
         below = self._below.get(name)
+        if len(self._carriers(name)) > 1:
+            return False
         return below is not None and below.kind == "on" and self._base[below.parent] == self._base[name] and (
             name in self._stack(below.parent)
         )  # fmt: skip
@@ -122,11 +130,43 @@ class _Teller:
 
     def _rows(self) -> list[str]:
         rows = [each for each in self._plan.arrangements if each.kind == "row" and each.arranged]
-        return [f"{self._all(each.objects)} are in a row from left to right" for each in rows if len(each.objects) > 1]
+        return [
+            f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in rows if len(each.objects) > 1
+        ]
 
-    def _between(self) -> list[str]:
-        found = [each for each in self._plan.arrangements if each.kind == "between" and each.arranged]
-        return [f"{self._all(each.objects)} {self._is(each.objects)} between {self._all(each.of)}" for each in found]
+    def _direction(self, row: Arrangement) -> str:
+        """Where a row runs: as a relation of its first two has it, else to the right."""
+        first, second = row.objects[:2]
+        ways = {"in_front_of": ("front", "back"), "behind": ("back", "front"), "right_of": ("right", "left")}
+        turned = {"in_front_of": "behind", "behind": "in_front_of", "left_of": "right_of"}
+        kinds = [rel.kind for rel in self._plan.relations if (rel.child, rel.parent) == (first, second)]
+        kinds += [
+            turned.get(rel.kind, "") for rel in self._plan.relations if (rel.child, rel.parent) == (second, first)
+        ]
+        start, end = next((ways[kind] for kind in kinds if kind in ways), ("left", "right"))
+        return f"from {start} to {end}"
+
+    def _arranged(self) -> list[str]:
+        """Every other arrangement that the scene is to hold."""
+        made: list[str] = []
+        for each in self._plan.arrangements:
+            rule = ARRANGEMENTS.get(each.kind)
+            if each.kind == "row" or not each.arranged or rule is None or self._carries(each):
+                continue
+            words = f"{rule.words} {self._all(each.of)}" if each.of else rule.alone
+            if words:
+                made.append(f"{self._all(each.objects)} {self._is(each.objects)} {words}")
+        return made
+
+    def _carries(self, each: Arrangement) -> bool:
+        """Whether a support says what `each` says: a mat under a vase."""
+        carried = {(rel.parent, rel.child) for rel in self._plan.relations if rel.supports}
+        return each.kind == "under" and any((a, b) in carried for a in each.objects for b in each.of)
+
+    def _postures(self) -> list[str]:
+        held = {one.object: one.kind for one in self._plan.turned()}
+        kinds = {"upside_down": "upside down", "on_its_side": "on its side"}
+        return [f"{self._the(name)} {self._is([name])} {kinds[kind]}" for name, kind in held.items() if kind in kinds]
 
     def _is(self, names: Sequence[str]) -> str:
         return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"
@@ -139,7 +179,7 @@ class _Teller:
                 grouped.setdefault((rel.kind, rel.parent), []).append(rel.child)
         made: list[str] = []
         for (kind, parent), children in grouped.items():
-            made.append(f"{self._all(children)} {self._is(children)} {_WORDS[kind]} {self._the(parent)}")
+            made.append(f"{self._all(children)} {self._is(children)} {RELATION_WORDS[kind]} {self._the(parent)}")
         return made
 
     def _said(self, rel: Relation) -> bool:

@@ -23,6 +23,7 @@ from pat3d.errors import AssetError, ExportError, SpecError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
+from pat3d.scene.arrangements import Arrangement
 from pat3d.scene.asset import Asset, Material, Region, VisualMesh
 from pat3d.scene.checksums import record_checksums
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
@@ -89,11 +90,16 @@ def load_scene(folder: str | Path) -> Scene:
                     pose=_pose(entry["pose"]),
                     initial_pose=_pose(entry["initial_pose"]),
                     fixed=entry["fixed"],
+                    posture=entry.get("posture"),
                 )
             )
         return Scene(
             objects=tuple(objects),
             relations=tuple(Relation(**entry) for entry in document["relations"]),
+            arrangements=tuple(
+                Arrangement(kind=entry["kind"], objects=tuple(entry["objects"]), of=tuple(entry["of"]))
+                for entry in document.get("arrangements", [])
+            ),
             attachments=tuple(
                 Attachment(child=entry["child"], parent=entry["parent"], anchors=_floats(entry["anchors"]))
                 for entry in document.get("attachments", [])
@@ -137,6 +143,7 @@ def _write(scene: Scene, folder: Path) -> None:
                 "fixed": obj.fixed,
                 "pose": _pose_entry(obj.pose),
                 "initial_pose": _pose_entry(obj.initial_pose),
+                **({} if obj.posture is None else {"posture": obj.posture}),
             }
             for obj in scene.objects
         ],
@@ -146,6 +153,10 @@ def _write(scene: Scene, folder: Path) -> None:
     }
     if scene.least_tilt != LEAST_TILT:
         document["least_tilt"] = scene.least_tilt
+    if scene.arrangements:
+        document["arrangements"] = [
+            {"kind": one.kind, "objects": [*one.objects], "of": [*one.of]} for one in scene.arrangements
+        ]
     if scene.attachments:
         document["attachments"] = [
             {"child": one.child, "parent": one.parent, "anchors": [[[*a], [*b]] for a, b in one.anchors]}

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from pat3d.errors import SpecError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
+from pat3d.scene.arrangements import Arrangement, Posture, PostureKind, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.physics import LEAST_TILT, MAX_TILT, SETTLING_FRICTION
-from pat3d.scene.relations import GROUND, Relation, check_tree, parent_of
+from pat3d.scene.relations import GROUND, Relation, carriers_of, check_tree, parent_of
 
 Point = tuple[float, float, float]
 """[m]"""
@@ -91,6 +92,8 @@ class SceneObject:
     """Pose in the intersection-free layout, before settling."""
     fixed: bool = False
     """Fixed objects have no degrees of freedom and are static in every export."""
+    posture: PostureKind | None = None
+    """How it is to be turned; None where nothing is said."""
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:
@@ -105,6 +108,8 @@ class SceneObject:
     def __post_init__(self) -> None:
         if not self.name or self.name == GROUND:
             raise SpecError(f'"{self.name}" is not a valid object name.')
+        if self.posture is not None:
+            Posture(object=self.name, kind=self.posture)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -114,6 +119,8 @@ class Scene:
     objects: tuple[SceneObject, ...]
     relations: tuple[Relation, ...] = ()
     """The scene tree (support relations) and the lateral relations of the plan."""
+    arrangements: tuple[Arrangement, ...] = ()
+    """Rows, circles and all else that is said of more than a child and a parent, or of places on a surface."""
     attachments: tuple[Attachment, ...] = ()
     """What hangs by points, rather than rests on surfaces; at most one for every pair of objects."""
     prompt: str = ""
@@ -134,6 +141,7 @@ class Scene:
         if repeated:
             raise SpecError(f"object names must be unique; repeated: {', '.join(repeated)}.")
         check_tree(names, self.relations)
+        check_arrangements(names, self.relations, self.arrangements)
         self._check_attachments(names)
 
     def _check_attachments(self, names: list[str]) -> None:
@@ -163,3 +171,12 @@ class Scene:
     def parent(self, name: str) -> str:
         """Name of what supports object `name`: another object or the ground."""
         return parent_of(name, self.relations)
+
+    def carriers(self, name: str) -> tuple[str, ...]:
+        """Names of everything that carries object `name`: other objects, or the ground."""
+        return carriers_of(name, self.relations)
+
+    @property
+    def postures(self) -> tuple[Posture, ...]:
+        """How objects are to be turned, where something is said of it."""
+        return tuple(Posture(object=obj.name, kind=obj.posture) for obj in self.objects if obj.posture is not None)

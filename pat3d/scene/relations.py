@@ -5,6 +5,7 @@ The viewer stands at -y and looks along +y, so left is -x, right is +x, in front
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -22,6 +23,14 @@ LateralKind = Literal["left_of", "right_of", "in_front_of", "behind", "next_to",
 RelationKind = Literal[SupportKind, LateralKind]
 SUPPORT_KINDS: frozenset[str] = frozenset(get_args(SupportKind))
 LATERAL_KINDS: frozenset[str] = frozenset(get_args(LateralKind))
+
+RELATION_WORDS: dict[str, str] = {
+    "on": "on", "in": "in", "hangs_from": "hanging from", "left_of": "to the left of", "right_of": "to the right of",
+    "in_front_of": "in front of", "behind": "behind", "next_to": "next to", "around": "around",
+}  # fmt: skip
+"""How a person says each kind, between child and parent."""
+
+MAX_CARRIERS = 8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,12 +60,34 @@ class Relation:
 
 
 def parent_of(name: str, relations: tuple[Relation, ...]) -> str:
-    """Parent of object `name` in the scene tree; the ground where no relation says otherwise."""
+    """Parent of object `name` in the scene tree (the first of several carriers); the ground where nothing is said."""
     return next((rel.parent for rel in relations if rel.supports and rel.child == name), GROUND)
 
 
+def carriers_of(name: str, relations: tuple[Relation, ...]) -> tuple[str, ...]:
+    """Everything that carries object `name`, in the order of the relations; the ground where nothing is said."""
+    return tuple(rel.parent for rel in relations if rel.supports and rel.child == name) or (GROUND,)
+
+
+def built_together(names: Sequence[str], relations: tuple[Relation, ...]) -> dict[str, str]:
+    """The first of every structure of things with several carriers (a pyramid), by each object that is part of one."""
+    first: dict[str, str] = {}
+    for name in names:
+        carriers = carriers_of(name, relations)
+        if len(carriers) < 2:
+            continue
+        joined = {first.get(one, one) for one in (name, *carriers)}
+        lead = min(joined, key=list(names).index)
+        first |= dict.fromkeys((name, *carriers), lead)
+        first |= {one: lead for one, old in first.items() if old in joined}
+    return first
+
+
 def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
-    """Raise SpecError unless the support relations form a tree over `names` rooted at the ground."""
+    """Raise SpecError unless the support relations form a directed acyclic graph over `names` rooted at the ground.
+
+    What has several carriers lies on all of them; everything else has one, so that without such things it is a tree.
+    """
     known = {*names, GROUND}
     for relation in relations:
         for end in (relation.child, relation.parent):
@@ -64,23 +95,46 @@ def check_tree(names: list[str], relations: tuple[Relation, ...]) -> None:
                 raise SpecError(
                     f'relation "{relation}" names "{end}", which is not in the scene. Objects: {", ".join(names)}.'
                 )
-    parents: dict[str, str] = {}
+    parents: dict[str, list[Relation]] = {}
     for relation in relations:
         if not relation.supports:
             continue
-        if relation.child in parents:
-            raise SpecError(
-                f'"{relation.child}" has two supports, "{parents[relation.child]}" and "{relation.parent}".'
-            )
-        parents[relation.child] = relation.parent
-    for name in names:
-        path = [name]
-        while (above := parents.get(path[-1], GROUND)) != GROUND:
+        others = parents.setdefault(relation.child, [])
+        for other in others:
+            if {relation.kind, other.kind} != {"on"} or GROUND in (relation.parent, other.parent):
+                raise SpecError(
+                    f'"{relation.child}" has two supports, "{other.parent}" and "{relation.parent}": only what lies '
+                    '"on" several objects can have more than one.'
+                )
+            if relation.parent == other.parent:
+                raise SpecError(f'"{relation}" is said twice.')
+        others.append(relation)
+        if len(others) > MAX_CARRIERS:
+            raise SpecError(f'"{relation.child}" has more than {MAX_CARRIERS} carriers.')
+    _check_acyclic({name: [edge.parent for edge in parents[name]] for name in names if name in parents})
+
+
+def _check_acyclic(parents: dict[str, list[str]]) -> None:
+    """Raise SpecError where following `parents` from a child may come back to it."""
+    waiting = {name: sum(above in parents for above in own) for name, own in parents.items()}
+    children: dict[str, list[str]] = {}
+    for name, own in parents.items():
+        for above in own:
+            children.setdefault(above, []).append(name)
+    ready = [name for name, count in waiting.items() if count == 0]
+    while ready:
+        done = ready.pop()
+        del waiting[done]
+        for name in children.get(done, ()):
+            waiting[name] -= 1
+            if waiting[name] == 0:
+                ready.append(name)
+    if waiting:
+        path = [next(iter(waiting))]
+        while (above := next(name for name in parents[path[-1]] if name in waiting)) not in path:
             path.append(above)
-            if above == name:
-                raise SpecError(f"the support relations form a cycle: {' -> '.join(path)}.")
-            if len(path) > len(names):
-                break
+        cycle = [*path[path.index(above) :], above]
+        raise SpecError(f"the support relations form a cycle: {' -> '.join(cycle)}.")
 
 
 _ORDERS = {"left_of": ("x", 1), "right_of": ("x", -1), "in_front_of": ("y", 1), "behind": ("y", -1)}
@@ -93,14 +147,17 @@ def check_sides(relations: tuple[Relation, ...]) -> None:
     Beside one another is nothing that rests on, or lies in, the other; and nothing is on the left of what is on the
     left of it.
     """
-    carriers = {rel.child: rel.parent for rel in relations if rel.supports and rel.kind != "hangs_from"}
+    carriers: dict[str, set[str]] = {}
+    for rel in relations:
+        if rel.supports and rel.kind != "hangs_from":
+            carriers.setdefault(rel.child, set()).add(rel.parent)
     before: dict[str, dict[str, set[str]]] = {"x": {}, "y": {}}
     for relation in relations:
         ends = (relation.child, relation.parent)
         if relation.supports or GROUND in ends:
             continue
         for one, other in (ends, ends[::-1]):
-            if other in _reached(one, {name: {carrier} for name, carrier in carriers.items()}):
+            if other in _reached(one, carriers):
                 raise SpecError(f'"{relation}" cannot be: "{other}" carries "{one}".')
         if relation.kind in _ORDERS:
             axis, sign = _ORDERS[relation.kind]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES
 from pat3d.scene.checksums import MAX_FILES
 from pat3d.scene.model import MAX_ANCHORS
 from pat3d.scene.naming import SLUG_PATTERN
@@ -69,9 +70,12 @@ _OBJECT = _record(
         "fixed": {"type": "boolean"},
         "pose": _POSE,
         "initial_pose": _POSE,
-    }
+    },
+    optional={"posture": {"enum": sorted(POSTURES)}},
 )
 _RELATION = _record({"child": _NAME, "kind": {"enum": sorted(SUPPORT_KINDS | LATERAL_KINDS)}, "parent": _NAME})
+_NAMES = {"type": "array", "items": _NAME, "maxItems": MANY}
+_ARRANGEMENT = _record({"kind": {"enum": sorted(ARRANGEMENTS)}, "objects": {**_NAMES, "minItems": 1}, "of": _NAMES})
 _ATTACHMENT = _record(
     {
         "child": _NAME,
@@ -109,6 +113,7 @@ SCENE_SCHEMA: dict[str, Any] = {
         },
         optional={
             "least_tilt": {"type": "number", "minimum": 0, "maximum": MAX_TILT},
+            "arrangements": {"type": "array", "items": _ARRANGEMENT, "maxItems": 10_000},
             "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
             "checksums": _CHECKSUMS,
             "checksum": _SHA256,

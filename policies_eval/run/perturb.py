@@ -189,7 +189,7 @@ class Perturber:
         """Move the task's objects; every one is settled for a moment and put back where that fails."""
         simulation, drawn = self._env.simulation, {}
         for name in self._env.task.needs(self._env.scene).grasp:
-            if any(self._env.scene.parent(obj.name) == name for obj in self._env.scene.objects):
+            if any(name in self._env.scene.carriers(obj.name) for obj in self._env.scene.objects):
                 continue
             for _ in range(TRIES):
                 x, y = random.uniform(-strength, strength, 2)

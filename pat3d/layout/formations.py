@@ -1,0 +1,192 @@
+"""Formations: things on one surface whose places follow from each other, once the first of them stands somewhere.
+
+A row, a circle, what is between, under or leaning on something, and carriers of one thing. A formation gives every
+member an offset; the search of pat3d.layout.surfaces then moves it as one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pat3d.layout.bodies import Array
+from pat3d.layout.flat import Item, Lateral
+
+CLOSE = 0.001
+"""Gap between members whose offsets are given [m]."""
+ASKEW = 10.0
+"""Largest angle [degrees] at which the layout has something face another."""
+FAR = 1.5
+"""Gap of things that are far from each other, against the largest of things that are next to each other."""
+_DIRECTIONS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+_SIDES = {"left_of": (0, -1.0), "right_of": (0, 1.0), "in_front_of": (1, -1.0), "behind": (1, 1.0)}
+
+Gap = Callable[[Item, Item], float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Formation:
+    """Members that stand in a line or on a ring, or at given offsets."""
+
+    members: tuple[str, ...]
+    """In order."""
+    centre: str | None = None
+    """What a ring goes around."""
+    ring: bool = False
+    fixed: Mapping[str, Array] = field(default_factory=dict)
+    """Offsets of the members' middles [m], shape (2,) each, where they are given."""
+    overlapping: bool = False
+    """Whether members may lie above one another."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Everything whose place belongs to it."""
+        return self.members if self.centre is None else (*self.members, self.centre)
+
+    def offsets(self, items: Mapping[str, Item], laterals: Sequence[Lateral], gap: Gap) -> dict[str, Array]:
+        """Where the middle of every member is, relative to a common point [m], shape (2,) each.
+
+        Args:
+            items: outlines, by name.
+            laterals: what decides the direction of a line.
+            gap: free distance that two items keep [m].
+        """
+        if self.fixed:
+            return dict(self.fixed)
+        if self.ring:
+            return _ring(self.members, self.centre, items, gap)
+        own = [lat for lat in laterals if lat.child in self.members and lat.parent in self.members]
+        lines = [_line([items[name] for name in self.members], np.array(way), gap) for way in _DIRECTIONS]
+        return next((line for line in lines if all(_agrees(lat, line) for lat in own)), lines[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sight:
+    """`observer` is turned towards `way`, a unit vector, and `target` has to be there."""
+
+    observer: str
+    target: str
+    way: tuple[float, float]
+
+    def meets(self, offset: Array) -> NDArray[np.bool_]:
+        """Whether `offset` [m], shape (n, 2), from the observer's middle to the target's, is that way."""
+        way = np.array(self.way)
+        along = offset @ way
+        return np.abs(offset @ np.array([-way[1], way[0]])) <= math.tan(math.radians(ASKEW)) * along
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wishes:
+    """What the arrangements of one surface ask for, beside the lateral relations."""
+
+    formations: tuple[Formation, ...] = ()
+    far: frozenset[frozenset[str]] = frozenset()
+    """Pairs that keep far from each other."""
+    sights: tuple[Sight, ...] = ()
+    places: Mapping[str, str] = field(default_factory=dict)
+    """Kind of the place on the surface where things are wanted: at_edge, in_corner, in_middle."""
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Everything whose place is asked for."""
+        formed = {name for one in self.formations for name in one.names}
+        seen = {name for one in self.sights for name in (one.observer, one.target)}
+        return frozenset(formed | seen | {name for pair in self.far for name in pair} | set(self.places))
+
+    def together(self, first: str, second: str) -> Formation | None:
+        """The formation of which both are members."""
+        return next((one for one in self.formations if first in one.names and second in one.names), None)
+
+    def among(self, names: Iterable[str]) -> Wishes:
+        """What is asked for of `names` alone."""
+        own = set(names)
+        return Wishes(
+            formations=tuple(one for one in self.formations if own.issuperset(one.names)),
+            far=frozenset(pair for pair in self.far if own.issuperset(pair)),
+            sights=tuple(one for one in self.sights if {one.observer, one.target} <= own),
+            places={name: kind for name, kind in self.places.items() if name in own},
+        )
+
+
+def far_gap(first: Array, second: Array) -> float:
+    """Gap [m] that things of sizes [m], shape (2,), keep where they are far from each other."""
+    return FAR * reach_of_beside(first, second) + 0.02
+
+
+def reach_of_beside(first: Array, second: Array) -> float:
+    """Largest gap [m] at which things of horizontal sizes [m], shape (2,), are next to each other."""
+    return min(max(0.25, float(max(first.max(), second.max()))), 1.0)
+
+
+def _line(items: Sequence[Item], way: Array, gap: Gap) -> dict[str, Array]:
+    """Side by side along `way`, a unit vector along an axis, with one gap between all of them."""
+    free = max(gap(first, second) for first, second in zip(items, items[1:], strict=False))
+    at, found = 0.0, {items[0].name: np.zeros(2)}
+    for before, item in zip(items, items[1:], strict=False):
+        at += _reach(before, way) + free + _reach(item, -way)
+        found[item.name] = at * way
+    return found
+
+
+def _reach(item: Item, way: Array) -> float:
+    """How far an item goes from its middle along `way`, a unit vector along an axis [m]."""
+    corner = np.where(way > 0, item.high, item.low)
+    return float((corner - item.middle) @ way)
+
+
+def _agrees(lat: Lateral, offsets: Mapping[str, Array]) -> bool:
+    if lat.kind not in _SIDES:
+        return True
+    axis, sign = _SIDES[lat.kind]
+    return float((offsets[lat.child] - offsets[lat.parent])[axis]) * sign > 0.0
+
+
+def _ring(members: Sequence[str], centre: str | None, items: Mapping[str, Item], gap: Gap) -> dict[str, Array]:
+    """At equal angles on the smallest ring where all keep their gaps."""
+    angles = [start_angle(len(members)) + 2 * math.pi * k / len(members) for k in range(len(members))]
+    ways = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
+    radius = 0.25 * max(float(items[name].size.max()) for name in members)
+    while True:
+        found = {name: radius * way for name, way in zip(members, ways, strict=True)}
+        if centre is not None:
+            found[centre] = np.zeros(2)
+        if all(_apart(items[a], found[a], items[b], found[b]) >= gap(items[a], items[b]) for a, b in pairs(found)):
+            return found
+        radius *= 1.02
+
+
+def start_angle(count: int) -> float:
+    """Angle [rad] of the first of `count` things on a ring: two stand left and right, more leave the front free."""
+    return math.pi if count <= 2 else math.pi + math.pi / count
+
+
+def _apart(first: Item, at: Array, second: Item, there: Array) -> float:
+    """Gap between the rectangles of two items whose middles are at given points [m]; negative where they overlap."""
+    low_a, high_a = (side - first.middle + at for side in (first.low, first.high))
+    low_b, high_b = (side - second.middle + there for side in (second.low, second.high))
+    return float(np.maximum(low_a - high_b, low_b - high_a).max())
+
+
+def ring_of_carriers(carriers: Sequence[Item], load: Array) -> dict[str, Array]:
+    """Offsets of what carries one thing of size `load` [m], shape (2,): under its ends, or near each other."""
+    items = {item.name: item for item in carriers}
+    if len(carriers) == 2:
+        close = _line(carriers, np.array([1.0, 0.0]), lambda _a, _b: 3 * CLOSE)
+        apart = float(close[carriers[1].name][0])
+        outer = _reach(carriers[0], np.array([-1.0, 0.0])) + _reach(carriers[1], np.array([1.0, 0.0]))
+        wide = 0.96 * float(load.max()) - outer
+        return {carriers[0].name: np.zeros(2), carriers[1].name: np.array([max(apart, wide), 0.0])}
+    near = _ring([item.name for item in carriers], None, items, lambda _a, _b: 3 * CLOSE)
+    radius = float(np.linalg.norm(next(iter(near.values()))))
+    wide = 0.5 * float(load.min()) - 0.5 * max(float(item.size.max()) for item in carriers)
+    return {name: at * max(1.0, wide / radius) for name, at in near.items()}
+
+
+def pairs(names: Iterable[str]) -> list[tuple[str, str]]:
+    """Every two of `names`."""
+    return list(combinations(names, 2))

@@ -1,0 +1,207 @@
+"""What arrangements mean for the layout: on which surface each is brought about, who turns where, who stands in line.
+
+Arrangements are said of any objects; what the layout moves are the things that stand on one surface, each with all that
+it carries. `Intents` takes the one to the other in names alone; `wishes` adds the geometry once these things are built.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.layout.bodies import Array
+from pat3d.layout.flat import Lateral
+from pat3d.layout.formations import Formation, Sight, Wishes, pairs, ring_of_carriers, start_angle
+from pat3d.layout.group import Group
+from pat3d.layout.leaning import leaning_offset, under_offset
+from pat3d.layout.tops import item_of
+from pat3d.scene.arrangements import Arrangement
+from pat3d.scene.relations import GROUND
+
+_WAYS = {"left_of": (1.0, 0.0), "right_of": (-1.0, 0.0), "in_front_of": (0.0, 1.0), "behind": (0.0, -1.0)}
+"""From what stands so to the other."""
+_FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
+"""Where the first, second, ... of several that face one thing have it."""
+_OPPOSITE = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intent:
+    """One arrangement among the things that stand on one surface."""
+
+    arrangement: Arrangement
+    support: str
+    stands_for: Mapping[str, str]
+    """What each object of the arrangement is moved with: itself, or what carries it."""
+
+    def moved(self, names: Sequence[str]) -> tuple[str, ...]:
+        """What `names` are moved with."""
+        return tuple(self.stands_for[name] for name in names)
+
+
+class Intents:
+    """All arrangements of a scene, by surface."""
+
+    def __init__(
+        self,
+        arrangements: Sequence[Arrangement],
+        path: Callable[[str], list[str]],
+        kinds: Mapping[str, str],
+        laterals: Mapping[str, Sequence[Lateral]],
+        spans: Mapping[str, Sequence[str]],
+    ) -> None:
+        """Sort `arrangements`.
+
+        Args:
+            arrangements: of the scene.
+            path: an object, what it stands on, and so on to the ground.
+            kinds: support relation of every object that has one.
+            laterals: by surface.
+            spans: objects with several carriers, and these.
+        """
+        self.laterals, self.spans, self.path = laterals, spans, path
+        self.by_surface: dict[str, list[Intent]] = {}
+        self.notes: list[str] = []
+        self.yaws: dict[str, float] = {name: 0.0 for carriers in spans.values() for name in carriers}
+        """Of objects that must not be turned by chance [rad]."""
+        self.leaning: dict[str, Array] = {}
+        """Objects that lean, and unit vectors, shape (3,), to what they lean on."""
+        self._sights: dict[str, list[Sight]] = {}
+        for one in arrangements:
+            intent = self._placed(one, kinds)
+            if intent is not None:
+                self.by_surface.setdefault(intent.support, []).append(intent)
+                self._turn(intent)
+
+    def wishes(self, support: str, groups: Mapping[str, Group], build: Callable[[str], Group], gap: float) -> Wishes:
+        """What is asked for on `support`.
+
+        Args:
+            support: what `groups` stand on.
+            groups: everything that stands there, built, by name.
+            build: makes the group of an object with several carriers.
+            gap: distance that objects keep [m].
+
+        Raises:
+            LayoutError: something has no room under, or nothing to lean on.
+        """
+        formations, far, places = [], set(), {}
+        for intent in self.by_surface.get(support, []):
+            one, objects, of = (
+                intent.arrangement,
+                intent.moved(intent.arrangement.objects),
+                intent.moved([] if intent.arrangement.rule.on_it else intent.arrangement.of),
+            )
+            if not {*objects, *of} <= set(groups):
+                continue
+            if one.kind in ("row", "side_by_side"):
+                formations.append(Formation(members=objects))
+            elif one.kind == "between" and len(of) == 2:
+                formations.append(Formation(members=(of[0], *objects, of[1])))
+            elif one.kind == "between":
+                formations.append(Formation(members=of, centre=objects[0], ring=True))
+            elif one.kind == "circle":
+                formations.append(Formation(members=objects, centre=of[0] if of else None, ring=True))
+            elif one.kind == "far_from":
+                far |= {frozenset(pair) for pair in ([(a, b) for a in objects for b in of] if of else pairs(objects))}
+            elif one.kind == "leaning_against":
+                away = leaning_offset(groups[objects[0]], groups[of[0]], self.leaning[objects[0]], gap)
+                formations.append(_pair(objects[0], of[0], away, overlapping=True))
+            elif one.kind == "under":
+                away = under_offset(groups[objects[0]], groups[of[0]], gap)
+                formations.append(_pair(objects[0], of[0], away, overlapping=True))
+            elif one.rule.on_it:
+                places |= dict.fromkeys(objects, one.kind)
+        for name, carriers in self.spans.items():
+            below = self._carriers_on(support, name)
+            if len(below) == len(carriers) and set(below) <= set(groups):
+                items = [item_of(groups[one], turnable=False) for one in below]
+                fixed = ring_of_carriers(items, build(name).size[:2])
+                formations.append(Formation(members=tuple(below), fixed=fixed))
+        sights = tuple(one for one in self._sights.get(support, []) if {one.observer, one.target} <= set(groups))
+        return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places)
+
+    def _placed(self, one: Arrangement, kinds: Mapping[str, str]) -> Intent | None:
+        """On which surface `one` is brought about; None, with a note, where the layout cannot."""
+        paths = {name: self.path(name) for name in one.names}
+        if one.rule.on_it:
+            support = one.of[0]
+            astray = [name for name in one.objects if paths[name][1] != support or name in self.spans]
+            if astray or any(kinds[name] != "on" for name in one.objects):
+                self.notes.append(f'"{one}" is left aside: not all of it lies on "{support}" alone.')
+                return None
+            return Intent(arrangement=one, support=support, stands_for={name: name for name in one.objects})
+        first = paths[one.names[0]]
+        support = next(name for name in first if all(name in path for path in paths.values()))
+        if support in one.names:
+            self.notes.append(f'"{one}" is left aside: "{support}" carries the others.')
+            return None
+        moved = {name: path[path.index(support) - 1] for name, path in paths.items()}
+        if len(set(moved.values())) < len(moved):
+            self.notes.append(f'"{one}" is left aside: some of it stands on one thing.')
+            return None
+        if support != GROUND and any(kinds[name] != "on" for name in moved.values()):
+            self.notes.append(f'"{one}" is left aside: things inside "{support}" lie as they fit.')
+            return None
+        if one.kind in ("leaning_against", "under") and moved[one.objects[0]] != one.objects[0]:
+            self.notes.append(f'"{one}" is left aside: they do not stand on the same thing.')
+            return None
+        return Intent(arrangement=one, support=support, stands_for=moved)
+
+    def _turn(self, intent: Intent) -> None:
+        """Who of `intent` is turned where."""
+        one = intent.arrangement
+        if one.rule.on_it:
+            self.yaws.setdefault(intent.support, 0.0)
+        elif one.kind in ("row", "side_by_side"):
+            self.yaws |= {name: self.yaws.get(name, 0.0) for name in one.objects}
+        elif one.kind == "leaning_against":
+            way = self._way(intent, one.objects[0], one.of[0]) or (0.0, 1.0)
+            self.leaning[one.objects[0]] = np.array([*way, 0.0])
+            self.yaws |= dict.fromkeys((one.objects[0], *intent.moved(one.of), *one.of), 0.0)
+        elif one.kind == "facing":
+            targets = one.of * len(one.objects) if one.of else one.objects[::-1]
+            sights = self._sights.setdefault(intent.support, [])
+            for number, (observer, target) in enumerate(zip(one.objects, targets, strict=True)):
+                ring = self._ring_angle(intent, observer, target)
+                if ring is not None:
+                    way = (-math.cos(ring), -math.sin(ring))
+                else:
+                    way = self._way(intent, observer, target) or _FACING[number]
+                    pair = intent.moved((observer, target))
+                    sights.append(Sight(observer=pair[0], target=pair[1], way=way))
+                # The front of an asset is at -y.
+                self.yaws[observer] = math.atan2(way[1], way[0]) + math.pi / 2
+
+    def _way(self, intent: Intent, name: str, other: str) -> tuple[float, float] | None:
+        """From `name` to `other` as a lateral relation has it."""
+        own, there = intent.moved((name, other))
+        for lat in self.laterals.get(intent.support, ()):
+            if lat.kind in _WAYS and {lat.child, lat.parent} == {own, there}:
+                return _WAYS[lat.kind if lat.child == own else _OPPOSITE[lat.kind]]
+        return None
+
+    def _ring_angle(self, intent: Intent, name: str, centre: str) -> float | None:
+        """Angle [rad] of `name` in a ring around `centre`, if there is one."""
+        rings = [one for one in self.by_surface.get(intent.support, []) if one.arrangement.kind == "circle"]
+        members = next((one.arrangement.objects for one in rings if one.arrangement.of == (centre,)), ())
+        if not members:
+            around = [lat for lat in self.laterals.get(intent.support, ()) if lat.kind == "around"]
+            members = tuple(lat.child for lat in around if lat.parent == centre)
+        if name not in members:
+            return None
+        return start_angle(len(members)) + 2 * math.pi * members.index(name) / len(members)
+
+    def _carriers_on(self, support: str, name: str) -> list[str]:
+        """What stands on `support` under the carriers of `name`, where `name` is put down on `support` too."""
+        paths = [self.path(one) for one in self.spans[name]]
+        if self.path(name)[1] != support:
+            return []
+        return list(dict.fromkeys(path[path.index(support) - 1] for path in paths))
+
+
+def _pair(name: str, other: str, away: Array, *, overlapping: bool) -> Formation:
+    return Formation(members=(other, name), fixed={other: np.zeros(2), name: away}, overlapping=overlapping)

@@ -1,0 +1,193 @@
+"""When arrangements hold: blocks at given places, moved across the border of every definition."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pat3d.errors import LayoutError
+from pat3d.geometry.pose import Pose
+from pat3d.layout.bodies import Body
+from pat3d.layout.layout import arrange
+from pat3d.layout.leaning import leaning_rotation
+from pat3d.layout.postures import posture_rotation
+from pat3d.layout.predicates import check_arranged, check_relations
+from pat3d.scene.arrangements import Arrangement, Posture
+from pat3d.scene.model import Relation
+from tests.layout.things import ball, block, mug, table
+
+SIDE = 0.06
+
+
+def holds(kind, places, objects, of=(), assets=None) -> bool:
+    """Whether `kind` holds for blocks at `places`: x, y [m] and a yaw [degrees], or poses."""
+    poses = {
+        name: at
+        if isinstance(at, Pose)
+        else Pose.from_yaw(math.radians(at[2] if len(at) > 2 else 0.0), (at[0], at[1], 0.0))
+        for name, at in places.items()
+    }
+    things = {name: block() for name in places} | (assets or {})
+    one = Arrangement(kind=kind, objects=tuple(objects), of=tuple(of))
+    return check_arranged((one,), (), things, poses)[0].holds
+
+
+def test_between_two_is_a_lens():
+    """Seen from the middle of 1 m at a distance y the ends are 2 atan(0.5 / y) apart: 135 degrees at y = 0.207 m."""
+    edge = 0.5 / math.tan(math.radians(135.0 / 2))
+    for y, expected in ((0.0, True), (0.99 * edge, True), (1.01 * edge, False)):
+        assert holds("between", {"a": (0, y), "b": (-0.5, 0), "c": (0.5, 0)}, "a", "bc") is expected
+    assert not holds("between", {"a": (0.8, 0), "b": (-0.5, 0), "c": (0.5, 0)}, "a", "bc")
+
+
+def test_between_three_is_inside_their_triangle():
+    corners = {"b": (-0.5, 0), "c": (0.5, 0), "d": (0, 1)}
+    assert holds("between", {"a": (0, 0.1), **corners}, "a", "bcd")
+    assert not holds("between", {"a": (0, -0.1), **corners}, "a", "bcd")
+
+
+def test_far_is_beyond_what_next_to_allows():
+    """Blocks of 6 cm: next to each other up to a gap of 0.25 m, far from 1.5 times that."""
+    for gap, near, far in ((0.24, True, False), (0.3, False, False), (0.38, False, True)):
+        places = {"a": (0, 0), "b": (SIDE + gap, 0)}
+        poses = {name: Pose.from_yaw(0.0, (*at, 0.0)) for name, at in places.items()}
+        beside = Relation(child="a", kind="next_to", parent="b")
+        assert check_relations((beside,), dict.fromkeys("ab", block()), poses)[0].holds is near
+        assert holds("far_from", places, "a", "b") is far
+        assert holds("far_from", places, "ab") is far
+
+
+def test_a_row_is_straight_in_order_and_evenly_spaced():
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0), "c": (0.4, 0)}, "abc")
+    assert holds("row", {"a": (0, 0), "b": (-0.1, 0.1), "c": (-0.2, 0.2)}, "abc")
+    assert not holds("row", {"a": (0, 0), "b": (0.4, 0), "c": (0.2, 0)}, "abc"), "not in order"
+    assert not holds("row", {"a": (0, 0), "b": (0.1, 0), "c": (0.4, 0)}, "abc"), "uneven"
+    assert not holds("row", {"a": (0, 0), "b": (0.2, 0.05), "c": (0.4, 0)}, "abc"), "not straight"
+
+
+def test_a_row_of_unequal_things_may_have_equal_gaps_or_equal_distances():
+    wide = {"b": block(x=0.2)}
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0), "c": (0.4, 0), "d": (0.53, 0)}, "abcd", assets=wide)
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0), "c": (0.4, 0), "d": (0.6, 0)}, "abcd", assets=wide)
+    assert not holds("row", {"a": (0, 0), "b": (0.2, 0), "c": (0.4, 0), "d": (0.72, 0)}, "abcd", assets=wide)
+
+
+def test_side_by_side_is_near_and_turned_alike():
+    assert holds("side_by_side", {"a": (0, 0), "b": (0.1, 0)}, "ab")
+    assert holds("side_by_side", {"a": (0, 0), "b": (0.1, 0, 10)}, "ab")
+    assert not holds("side_by_side", {"a": (0, 0), "b": (0.1, 0, 40)}, "ab")
+    assert not holds("side_by_side", {"a": (0, 0), "b": (0.5, 0)}, "ab")
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_circle_is_round_even_and_in_order(sense):
+    ring = [(0.3 * math.cos(a), 0.3 * sense * math.sin(a)) for a in np.linspace(0, 2 * math.pi, 6)[:5]]
+    places = dict(zip("abcde", ring, strict=True))
+    assert holds("circle", places, "abcde")
+    assert holds("circle", {**places, "m": (0, 0)}, "abcde", "m")
+    assert not holds("circle", {**places, "m": (0.1, 0)}, "abcde", "m"), "the centre is elsewhere"
+    assert not holds("circle", places, "acbde"), "not in order"
+    assert not holds("circle", {**places, "a": (0.2, 0)}, "abcde"), "not round"
+    assert not holds("circle", {**places, "a": (0.3 * math.cos(0.5), 0.3 * math.sin(0.5))}, "abcde"), "uneven"
+
+
+def test_the_front_is_at_minus_y():
+    assert holds("facing", {"a": (0, 0), "b": (0, -1)}, "a", "b")
+    assert not holds("facing", {"a": (0, 0), "b": (0, 1)}, "a", "b")
+    assert holds("facing", {"a": (0, 0, 90), "b": (1, 0)}, "a", "b")
+    assert holds("facing", {"a": (0, 0, 90), "b": (1, math.tan(math.radians(19)))}, "a", "b")
+    assert not holds("facing", {"a": (0, 0, 90), "b": (1, math.tan(math.radians(21)))}, "a", "b")
+    assert holds("facing", {"a": (0, 0, 90), "b": (1, 0, -90)}, "ab")
+    assert not holds("facing", {"a": (0, 0, 90), "b": (1, 0, 90)}, "ab")
+
+
+@pytest.mark.parametrize("yaw", [0.0, 30.0])
+def test_places_are_measured_in_the_frame_of_the_surface(yaw):
+    """On a table of 1.2 x 0.8 m: at the edge within 15 % of half its size, 9 cm along x and 6 cm along y."""
+    top = 0.74
+    turned = Pose.from_yaw(math.radians(yaw), (0.3, 0.2, 0.0))
+
+    def at(kind: str, x: float, y: float) -> bool:
+        position = turned.apply(np.array([[x, y, top]]))[0]
+        places = {"t": turned, "a": Pose.from_yaw(math.radians(yaw), tuple(position))}
+        return holds(kind, places, "a", "t", {"t": table()})
+
+    assert at("in_middle", 0.08, 0.05)
+    assert not at("in_middle", 0.1, 0.0)
+    assert at("at_edge", 0.49, 0.0)
+    assert not at("at_edge", 0.47, 0.0)
+    assert not at("in_corner", 0.49, 0.0)
+    assert at("in_corner", 0.49, -0.32)
+    assert not at("at_edge", 2.0, 0.0), "beside the table"
+
+
+def test_what_is_under_has_its_top_below_the_underside():
+    """The top of the table is 4 cm thick, its underside 0.7 m high."""
+    assert holds("under", {"t": (0, 0), "a": (0.3, 0.1)}, "a", "t", {"t": table()})
+    assert not holds("under", {"t": (0, 0), "a": (0.7, 0.1)}, "a", "t", {"t": table()})
+    assert not holds("under", {"t": (0, 0), "a": Pose(position=(0, 0, 0.65))}, "a", "t", {"t": table()})
+    assert not holds("under", {"t": (0, 0), "a": Pose(position=(0, 0, 0.741))}, "a", "t", {"t": table()})
+
+
+def test_what_leans_would_fall_without():
+    wall, board = block(0.1, 0.1, 0.3), block(0.1, 0.01, 0.25)
+    tilted = leaning_rotation(Body("board", board), np.array([0.0, 1.0, 0.0]))
+    turned = board.bounds.mean(axis=0) + (np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T) * (
+        board.size / 2
+    )
+    reach = turned @ tilted.T
+    touching = Pose.from_matrix(tilted, np.array([0.0, -0.05 - reach[:, 1].max() - 1e-4, -reach[:, 2].min()]))
+    both = {"wall": wall, "a": board}
+    assert holds("leaning_against", {"wall": (0, 0), "a": touching}, "a", ["wall"], both)
+    apart = Pose(position=(0, touching.position[1] - 0.01, touching.position[2]), quat_wxyz=touching.quat_wxyz)
+    assert not holds("leaning_against", {"wall": (0, 0), "a": apart}, "a", ["wall"], both)
+    standing = Pose(position=(0, -0.0551, 0.0))
+    assert not holds("leaning_against", {"wall": (0, 0), "a": standing}, "a", ["wall"], both)
+
+
+def test_leaning_things_are_tilted_enough_to_fall_to_the_wall_and_little_enough_not_to_slide():
+    """A board 1 cm thick, 25 cm long: 12 degrees. One 10 cm thick and 30 long needs 24; ladders slide from 22.6 on."""
+    tilt = leaning_rotation(Body("board", block(0.1, 0.01, 0.25)), np.array([1.0, 0.0, 0.0]))
+    assert math.degrees(math.acos(tilt[2, 2])) == pytest.approx(12.0)
+    lying = leaning_rotation(Body("pen", block(0.3, 0.1, 0.02)), np.array([0.0, 1.0, 0.0]))
+    assert lying[2, 0] == pytest.approx(math.cos(math.radians(12.0))), "its length is up"
+    assert lying[1, 2] < -0.9, "its top is turned away"
+    assert np.linalg.det(lying) == pytest.approx(1.0)
+    with pytest.raises(LayoutError, match="too thick to lean"):
+        leaning_rotation(Body("chest", block(0.3, 0.1, 0.25)), np.array([0.0, 1.0, 0.0]))
+
+
+def test_postures_put_a_flat_face_down():
+    down = posture_rotation(Body("mug", mug()), "upside_down")
+    assert down[2, 2] == pytest.approx(-1.0)
+    side = posture_rotation(Body("block", block(0.05, 0.06, 0.2)), "on_its_side")
+    np.testing.assert_allclose(side[:, 2], [1.0, 0.0, 0.0], atol=1e-9)
+    assert abs((side.T @ [0, 0, -1])[0]) == pytest.approx(1.0), "on one of its wider sides, 6 x 20 cm"
+    assert check_arranged((), (Posture(object="a", kind="on_its_side"),), {"a": block()},
+                          {"a": Pose.from_matrix(side, np.zeros(3))})[0].holds  # fmt: skip
+    with pytest.raises(LayoutError, match='"pin" cannot stay upside down'):
+        posture_rotation(Body("pin", block(0.004, 0.004, 0.2)), "upside_down")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_layouts_have_what_they_are_asked_for(seed):
+    """On one table: a row with one of it in a corner, something between, far off, and upside down."""
+    assets = {"table": table(), **{name: block() for name in "abcd"}, "mug": mug(), "ball": ball()}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in assets if name != "table")
+    asked = (
+        Arrangement(kind="row", objects=("a", "b", "c")),
+        Arrangement(kind="in_corner", objects=("a",), of=("table",)),
+        Arrangement(kind="between", objects=("mug",), of=("c", "d")),
+        Arrangement(kind="far_from", objects=("ball",), of=("a",)),
+    )
+    layout = arrange(assets, on, seed=seed, arrangements=asked, postures={"mug": "upside_down"})
+    found = check_arranged(asked, (Posture(object="mug", kind="upside_down"),), assets, layout.poses)
+    assert [result for result in found if not result.holds] == []
+
+
+def test_a_layout_without_arrangements_does_not_depend_on_them():
+    """Asking for nothing, and for what the layout does anyway, give the same poses."""
+    assets = {"table": table(), "mug": mug()}
+    on = (Relation(child="mug", kind="on", parent="table"),)
+    plain = arrange(assets, on, seed=3)
+    assert arrange(assets, on, seed=3, arrangements=(), postures={"mug": "upright"}).poses == plain.poses
