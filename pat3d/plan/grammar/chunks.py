@@ -34,6 +34,8 @@ class Chunk:
     """For forms: how many rows or stacks."""
     each: int = 0
     """For forms: objects in each row or stack; 0 where that is not said."""
+    words: tuple[str, ...] = ()
+    """The tokens it was cut from."""
 
 
 @dataclass(kw_only=True)
@@ -62,6 +64,8 @@ class Cursor:
         self._bounds = Boundaries(self._tokens, nouns)
         self._made = Sentence()
         self._at = 0
+        self._read: set[int] = set()
+        """Tokens that are in a chunk."""
         self._ahead = NO_MODIFIERS
         """Measures and postures that wait for the phrase they are said of."""
 
@@ -76,8 +80,11 @@ class Cursor:
 
     def _add(self, kind: ChunkKind, taken: int = 1, text: str | None = None, **fields: object) -> None:
         words = self._text[self._tokens[self._at].start : self._tokens[self._at + taken - 1].end]
-        chunk = Chunk(kind=kind, text=words if text is None else text, **fields)  # type: ignore[arg-type]
-        self._made.chunks.append(chunk)
+        said = self._words(taken)
+        self._made.chunks.append(
+            Chunk(kind=kind, text=words if text is None else text, words=said, **fields)  # type: ignore[arg-type]
+        )
+        self._read.update(range(self._at, self._at + taken))
         self._at += taken
 
     def _words(self, count: int) -> tuple[str, ...]:

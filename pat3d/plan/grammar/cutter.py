@@ -8,7 +8,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import MAX_CHUNKS, Chunk, Sentence
-from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import LINKS, LONGEST_LINK, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
@@ -25,10 +25,11 @@ _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _EMPTY = frozenset({
-    "for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "than", "both", "either", "of",
-    "a", "an", "the", "some", "them", "to", "it", "its", "do", "does", "did", "about", "all", "at",
+    "so", "who", "which", "that", "'s", "both", "of", "a", "an", "the", "some", "them", "to", "it", "its", "do", "does",
+    "did", "about", "all", "at", "there", "here", "too", "well", "as", "is", "are",
 })  # fmt: skip
 """Words that mean nothing by themselves."""
+_JOINTS = frozenset({"and", "plus", "while", "but"})
 _ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
 
 
@@ -38,9 +39,12 @@ class Cutter(RelationWords):
     def cut(self) -> Sentence:
         """The sentence in chunks."""
         while self._at < self._end:
-            before = self._at
+            before, told = self._at, (len(self._made.unread), len(self._made.aside))
             self._step()
             self._at += self._at == before
+            if told == (len(self._made.unread), len(self._made.aside)):
+                passed = (self._tokens[at] for at in range(before, self._at) if at not in self._read)
+                self._made.unread += [token.text for token in passed if self._means_something(token)]
         if len(self._made.chunks) > MAX_CHUNKS:
             raise PromptError(
                 f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "
@@ -236,12 +240,15 @@ class Cutter(RelationWords):
         return None
 
     def _drop(self) -> None:
-        """Leave out the next word, and say so where it has a meaning."""
-        word = self._word(0)
-        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word not in empty:
-            self._made.unread.append(word)
+        """Leave out the next word, of which a note speaks where it means something."""
         self._at += 1
+
+    @staticmethod
+    def _means_something(token: Token) -> bool:
+        """Whether a word that is in no chunk changes what the sentence says."""
+        word = token.text
+        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
+        return not (token.mark or word in empty or is_marked(word) or word in _MODALS | _JOINTS | _ABOUT)
 
     def _meaningless(self, word: str, follower: str) -> bool:
         """Whether the word may be dropped: a posture before its preposition, an adverb, a command."""

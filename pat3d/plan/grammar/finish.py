@@ -37,10 +37,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
         if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
             world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
-    gone = {item for group in world.groups if group.replaced for item in group.items}
     world.groups = [group for group in world.groups if not group.replaced]
-    world.supports = {c: e for c, e in world.supports.items() if c not in gone and e.parent not in gone}
-    world.laterals = [edge for edge in world.laterals if edge.child not in gone and edge.parent not in gone]
+    there = set(world.items())
+    world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
+    world.laterals = [edge for edge in world.laterals if {edge.child, edge.parent} <= there]
     _open_boxes(world, nouns)
     _widen_bowls(world, nouns)
     _pair_sides(world)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.account import holds_already, learned, miscounted, words_left
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
@@ -59,10 +60,10 @@ class Interpreter(Placing):
         for fact in facts:
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None:
-                handler(fact[1], fact[2], fact[3])
+                self._effect(handler, fact[1], fact[2], fact[3])
         for fact in facts:
             if fact[0] == "place":
-                self._placed(fact[1], fact[2], fact[3])
+                self._effect(self._placed, fact[1], fact[2], fact[3])
             elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
                 self._formed(fact[1], fact[2])
             elif fact[0] == "quality":
@@ -85,7 +86,37 @@ class Interpreter(Placing):
         world.landmark = self._relating.landmark
         if self._clause.manner is None:
             self._relating.cost += self._loose()
+        self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _effect(
+        self, hear: Callable[[int, Sequence[int], Sequence[int]], None], at: int, one: Sequence[int], two: Sequence[int]
+    ) -> None:
+        """Let chunk `at` have its effect through `hear`; a note names it where it has none."""
+        before = learned(self._world)
+        hear(at, one, two)
+        if learned(self._world) != before or holds_already(self._world, self._said.ref_all(one), self._said.ref_all(two)):
+            return
+        heads = [head for head in (*one, *two) if self._chunks[head].phrase is not None]
+        kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
+        if kinds <= {"object", "unknown", "pieces", "pronoun"} and self._chunks[at].link is not None:
+            if self._chunks[at].link.manner not in ("include", "gaze"):  # type: ignore[union-attr]
+                said = " ".join(f'"{self._chunks[head].text}"' for head in two)
+                self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
+
+    def _account(self, facts: Sequence[tuple]) -> None:
+        """Name every word of the sentence that had no effect."""
+        heard = {fact[1] for fact in facts if isinstance(fact[1], int)}
+        heard |= {head for fact in facts for part in fact[2:] if isinstance(part, tuple) for head in part}
+        for at, chunk in enumerate(self._chunks):
+            if chunk.kind in ("rel", "have", "place", "form", "quality") and at not in heard:
+                self._world.note(f'not understood: "{chunk.text}"')
+            if chunk.kind != "noun":
+                continue
+            for word in words_left(chunk):
+                self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
+            if (word := miscounted(chunk, self._said.ref(at))) is not None:
+                self._world.note(f'not understood: "{word}" of "{chunk.text}"')
 
     def _loose(self) -> float:
         """What it costs that small things are nowhere, where something is there to carry them."""

@@ -77,6 +77,8 @@ class References:
         elif phrase.kind == "pieces":
             self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            for item in self.known[at]:
+                item.told = item.told.marked_as(phrase.modifiers)
             self.cost += 0.0 if self.known[at] or at in self.bound else 0.5
         elif phrase.kind == "items":
             self.known[at] = []
@@ -285,6 +287,10 @@ class References:
         if at in self.bound:
             return [item for head in self.bound[at] for item in self.ref(head)]
         return []
+
+    def ref_all(self, heads: Sequence[int]) -> list[Item]:
+        """What the chunks `heads` speak of together."""
+        return [item for head in heads for item in self.ref(head) if item in item.group.items]
 
     def refs_of(
         self, heads: Sequence[int], link: Link | None = None, other: Sequence[int] = (), *, child: bool = False

@@ -207,7 +207,7 @@ class Grammar(Goals):
     def _having(self, at: int, link: Link, named: Node, modifier: Node) -> tuple[list[tuple], float]:
         """Facts of `named` with what `modifier` names: in or on it, or where it says ("a pen inside")."""
         owners = named.heads
-        facts: list[tuple] = []
+        facts: list[tuple] = [("heard", at)]
         placed: set[int] = set()
         cost = 0.0
         for fact in modifier.facts:

@@ -56,6 +56,8 @@ class Group:
     """Rows that the objects stand in; 0 where nothing is said."""
     heap: bool = False
     proxy: bool = False
+    multiplied: bool = False
+    """Whether there are as many for each of several objects: "three plates, each with two eggs"."""
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""
 
@@ -163,7 +165,10 @@ class World:
     def noun(self, item: Item) -> str:
         """Catalogue noun of `item`."""
         group = item.group
-        return group.cycle[group.items.index(item) % len(group.cycle)] if group.cycle else group.noun
+        if not group.cycle:
+            return group.noun
+        # One that a later number of its group has taken away again is of the first kind.
+        return group.cycle[group.items.index(item) % len(group.cycle) if item in group.items else 0]
 
     def on_floor(self, item: Item) -> bool:
         """Whether it stands on the floor by nature."""
