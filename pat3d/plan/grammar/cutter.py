@@ -93,7 +93,8 @@ class Cutter(RelationWords):
             return self._add("noun", 3, phrase=phrase)
         if word == "so" and self._opens and follower in lexicon.COPULAS | lexicon.VERBS | {"do", "does"}:
             return self._so()
-        if word in ("each", "both", "all") and not of_each and alone and self._last is not None and not (
+        finite = self._finite_at(self._at + 1)
+        if word in ("each", "both", "all") and not of_each and (finite or (alone and self._last is not None)) and not (
             word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
         ):  # fmt: skip
             return self._add("noun", phrase=Phrase(kind="pieces", head=word, words=word, number=token.number))
@@ -125,6 +126,8 @@ class Cutter(RelationWords):
             return self._pronoun(word) if word in lexicon.PRONOUNS else self._drop()
         phrase, after = read
         if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
+            if self._last is not None and self._last.kind == "have":
+                return self._depicted(after)
             return self._aside(after + 1 - self._at)
         if phrase.kind == "object":
             phrase = self._sense(phrase)
@@ -160,6 +163,16 @@ class Cutter(RelationWords):
         ):
             return self._leave(size + 1)
         return False
+
+    def _depicted(self, of: int) -> None:
+        """Name "a picture of a cat on it", which is no object."""
+        shown = self._phrases.read(of + 1)
+        end = shown[1] if shown is not None else of + 1
+        size = link_at(self._tokens, end)
+        if size and self._tokens[end + size].text in lexicon.PRONOUNS:
+            end += size + 1
+        self._made.chunks.pop()
+        self._leave(end - self._at)
 
     def _correlative(self) -> bool:
         """Whether "both the soup and the sauce" begins here, and not "both the mugs"."""

@@ -71,7 +71,7 @@ NOT_VERBS = frozenset({
 """Words that end like a participle and are nouns."""
 COMMANDS = frozenset({
     "place", "put", "create", "generate", "make", "show", "arrange", "add", "build", "draw", "imagine", "please",
-    "render", "depict", "i", "we", "you", "want", "need", "would", "like", "can", "see", "me", "let", "us", "design",
+    "render", "depict", "i", "i'd", "we", "you", "want", "need", "would", "like", "can", "see", "me", "let", "us", "design",
     "then", "also", "now", "next", "finally", "just", "only", "there's", "here", "where", "who", "that", "while", "set",
     "scene:", "visualize", "picture", "give", "have",
 })  # fmt: skip

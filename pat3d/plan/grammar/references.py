@@ -15,6 +15,7 @@ from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, World
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
+_ENUMERATED = {"former": 0, "latter": 1}
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
@@ -185,6 +186,9 @@ class References:
             besides = self._besides(at)
             groups = [group for group in groups if group not in besides]
         rest = phrase.head in _REST
+        if phrase.head in _ENUMERATED:
+            told = (self._earlier or [group for group in world.groups if group.items])[-2:]
+            return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
@@ -228,7 +232,8 @@ class References:
         groups = [named[0][0].group] if named else self._world.groups[-1:]
         if not groups or groups[0].proxy:
             return []
-        more = replace(groups[0].phrase, words=phrase.words, count=1, plural=False, height=None, definite=False)
+        more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
+                       definite=False)  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
@@ -331,23 +336,22 @@ class References:
             # "A lamp is on the left, a plant on the right, and between them a radio."
             together = [item for each in reversed(before) for item in each if item not in other]
             candidates.append((0.15, list(dict.fromkeys(together))))
-        near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
+        which = phrase.head == "which"
+        near = which or phrase.head in lexicon.DEMONSTRATIVES
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
-            candidates.append((-0.1, meant[-1]))
+            candidates.append((-0.6 if which else -0.1, meant[-1]))
         if self._relating.landmark[0] and not near:
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values()
             candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
         for rank, items in enumerate([each for each in before if each]):
-            candidates.append((0.2 * rank, items))
+            candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         for rank, items in enumerate(nearest[:4]):
-            candidates.append(
-                ((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items)
-            )
+            candidates.append((-0.5 + 0.3 * rank if which else (-0.2 if near else 0.35) + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         best: tuple[float, list[Item]] | None = None
@@ -357,6 +361,9 @@ class References:
             # A stack is "it".
             if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
                 cost += 0.4
+            if not plural and other and items[0].group.noun == other[0].group.noun:
+                # "a wrench in the box, another on it": on the box.
+                cost += 0.6
             if link is not None and other:
                 world = self._world
                 pair = (items[0], other[0]) if child else (other[0], items[0])
