@@ -79,7 +79,7 @@ class Boundaries:
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
         if word in lexicon.VERBS and link_at(self._tokens, at + 1):
-            return True
+            return not (self._extends(words, word) and self._names_a_stand(words, at))
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
         if word in lexicon.DIRECTIONS:

@@ -74,7 +74,7 @@ class Cutter(RelationWords):
             return self._add("clause")
         for key in _JOINED:
             if self._words(len(key)) == key:
-                return self._add("joint", len(key), text="and")
+                return self._joined(key)
         if word in _MODALS and follower == "be":
             self._at += 1
             return None
@@ -149,6 +149,10 @@ class Cutter(RelationWords):
             return True
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
             return self._leave(read[1] - self._at)
+        after_noun = self._last is not None and self._last.kind == "noun"
+        if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):
+            size = next(size for size in range(1, 8) if self._tokens[self._at + size].mark)
+            return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1)
         if word == "which" and follower in ("means", "ensures", "makes"):
             self._remark()
             return True
@@ -163,6 +167,23 @@ class Cutter(RelationWords):
         ):
             return self._leave(size + 1)
         return False
+
+    def _joined(self, key: tuple[str, ...]) -> None:
+        """Read "along with two plates"; of "(is) in the sink along with two plates" these are in the sink too."""
+        placed = [piece.kind for piece in self._made.chunks[-3:]] == ["verb", "rel", "noun"]
+        self._add("joint", len(key), text="and")
+        read = self._phrases.read(self._at) if placed and key[-1] == "with" else None
+        if read is not None and self._tokens[read[1]].mark:
+            self._add("noun", read[1] - self._at, phrase=read[0])
+            self._made.chunks.append(Chunk(kind="place", text="too"))
+
+    def _ends_state(self, ahead: int) -> bool:
+        """Whether what became of an object ends here or goes on: "cut into slices,", "hidden from view."."""
+        follower = self._tokens[self._at + ahead]
+        bare = follower.text in ("into", "from", "by", "in") and self._word(ahead + 1) not in lexicon.DETERMINERS
+        return follower.mark or follower.text == "and" or (bare and any(
+            self._tokens[self._at + ahead + size].mark for size in (2, 3)
+        ))  # fmt: skip
 
     def _depicted(self, of: int) -> None:
         """Name "a picture of a cat on it", which is no object."""

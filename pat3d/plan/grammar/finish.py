@@ -135,6 +135,14 @@ def _side_alone(world: World, told: Sided) -> None:
 
 def _share_supports(world: World) -> None:
     """What stands beside something on a table stands on that table, unless it belongs on the floor."""
+    for each in world.arranged:
+        carriers = {world.support(other) for other in each.of}
+        if each.kind == "between" and len(carriers) == 1 and (carrier := carriers.pop()) is not None:
+            # Of what stands on a board too: between its neighbours is beside both of them.
+            free = [item for item in each.items if world.support(item) is None and not world.on_floor(item)]
+            edge = world.supports.get(each.of[0])
+            free = [item for item in free if item not in world.ancestors(carrier)]
+            world.place(free, edge.kind if edge is not None else "on", [carrier])
     edges = list(world.laterals)
     for _ in range(len(edges)):
         known = len(world.supports)

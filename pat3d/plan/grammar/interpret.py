@@ -51,6 +51,8 @@ class Interpreter(Placing):
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
         self._said.related = [(set(fact[2]), set(fact[3])) for fact in facts
                                if fact[0] in ("rel", "have", "list", "goal")]  # fmt: skip
+        self._chunks = self._said.with_parts(facts)
+        self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
         for at, chunk in enumerate(self._chunks):
             if chunk.phrase is not None:
                 self._said.create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
@@ -84,6 +86,7 @@ class Interpreter(Placing):
         if self._clause.manner is not None:
             world.subject = subject or world.subject
         world.landmark = self._relating.landmark
+        world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:
             self._relating.cost += self._loose()
         self._account(facts)

@@ -99,6 +99,10 @@ class Judging:
         nouns = {self._phrase(owner).noun for owner in owners if self._several(owner)}
         return bool(told and nouns) and (phrase.kind == "pieces" or phrase.noun in nouns)
 
+    def _each_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether `heads` is "each", and `owners` are several."""
+        return self._phrase(heads[0]).head == "each" and any(self._several(owner) for owner in owners)
+
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
         return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")

@@ -43,7 +43,7 @@ DETERMINERS = frozenset({
 DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", "both", "all", "any"})
 DEMONSTRATIVES = frozenset({"that", "this"})
 """Pronouns for what was named last."""
-POSSESSIVES = frozenset({"its", "his", "her", "their"})
+POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
@@ -483,6 +483,12 @@ FOREIGN = frozenset({
     "przy", "jest",
 })  # fmt: skip
 """Function words of other languages."""
+STATES = frozenset({
+    "broken", "hidden", "cut", "torn", "worn", "bent", "frozen", "shut", "split", "chipped", "cracked", "burnt", "eaten",
+    "bitten", "written", "painted", "wrapped", "folded", "filled", "covered", "sliced", "chopped", "plugged", "ready",
+    "visible", "used", "unused", "missing", "damaged", "ajar",
+})  # fmt: skip
+"""Words after a noun that say what has become of it."""
 SUPERLATIVES = {
     "smallest": ("small", 0.75), "largest": ("large", 1.3), "biggest": ("big", 1.3), "tallest": ("tall", 1.0),
     "shortest": ("short", 1.0), "littlest": ("little", 0.75),

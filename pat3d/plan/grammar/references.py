@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
@@ -41,6 +42,8 @@ class References:
         """Phrases that speak of all of a group: "both"."""
         self.clauses: dict[int, tuple[int, ...]] = {}
         """What the clauses are about, by where they begin."""
+        self.fronts: set[int] = set()
+        """Phrases of the modifier that a clause opens with: "behind it there is"."""
         self.related: list[tuple[set[int], set[int]]] = []
         """Phrases that a relation joins, so that they are different objects."""
 
@@ -293,6 +296,23 @@ class References:
             return [item for head in self.bound[at] for item in self.ref(head)]
         return []
 
+    def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
+        """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""
+        made = list(self._chunks)
+        for fact in facts:
+            if fact[0] != "have" or self._chunks[fact[1]].link.manner != "with":  # type: ignore[union-attr]
+                continue
+            owners = [self._chunks[head].phrase for head in fact[2]]
+            storage = any(owner and self._world.likely.is_a(owner.noun, lexicon.STORAGE) for owner in owners)
+            for head in fact[3]:
+                phrase = made[head].phrase
+                words = {phrase.head, *singulars(phrase.head)} if phrase is not None else set()
+                if phrase is not None and storage and phrase.kind == "object" and words & lexicon.STORAGE_PARTS:
+                    part = replace(phrase, kind="part", said=phrase.head, noun="")
+                    made[head] = replace(made[head], phrase=part)
+        self._chunks = made
+        return made
+
     def ref_all(self, heads: Sequence[int]) -> list[Item]:
         """What the chunks `heads` speak of together."""
         return [item for head in heads for item in self.ref(head) if item in item.group.items]
@@ -327,6 +347,7 @@ class References:
         phrase = self._chunks[at].phrase
         assert phrase is not None
         plural = phrase.head in ("them", "they", "these", "those", "their")
+        world_front = self._world.front if at in self.fronts else []
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
@@ -342,6 +363,9 @@ class References:
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             candidates.append((-0.6 if which else -0.1, meant[-1]))
+        if world_front:
+            # "Behind the sofa: a lamp. In front of it: a rug."
+            candidates.append((-0.4, world_front))
         if self._relating.landmark[0] and not near:
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values()

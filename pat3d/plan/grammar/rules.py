@@ -169,6 +169,9 @@ class Grammar(Goals):
                 return None
             if self._chunks[at].text in ("one", "other"):
                 cost += 0.5
+            if named.start == 0 and {"its", "their"} & set(self._chunks[at].words):
+                # "three plates, each with a fork on its left": said of the fork.
+                cost += 0.6
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
                 close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
                 cost += 0.2 if close else 0.45
@@ -194,6 +197,8 @@ class Grammar(Goals):
             twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
             # What is on a book that is on a table is on the book; nothing is on two small things.
             extra += twice * (1.0 if self._likely.level(self._noun(modifier.heads[0])) else 3.0)
+            # "A mug is on the table, and two more are on the shelf": the first mug is not.
+            extra += 0.5 * (bool(twice) and {"finite"} <= named.flags & modifier.flags)
         if link.manner == "under" and modifier.heads[:1] != (self._carrier(modifier.heads[0], modifier.facts),):
             # "A book under a lamp on a table": the book is on the table.
             cost += 0.6
@@ -230,7 +235,9 @@ class Grammar(Goals):
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._one_of(fact[3], owners):
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and (
+                self._one_of(fact[3], owners) or self._each_of(fact[3], owners)
+            ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
                 placed |= set(fact[2])

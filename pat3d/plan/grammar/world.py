@@ -136,6 +136,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.front: list[Item] = []
+        """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What "to the left of" was last said of, and whether it was "on the left side of"."""
         self.telling: list[Item] = []
