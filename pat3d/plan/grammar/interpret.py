@@ -63,9 +63,13 @@ class Interpreter(Placing):
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None:
                 self._effect(handler, fact[1], fact[2], fact[3])
+        owners: Sequence[int] = ()
         for fact in facts:
             if fact[0] == "place":
-                self._effect(self._placed, fact[1], fact[2], fact[3])
+                # "with a fork to its left and a knife to its right": of the same thing.
+                owned = {"its", "their"} & set(self._chunks[fact[1]].words)
+                owners = fact[3] or (owners if owned else ())
+                self._effect(self._placed, fact[1], fact[2], owners)
             elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
                 self._formed(fact[1], fact[2])
             elif fact[0] == "quality":

@@ -103,7 +103,7 @@ class Plausible:
         if self.floor(child) == self.floor(parent):
             return 0.1
         lone = child if self.floor(parent) else parent
-        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.0
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.4
 
     def relation(self, link: Link, child: str, parent: str) -> float:
         """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""
