@@ -124,6 +124,8 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
+        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+            count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
         merged = {key: value or getattr(phrase, key) for key, value in flags.items()}

@@ -31,7 +31,7 @@ MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
 TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
-CLOSE = 0.15
+CLOSE = 0.1
 """Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
@@ -131,7 +131,7 @@ class GrammarPlanner:
             raise error
         tried.sort(key=lambda each: each[0])
         best, first = tried[0]
-        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.signature() != first.signature())
+        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.rivals(first))
         return first, next(close, None)
 
     def _readings(self, chunks: list[Chunk], world: World, *, moving: bool) -> tuple[list[Node], list[Chunk]]:

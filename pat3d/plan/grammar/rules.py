@@ -251,6 +251,10 @@ class Grammar(Goals):
         placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        lateral = [fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS]
+        if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in lateral):
+            # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
+            cost += 0.8
         if left:
             facts.append(("have", at, owners, left))
             parts = [head for head in left if self._phrase(head).kind in HEADLESS]

@@ -17,6 +17,8 @@ from pat3d.scene.relations import LateralKind, RelationKind
 
 HARDLY = 2.0
 """Cost of a support from which on a note says that it is odd: what is round or slender carries nothing."""
+UNUSUAL = 0.6
+"""Cost of a support above which nobody thinks of it unless it is said outright."""
 MAX_OBJECTS = 60
 """Objects in one scene."""
 
@@ -152,6 +154,13 @@ class World:
         number = {item: at for at, item in enumerate(self.items())}
         edges = ((number.get(e.child, -1), e.kind, number.get(e.parent, -1)) for e in self.supports.values())
         return len(number), frozenset(edges)
+
+    def rivals(self, other: World) -> bool:
+        """Whether a person may mean this as well as `other`: the same objects, as many of them carried, none oddly."""
+        ours, theirs = self.signature(), other.signature()
+        edges = [edge for edge in self.supports.values() if edge not in other.supports.values()]
+        odd = (self.likely.held(self.noun(edge.child), edge.kind, self.noun(edge.parent)) > UNUSUAL for edge in edges)
+        return ours != theirs and ours[0] == theirs[0] and len(ours[1]) >= len(theirs[1]) and not any(odd)
 
     def note(self, text: str) -> None:
         """Say `text` once."""
