@@ -221,7 +221,8 @@ class Attempts:
             scene = kept[0]
             own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
             provenance = {**self._provenance(layout_seed), **own}
-            return replace(scene, settling_friction=self.friction, provenance=provenance), kept[1]
+            task = self.request.task
+            return replace(scene, settling_friction=self.friction, provenance=provenance, task=task), kept[1]
         from pat3d.layout.layout import arrange
 
         if not self._objects_made:
@@ -242,6 +243,7 @@ class Attempts:
             relations=self.request.relations,
             attachments=layout.attachments,
             prompt=self.request.prompt,
+            task=self.request.task,
             seed=self.seed,
             settling_friction=self.friction,
             provenance=self._provenance(layout_seed),

@@ -49,6 +49,8 @@ class SceneRequest:
     """What the report says about how this was understood; JSON-serialisable."""
     adjustable: bool = True
     """Whether another layout seed can make a difference."""
+    task: str | None = None
+    """What the environment of the scene is about where nobody says."""
     provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
     """Where it came from; JSON-serialisable."""
 
@@ -70,6 +72,7 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
         relations=plan.relations,
         fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies],
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
+        task=plan.task,
         record={
             "objects": objects,
             "notes": list(plan.notes),

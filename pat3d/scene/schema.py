@@ -108,6 +108,7 @@ SCENE_SCHEMA: dict[str, Any] = {
         },
         optional={
             "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
+            "task": _NAME,
             "checksums": _CHECKSUMS,
             "checksum": _SHA256,
         },

@@ -1,6 +1,7 @@
 import json
 import math
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -231,6 +232,20 @@ def test_attachments_and_anchors_read_back_and_are_written_only_where_there_are_
     read = load_scene(tmp_path / "hung")
     assert read.attachments == (attachment,)
     assert read["swing"].asset.anchors == swing.anchors
+
+
+def test_a_task_reads_back_and_is_written_only_where_there_is_one(scene, tmp_path):
+    save_scene(scene, tmp_path / "plain")
+    assert '"task"' not in (tmp_path / "plain" / "scene.json").read_text()
+    assert load_scene(tmp_path / "plain").task is None
+    told = replace(scene, task="pick:second")
+    save_scene(told, tmp_path / "told")
+    assert load_scene(tmp_path / "told").task == "pick:second"
+
+
+def test_a_task_for_what_is_not_there_is_refused(scene):
+    with pytest.raises(SpecError, match='the task "pick:spoon" names "spoon"'):
+        replace(scene, task="pick:spoon")
 
 
 def test_a_file_that_is_no_json_or_too_large_is_refused(scene, tmp_path, monkeypatch):

@@ -31,7 +31,7 @@ MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
 TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
-CLOSE = 0.1
+CLOSE = 0.13
 """Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
