@@ -150,9 +150,16 @@ class Cutter(RelationWords):
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
             return self._leave(read[1] - self._at)
         after_noun = self._last is not None and self._last.kind == "noun"
+        if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
+            return self._leave(next(size for size in range(1, self._end + 2) if self._tokens[self._at + size].mark))
+        if self._words(3) == ("of", "the", "same") and after_noun:
+            return self._leave(4)
+        if word in ("all", "both") and follower in lexicon.STATES and self._tokens[self._at + 2].mark:
+            return self._leave(2)
         if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):
             size = next(size for size in range(1, 8) if self._tokens[self._at + size].mark)
-            return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1)
+            off = self._word(1) in ("off", "up", "out", "open", "down")
+            return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1 + off)
         if word == "which" and follower in ("means", "ensures", "makes"):
             self._remark()
             return True
@@ -180,6 +187,8 @@ class Cutter(RelationWords):
     def _ends_state(self, ahead: int) -> bool:
         """Whether what became of an object ends here or goes on: "cut into slices,", "hidden from view."."""
         follower = self._tokens[self._at + ahead]
+        if follower.text in ("off", "up", "out", "open", "down"):
+            return True
         bare = follower.text in ("into", "from", "by", "in") and self._word(ahead + 1) not in lexicon.DETERMINERS
         return follower.mark or follower.text == "and" or (bare and any(
             self._tokens[self._at + ahead + size].mark for size in (2, 3)

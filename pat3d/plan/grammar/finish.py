@@ -10,7 +10,7 @@ from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.postures import is_natural, kind_of
 from pat3d.plan.grammar.vocabulary import Nouns
-from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
 from pat3d.scene.relations import GROUND, LateralKind, Relation
 
@@ -251,6 +251,15 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
     return made
 
 
+def _note_lift(world: World, edge: Edge, pair: tuple[Item, Item]) -> None:
+    """Say that what carries an object stands beside the other in its place, but of a stack, which stands as one."""
+    lifted = [(said, meant) for said, meant in ((edge.child, pair[0]), (edge.parent, pair[1])) if said is not meant]
+    if edge.weak or all(said.group is meant.group or meant.group.height > 1 for said, meant in lifted):
+        return
+    told, (child, parent) = edge.kind.replace("_", " "), (f'"{item.group.words}"' for item in pair)
+    world.note(f'"{edge.child.group.words}" {told} "{edge.parent.group.words}": {child} is {told} {parent}.')
+
+
 def _supports(world: World, names: dict[Item, str]) -> list[Relation]:
     relations: list[Relation] = []
     for item, name in names.items():
@@ -266,12 +275,13 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
     for edge in world.laterals:
         pair = world.siblings(edge.child, edge.parent)
         if pair is None:
-            if edge.parent not in world.ancestors(edge.child):
+            if not edge.weak:
                 world.note(
                     f'"{edge.child.group.words}" {edge.kind} "{edge.parent.group.words}" is left out: '
                     "one carries the other."
                 )
             continue
+        _note_lift(world, edge, pair)
         relations.append(Relation(child=names[pair[0]], kind=edge.kind, parent=names[pair[1]]))
     for group in world.groups:
         first = world.supports.get(group.items[0])

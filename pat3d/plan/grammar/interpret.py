@@ -120,6 +120,9 @@ class Interpreter(Placing):
                 self._world.note(f'not understood: "{chunk.text}"')
             if chunk.kind != "noun":
                 continue
+            speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
+            if speaks and not self._said.ref(at) and at not in self._said.bound:
+                self._world.note(f'not understood: "{chunk.text}"')
             for word in words_left(chunk):
                 self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
@@ -186,6 +189,8 @@ class Interpreter(Placing):
         for head in parent_heads:
             self._note_part(head)
         self._said.not_understood((*child_heads, *parent_heads))
+        if self._clause.verb == "hang" and link.kind == "on":
+            link = Link(kind="hangs_from")
         self._step(children, link, parents)
 
     def _done(self, heads: Sequence[int]) -> None:
@@ -304,7 +309,9 @@ class Interpreter(Placing):
             sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]
             self._relating.flanked(children, owners, sides)
             return
-        if each and len(children) < len(owners):
+        every = self._said.speaks_of_each(owner_heads) and not any(item.group.multiplied for item in children)
+        every = every and not any(phrase is not None and phrase.definite for _, phrase in ordered)
+        if (each and len(children) < len(owners)) or every:
             multiply(world, children, len(owners))
             for head in things:
                 self._said.known[head] = [

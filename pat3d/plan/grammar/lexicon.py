@@ -72,7 +72,7 @@ NOT_VERBS = frozenset({
 COMMANDS = frozenset({
     "place", "put", "create", "generate", "make", "show", "arrange", "add", "build", "draw", "imagine", "please",
     "render", "depict", "i", "i'd", "we", "you", "want", "need", "would", "like", "can", "see", "me", "let", "us", "design",
-    "then", "also", "now", "next", "finally", "just", "only", "there's", "here", "where", "who", "that", "while", "set",
+    "then", "also", "now", "next", "finally", "just", "only", "there's", "here", "who", "that", "while", "set",
     "scene:", "visualize", "picture", "give", "have",
 })  # fmt: skip
 """Words that may open a clause and mean nothing for the scene."""
@@ -486,7 +486,7 @@ FOREIGN = frozenset({
 STATES = frozenset({
     "broken", "hidden", "cut", "torn", "worn", "bent", "frozen", "shut", "split", "chipped", "cracked", "burnt", "eaten",
     "bitten", "written", "painted", "wrapped", "folded", "filled", "covered", "sliced", "chopped", "plugged", "ready",
-    "visible", "used", "unused", "missing", "damaged", "ajar",
+    "visible", "used", "unused", "missing", "damaged", "ajar", "lit", "closed",
 })  # fmt: skip
 """Words after a noun that say what has become of it."""
 SUPERLATIVES = {

@@ -24,7 +24,9 @@ _NEGATIONS = frozenset({
 _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
-_SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("respectively",), ("somewhere",))
+_SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
+           ("what", "about"), ("how", "about"), ("nothing", "on", "it", "but"), ("nothing", "in", "it", "but"),
+           ("nothing", "on", "it", "except"), ("nothing", "in", "it", "except"))  # fmt: skip
 """Words that change nothing where they stand."""
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
@@ -37,7 +39,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """
     tokens = _without(tokens, _SILENT)
     _refuse_negations(tokens)
-    tokens = _perfect(_parentheses(text, tokens, nouns))
+    tokens = _sides_of(_perfect(_parentheses(text, tokens, nouns)), nouns)
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(_plain_words(tokens, nouns), nouns))
 
@@ -63,7 +65,7 @@ def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> lis
     kept: list[Token] = []
     at = 0
     while at < len(tokens):
-        words = [token.text for token in tokens[at : at + 3]]
+        words = [token.text for token in tokens[at : at + 4]]
         size = next((len(each) for each in phrases if tuple(words[: len(each)]) == each), 0)
         if not size:
             kept.append(tokens[at])
@@ -122,6 +124,21 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
         else:
             made.append(token)
     return made
+
+
+def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "to the globe's left" as "to the left of the globe"."""
+    words = [token.text for token in tokens]
+    for at, word in enumerate(words[:-1]):
+        if word != "'s" or words[at + 1] not in ("left", "right") or not nouns.match([words[at - 1]]):
+            continue
+        start = next((n for n in range(at - 1, max(at - 5, 0), -1) if words[n] in ("to", "on", "at")), None)
+        after = at + 2 + (words[at + 2] == "side")
+        if start is not None:
+            owner = tokens[start + 1 : at]
+            the, of = (replace(tokens[at], text=text) for text in ("the", "of"))
+            return [*tokens[: start + 1], the, *tokens[at + 1 : after], of, *owner, *tokens[after:]]
+    return list(tokens)
 
 
 def _owned(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

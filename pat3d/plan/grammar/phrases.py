@@ -217,6 +217,11 @@ class PhraseReader:
                 and (plural or generic in lexicon.MASS_GENERICS or size == 2 or not self._nouns.match([head]))
             ):
                 cycle = self._known(lexicon.GENERICS[generic])
+                kind = self._nouns.match(words[-size - 1 : -size]) if generic == "toy" else None
+                if kind is not None and not is_modifier(words[-size - 1]):
+                    # "a dinosaur toy"
+                    return replace(base, kind="object", noun=kind.noun, said=kind.said, plural=plural,
+                                   modifiers=read_modifiers(words[: -size - 1]))  # fmt: skip
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip

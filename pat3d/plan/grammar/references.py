@@ -269,10 +269,10 @@ class References:
             more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
                            modifiers=words, definite=phrase.definite)  # fmt: skip
             return list(self._maker.make(self._world, more).items)
-        picked = free[:count]
+        picked = ([item for item in free if item in self._world.telling] or free)[:count]
         for item in picked:
             tell(item, words)
-        self._world.telling = free[count:]
+        self._world.telling = [item for item in free if item not in picked]
         return picked or list(whole.items[:count])
 
     def _plural_before(self, at: int) -> list[Group]:

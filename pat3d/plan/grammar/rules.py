@@ -136,6 +136,12 @@ class Grammar(Goals):
             cost += 0.1
         if "finite" in named.flags and "finite" not in modifier.flags:
             cost += 0.1
+        if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
+            # "a candle, a rose in a vase and a cup": the list goes on behind what is said of the rose.
+            cost += 0.4
+        if "finite" in named.flags & modifier.flags and len(named.heads) > 1:
+            # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
+            cost += 0.5
         if "colon" in named.flags:
             cost += 0.3
         if "mute" in named.flags and "finite" in modifier.flags:

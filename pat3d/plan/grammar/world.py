@@ -193,6 +193,11 @@ class World:
         """Whether nothing can be in it."""
         return not self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED)) and self.likely.level(self.noun(item))
 
+    def oddly_below(self, child: Item, parent: Item) -> bool:
+        """Whether `parent` is a small thing that nobody puts the furniture `child` on."""
+        small = not self.on_floor(parent) and not self.is_a(parent, lexicon.THIN) and not self.likely.level(self.noun(parent))
+        return small and self.is_table(child) and self.on_floor(child)
+
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
         return "in" if self.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) else "on"
@@ -262,6 +267,11 @@ class World:
                     f'"{child.group.words}" would rest on itself: it already carries "{parent.group.words}". '
                     "Say which one is below."
                 )
+        if self.oddly_below(child, parent):
+            raise PromptError(
+                f'"{child.group.words}" on "{parent.group.words}": furniture rests on no such thing. Say which one is '
+                "below."
+            )
         if old is not None and not old.weak:
             below = old.parent
             free = self.support(below) is None and not self.on_floor(below)
