@@ -82,7 +82,9 @@ class Boundaries:
             return not (self._extends(words, word) and self._names_a_stand(words, at))
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
-        if word in lexicon.DIRECTIONS or (word in lexicon.STATES and self._tokens[at + 1].text in ("into", "from", "by")):
+        if word in lexicon.DIRECTIONS or (
+            word in lexicon.STATES and self._tokens[at + 1].text in ("into", "from", "by")
+        ):
             return True
         posture = word in lexicon.VERBS and not self._names_a_stand(words, at)
         verb = is_marked(word) or multi or posture or word in lexicon.PARTICIPLES or word in lexicon.COPULAS

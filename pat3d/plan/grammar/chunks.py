@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import LONGEST_LINK, Link
@@ -36,6 +37,28 @@ class Chunk:
     """For forms: objects in each row or stack; 0 where that is not said."""
     words: tuple[str, ...] = ()
     """The tokens it was cut from."""
+
+    @property
+    def relation(self) -> Link:
+        """Its relation.
+
+        Raises:
+            PromptError: it has none.
+        """
+        if self.link is None:
+            raise PromptError(f'"{self.text}" relates nothing where it stands. Say "on", "in" or "next to".')
+        return self.link
+
+    @property
+    def named(self) -> Phrase:
+        """Its noun phrase.
+
+        Raises:
+            PromptError: it has none.
+        """
+        if self.phrase is None:
+            raise PromptError(f'"{self.text}" names nothing where it stands. Name an object.')
+        return self.phrase
 
 
 @dataclass(kw_only=True)

@@ -151,13 +151,13 @@ class Cutter(RelationWords):
             return self._leave(read[1] - self._at)
         after_noun = self._last is not None and self._last.kind == "noun"
         if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
-            return self._leave(next(size for size in range(1, self._end + 2) if self._tokens[self._at + size].mark))
+            return self._leave(self._to_mark())
         if self._words(3) == ("of", "the", "same") and after_noun:
             return self._leave(4)
         if word in ("all", "both") and follower in lexicon.STATES and self._tokens[self._at + 2].mark:
             return self._leave(2)
         if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):
-            size = next(size for size in range(1, 8) if self._tokens[self._at + size].mark)
+            size = self._to_mark()
             off = self._word(1) in ("off", "up", "out", "open", "down")
             return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1 + off)
         if word == "which" and follower in ("means", "ensures", "makes"):
@@ -183,6 +183,10 @@ class Cutter(RelationWords):
         if read is not None and self._tokens[read[1]].mark:
             self._add("noun", read[1] - self._at, phrase=read[0])
             self._made.chunks.append(Chunk(kind="place", text="too"))
+
+    def _to_mark(self) -> int:
+        """Tokens up to the next mark."""
+        return next(size for size in range(1, len(self._tokens)) if self._tokens[self._at + size].mark)
 
     def _ends_state(self, ahead: int) -> bool:
         """Whether what became of an object ends here or goes on: "cut into slices,", "hidden from view."."""

@@ -168,8 +168,8 @@ def _surface_below(world: World, item: Item, *, dishes: bool) -> Item | None:
             continue
         if edge.kind == "hangs_from":
             return None
-        wide = world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS)
-        wide = wide and (dishes or not world.is_a(edge.parent, lexicon.DISHES))
+        dish = world.is_a(edge.parent, lexicon.DISHES)
+        wide = dishes if dish else world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS)
         if edge.kind == "on" and wide and edge.parent.group.height == 1:
             return edge.parent
     return None

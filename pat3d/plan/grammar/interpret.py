@@ -102,12 +102,14 @@ class Interpreter(Placing):
         """Let chunk `at` have its effect through `hear`; a note names it where it has none."""
         before = learned(self._world)
         hear(at, one, two)
-        if learned(self._world) != before or holds_already(self._world, self._said.ref_all(one), self._said.ref_all(two)):
+        if learned(self._world) != before or holds_already(
+            self._world, self._said.ref_all(one), self._said.ref_all(two)
+        ):
             return
         heads = [head for head in (*one, *two) if self._chunks[head].phrase is not None]
         kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
         if kinds <= {"object", "unknown", "pieces", "pronoun"} and self._chunks[at].link is not None:
-            if self._chunks[at].link.manner not in ("include", "gaze"):  # type: ignore[union-attr]
+            if self._chunks[at].link.manner not in ("include", "gaze", "goal"):  # type: ignore[union-attr]
                 said = " ".join(f'"{self._chunks[head].text}"' for head in two)
                 self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
 
@@ -159,8 +161,7 @@ class Interpreter(Placing):
 
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         before = self._world.subject
         parents = self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
@@ -168,7 +169,11 @@ class Interpreter(Placing):
             parents = [item for item in before if item not in children]
         phrases = [self._chunks[head].phrase for head in child_heads]
         made_up = self._clause.manner in ("make", "stack") and all(
-            phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
+            phrase is not None
+            and phrase.determined
+            and not phrase.definite
+            and phrase.kind in ("object", "unknown")
+            and not phrase.superlative.size_word
             for phrase in phrases
         )
         if made_up:
@@ -205,7 +210,8 @@ class Interpreter(Placing):
 
     def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
         manner = self._clause.manner
-        assert manner is not None
+        if manner is None:
+            raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
         self._world.steps.append(
             Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
         )
@@ -221,13 +227,16 @@ class Interpreter(Placing):
                     tell(item, told)
 
     def _related(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         parents: list[Item] = []
         if not any(self._said.is_open(head) for head in child_heads):
             parents = self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
+        if link.manner == "goal" and self._clause.manner == "other":
+            # "Pour the milk into the glass": before that it is not there.
+            self._said.not_understood((*child_heads, *parent_heads))
+            return
         places = [self._chunks[head].phrase for head in parent_heads]
         for head in parent_heads:
             self._note_part(head)
@@ -279,8 +288,7 @@ class Interpreter(Placing):
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         self._have(link, owner_heads, child_heads)
 
     def _listed(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:

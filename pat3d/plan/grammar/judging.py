@@ -23,14 +23,10 @@ class Judging:
         self._likely = likely
 
     def _phrase(self, at: int) -> Phrase:
-        phrase = self._chunks[at].phrase
-        assert phrase is not None
-        return phrase
+        return self._chunks[at].named
 
     def _link(self, at: int) -> Link:
-        link = self._chunks[at].link
-        assert link is not None
-        return link
+        return self._chunks[at].relation
 
     def _noun(self, at: int) -> str:
         return self._likely.fits(self._phrase(at))

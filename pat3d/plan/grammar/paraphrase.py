@@ -132,7 +132,7 @@ def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, word in enumerate(words[:-1]):
         if word != "'s" or words[at + 1] not in ("left", "right") or not nouns.match([words[at - 1]]):
             continue
-        start = next((n for n in range(at - 1, max(at - 5, 0), -1) if words[n] in ("to", "on", "at")), None)
+        start = next((n for n in range(at - 1, max(at - 5, -1), -1) if words[n] in ("to", "on", "at")), None)
         after = at + 2 + (words[at + 2] == "side")
         if start is not None:
             owner = tokens[start + 1 : at]
@@ -205,7 +205,12 @@ def _relatives(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         known = nouns.match([made[at - 1].text]) is not None
         if known and made[start].text in ("the", "a", "an") and (found := _gap(made, start, nouns)):
             verb, link, end = found
-            told = [replace(made[at], text="with"), *made[start:verb], *made[link:end], replace(made[end - 1], text="it")]
+            told = [
+                replace(made[at], text="with"),
+                *made[start:verb],
+                *made[link:end],
+                replace(made[end - 1], text="it"),
+            ]
             made[at:end] = told
             at += len(told)
         else:

@@ -127,8 +127,7 @@ class GrammarPlanner:
                 continue
             tried.append((cost, trial))
         if not tried:
-            assert error is not None
-            raise error
+            raise error or PromptError(f'cannot read "{clause.said}". Say one thing a sentence.')
         tried.sort(key=lambda each: each[0])
         best, first = tried[0]
         close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.rivals(first))

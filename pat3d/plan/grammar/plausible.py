@@ -160,7 +160,7 @@ class Plausible:
         return phrase.noun or (self._nouns.resolve(phrase.cycle[0]) or "" if phrase.cycle else "")
 
 
-def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, Collection[str]]]) -> str:
+def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, str]]) -> str:
     """Which of `senses` of the word `said` its company tells of; the first where none does."""
-    scored = [(len(set(company) & set(about)), -rank, noun) for rank, (noun, about) in enumerate(senses)]
+    scored = [(len(set(company) & set(about.split())), -rank, noun) for rank, (noun, about) in enumerate(senses)]
     return max(scored)[2] if scored else said

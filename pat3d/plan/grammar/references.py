@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexing import singulars
@@ -61,13 +62,12 @@ class References:
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
                 return
-            generic = self.known.get(kind) if kind is not None else None
-            owner = next((item.group for item in generic or () if item.group.cycle), None)
+            generic = self.known.get(kind, []) if kind is not None else []
+            owner = next((item.group for item in generic if item.group.cycle), None)
             group = self._maker.make(world, phrase, filling=filling, kind=owner)
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
-                assert generic is not None
                 # What is said of the kind is said of its members.
                 generic += group.items
             if phrase.each and phrase.count is None:
@@ -187,7 +187,9 @@ class References:
         groups += [group for group in reversed(world.groups) if not group.replaced]
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
-            groups = [group for group in groups if group not in besides]
+            # "the smaller of two boxes inside the larger one"
+            pairs = {group for group in besides if words.size_word and len(group.items) > 1}
+            groups = [group for group in groups if group not in besides or group in pairs]
         rest = phrase.head in _REST
         if phrase.head in _ENUMERATED:
             told = (self._earlier or [group for group in world.groups if group.items])[-2:]
@@ -344,8 +346,7 @@ class References:
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
-        phrase = self._chunks[at].phrase
-        assert phrase is not None
+        phrase = self._chunks[at].named
         plural = phrase.head in ("them", "they", "these", "those", "their")
         world_front = self._world.front if at in self.fronts else []
         candidates: list[tuple[float, list[Item]]] = []
@@ -395,9 +396,9 @@ class References:
             if best is None or cost < best[0]:
                 best = (cost, list(items))
         if best is None:
-            self._world.note(f'"{phrase.words}" (word {phrase.number}): nothing before it is meant.')
-            self.cost += 2.0
-            return []
+            raise PromptError(
+                f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
+            )
         self.cost += min(best[0], 1.5)
         return best[1]
 

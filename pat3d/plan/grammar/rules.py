@@ -85,8 +85,7 @@ class Grammar(Goals):
 
     def _relation(self, link: Node, objects: Node) -> Node:
         """Read "on" + "a table": a modifier that waits for what it is said of."""
-        assert link.mod
-        at = link.mod[0]
+        at = link.start
         cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
         said = self._link(at)
         if said.manner == "between":
@@ -99,17 +98,15 @@ class Grammar(Goals):
         return Node("M", link.start, cost, objects.heads, objects.facts, objects.joints, flags, ("link", at))
 
     def _place(self, node: Node) -> Node:
-        assert node.mod
         kind = "form" if node.cat == "F" else "place"
-        return Node("M", node.start, node.cost, mod=(kind, node.mod[0]))
+        return Node("M", node.start, node.cost, mod=(kind, node.start))
 
     def _placed(self, verb: Node, place: Node) -> Node:
         made = self._place(place)
         return replace(made, start=verb.start, flags=made.flags | {"finite"})
 
     def _quality(self, verb: Node, quality: Node) -> Node:
-        assert quality.mod
-        return Node("M", verb.start, verb.cost, flags=frozenset({"finite"}), mod=("quality", quality.mod[0]))
+        return Node("M", verb.start, verb.cost, flags=frozenset({"finite"}), mod=("quality", quality.start))
 
     def _predicate(self, verb: Node, modifier: Node) -> Node:
         return replace(modifier, start=verb.start, cost=verb.cost + modifier.cost, flags=modifier.flags | {"finite"})
@@ -241,8 +238,10 @@ class Grammar(Goals):
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and (
-                self._one_of(fact[3], owners) or self._each_of(fact[3], owners)
+            if (
+                fact[0] == "rel"
+                and set(fact[2]) <= set(modifier.heads)
+                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
             ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
@@ -257,7 +256,9 @@ class Grammar(Goals):
         placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
-        lateral = [fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS]
+        lateral = [
+            fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS
+        ]
         if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in lateral):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
             cost += 0.8

@@ -195,7 +195,11 @@ class World:
 
     def oddly_below(self, child: Item, parent: Item) -> bool:
         """Whether `parent` is a small thing that nobody puts the furniture `child` on."""
-        small = not self.on_floor(parent) and not self.is_a(parent, lexicon.THIN) and not self.likely.level(self.noun(parent))
+        small = (
+            not self.on_floor(parent)
+            and not self.is_a(parent, lexicon.THIN)
+            and not self.likely.level(self.noun(parent))
+        )
         return small and self.is_table(child) and self.on_floor(child)
 
     def containment(self, parent: Item) -> RelationKind:
