@@ -66,7 +66,8 @@ def _told(word: str, said: Sequence[Modifiers]) -> bool:
             return True
         if word in lexicon.SIZES and told.scale != 1.0:
             return True
-        if word in lexicon.SUPERLATIVES and told.size_word or any(find_colour(part) in told.colours for part in parts):
+        superlative = word in lexicon.SUPERLATIVES and bool(told.size_word)
+        if superlative or any(find_colour(part) in told.colours for part in parts):
             return True
     return False
 

@@ -108,10 +108,11 @@ class Interpreter(Placing):
             return
         heads = [head for head in (*one, *two) if self._chunks[head].phrase is not None]
         kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
-        if kinds <= {"object", "unknown", "pieces", "pronoun"} and self._chunks[at].link is not None:
-            if self._chunks[at].link.manner not in ("include", "gaze", "goal"):  # type: ignore[union-attr]
-                said = " ".join(f'"{self._chunks[head].text}"' for head in two)
-                self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
+        link = self._chunks[at].link
+        told = link is not None and link.manner not in ("include", "gaze", "goal")
+        if told and kinds <= {"object", "unknown", "pieces", "pronoun"}:
+            said = " ".join(f'"{self._chunks[head].text}"' for head in two)
+            self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
 
     def _account(self, facts: Sequence[tuple]) -> None:
         """Name every word of the sentence that had no effect."""
