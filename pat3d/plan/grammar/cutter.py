@@ -129,6 +129,9 @@ class Cutter(Asides):
             return self._aside(after + 1 - self._at)
         if phrase.kind == "object":
             phrase = self._sense(phrase)
+        if phrase.possessive and word in ("its", "their") and self._nouns.of_class(phrase.noun, lexicon.FLOOR):
+            # "a truck with a block in its bed"
+            phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         self._add("noun", after - self._at, phrase=phrase)

@@ -225,7 +225,10 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
 
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "unload":
-        return [f"unload:{names[item]}" for item in step.items[:1] if item in names]
+        edges = [(item, world.supports.get(item)) for item in step.items[:1]]
+        # "unload the cups from the crate" is about the crate.
+        holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
+        return [f"unload:{names[item]}" for item in holders if item in names]
     if step.manner == "sort":
         return ["sort"] if len(step.goal) > 1 else []
     # No robot moves furniture.

@@ -12,6 +12,7 @@ from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
@@ -64,8 +65,13 @@ class Interpreter(Placing):
             if handler is not None:
                 self._effect(handler, fact[1], fact[2], fact[3])
         owners: Sequence[int] = ()
+        moved = any(fact[0] == "goal" for fact in facts)
         for fact in facts:
-            if fact[0] == "place":
+            side = fact[0] == "place" and self._chunks[fact[1]].text in LATERAL_SIDES
+            if side and moved and not fact[3]:
+                # "put the fork left of the plate and the knife to the right": nothing stands there yet.
+                self._world.note(f'not understood: "{" ".join(self._chunks[fact[1]].words)}"')
+            elif fact[0] == "place":
                 # "with a fork to its left and a knife to its right": of the same thing.
                 owned = {"its", "their"} & set(self._chunks[fact[1]].words)
                 owners = fact[3] or (owners if owned else ())
@@ -126,6 +132,8 @@ class Interpreter(Placing):
             speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
             if speaks and not self._said.ref(at) and at not in self._said.bound:
                 self._world.note(f'not understood: "{chunk.text}"')
+            if at in heard or self._clause.manner is not None:
+                self._note_part(at)
             for word in words_left(chunk):
                 self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
@@ -234,7 +242,7 @@ class Interpreter(Placing):
             parents = self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
-        if link.manner == "goal" and self._clause.manner == "other":
+        if link.manner == "goal" and self._clause.manner in ("other", "unload"):
             # "Pour the milk into the glass": before that it is not there.
             self._said.not_understood((*child_heads, *parent_heads))
             return

@@ -57,8 +57,10 @@ class References(Pronouns):
         elif phrase.kind == "pieces":
             self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            shape = tuple(word for word in phrase.modifiers.adjectives if word in lexicon.HONOURED)
             for item in self.known[at]:
-                item.told = item.told.marked_as(phrase.modifiers)
+                told = item.told.marked_as(phrase.modifiers)
+                item.told = replace(told, adjectives=tuple(dict.fromkeys((*told.adjectives, *shape))))
             self.cost += 0.0 if self.known[at] or at in self.bound else 0.5
         elif phrase.kind == "items":
             self.known[at] = []
