@@ -42,7 +42,10 @@ class Cutter(Asides):
             self._at += self._at == before
             if told == (len(self._made.unread), len(self._made.aside)):
                 passed = (self._tokens[at] for at in range(before, self._at) if at not in self._read)
-                self._made.unread += [token.text for token in passed if self._means_something(token)]
+                held = self._word(-2) in ("holding", "holds", "hold", "held")
+                self._made.unread += [
+                    token.text for token in passed if self._means_something(token) or (held and token.text == "up")
+                ]
         if len(self._made.chunks) > MAX_CHUNKS:
             raise PromptError(
                 f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "

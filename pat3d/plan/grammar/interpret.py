@@ -246,6 +246,11 @@ class Interpreter(Placing):
             # "Pour the milk into the glass": before that it is not there.
             self._said.not_understood((*child_heads, *parent_heads))
             return
+        if self._chunks[at].words == ("to",) and self._clause.manner is None:
+            # "connected to", "closer to": nothing rests there.
+            said = " ".join(f'"{self._chunks[head].text}"' for head in parent_heads)
+            self._world.note(f'not understood: "to" {said}')
+            return
         places = [self._chunks[head].phrase for head in parent_heads]
         for head in parent_heads:
             self._note_part(head)

@@ -184,12 +184,13 @@ FLOOR = ("bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee tabl
 LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
     "tv stand", "workbench", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
-    "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard")  # fmt: skip
+    "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard", "pallet")  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
 DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat",
           "baking tray", "trivet")  # fmt: skip
 """What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
-HOLLOW = ("colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box",
+HOLLOW = ("egg cup", "wok", "bar caddy", "dustpan", "open toolbox", "open treasure chest", "open cookie jar",
+    "colander", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase", "box",
     "pen holder", "bucket", "jar", "pool", "inflatable pool", "pot", "crate", "bin", "glass", "soap dish", "pan",
     "saucepan", "wine glass", "teacup", "planter", "flowerpot", "trash can", "wastebasket", "storage box",
     "pencil case", "pencil cup", "tumbler", "storage bin", "laundry basket", "goblet", "pitcher", "jug", "fish bowl",
@@ -214,7 +215,8 @@ FRUIT = ("fruit", "apple", "orange", "lemon", "lime", "pear", "peach", "plum", "
     "melon")  # fmt: skip
 WIDER = {"bowl": "fruit bowl"}
 """What a vessel becomes when it holds fruit or more than two things."""
-OPENED = {"box": "storage box", "toolbox": "open toolbox"}
+OPENED = {"box": "storage box", "toolbox": "open toolbox", "treasure chest": "open treasure chest",
+          "cookie jar": "open cookie jar"}  # fmt: skip
 """What a closed thing becomes when the prompt puts something in it."""
 ROUND = ("ball", "apple", "orange", "lemon", "lime", "peach", "plum", "cherry", "egg", "tomato", "watermelon", "kiwi",
     "crystal ball", "tennis ball", "basketball", "football", "soccer ball", "marble", "potato", "onion", "pear",
@@ -251,7 +253,7 @@ BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguish
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""
 
 CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "dishwasher", "dryer", "filing cabinet",
-          "toolbox", "treasure chest", "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
+          "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
           "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
 SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture", "color", "colour"})
