@@ -1,6 +1,7 @@
 """How well the offline planner reads text that nobody wrote for it, judged against labels made by hand.
 
     python benchmarks/language.py corpus.tsv [--part dev|held|all] [--show]
+    python benchmarks/language.py            the sentences of language_fresh.tsv, labelled before the planner saw them
 
 The corpus is a table (text, kind, source, ...) that is not part of the repository; language_labels.tsv holds, by line
 and hash of the text, what a person reads: "objects; relations !task ~refuse". Objects are "2 red cup|mug" ("n" for any
@@ -14,7 +15,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 
 LABELS = Path(__file__).with_name("language_labels.tsv")
+FRESH = Path(__file__).with_name("language_fresh.tsv")
 VERDICTS = ("right", "right with notes", "silently wrong", "refused justly", "refused although expected")
 _KINDS = {
     "on", "in", "on|in", "in|on", "hangs_from", "left_of", "right_of", "in_front_of", "behind", "next_to", "around",
@@ -210,23 +212,40 @@ def _colours(obj: PlannedObject) -> tuple[str, ...]:
     return tuple(filter(None, map(find_colour, obj.colours)))
 
 
-def main() -> None:
-    """Print the verdicts per source and over all."""
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("corpus", type=Path)
-    arguments.add_argument("--part", choices=("dev", "held", "all"), default="all")
-    arguments.add_argument("--show", action="store_true", help="every line that is not right, with what differs")
-    options = arguments.parse_args()
-    lines = options.corpus.read_text().split("\n")
-    planner = GrammarPlanner()
-    table: dict[str, Counter[str]] = defaultdict(Counter)
+Row = tuple[int, str, tuple[str, ...], str]
+"""Line, sentence, what it is counted under, label."""
+
+
+def _labelled(corpus: Path, part: str) -> Iterator[Row]:
+    """The labelled lines of `corpus`."""
+    lines = corpus.read_text().split("\n")
     for row in LABELS.read_text().splitlines()[1:]:
-        number, digest, part, text = row.split("\t")
+        number, digest, own, text = row.split("\t")
         said, kind, source = lines[int(number) - 1].split("\t")[:3]
         if hashlib.sha256(said.encode()).hexdigest()[:10] != digest:
             raise SystemExit(f"line {number} is not the line that was labelled.")
-        if options.part not in (part, "all"):
-            continue
+        if part in (own, "all"):
+            yield int(number), said, (source.split("/")[1].split(":")[0], f"all {kind}s"), text
+
+
+def _fresh() -> Iterator[Row]:
+    """The sentences of FRESH."""
+    for number, row in enumerate(FRESH.read_text().splitlines()[1:], start=2):
+        name, said, text = row.split("\t")
+        yield number, said, (name,), text
+
+
+def main() -> None:
+    """Print the verdicts per source and over all."""
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("corpus", type=Path, nargs="?")
+    arguments.add_argument("--part", choices=("dev", "held", "all"), default="all")
+    arguments.add_argument("--show", action="store_true", help="every line that is not right, with what differs")
+    options = arguments.parse_args()
+    rows = _fresh() if options.corpus is None else _labelled(options.corpus, options.part)
+    planner = GrammarPlanner()
+    table: dict[str, Counter[str]] = defaultdict(Counter)
+    for number, said, sources, text in rows:
         label = read_label(text)
         unmakeable = [want.words for want in label.objects if not want.nouns and not want.optional]
         detail: object
@@ -237,7 +256,7 @@ def main() -> None:
             verdict, detail = ("refused justly" if just else "refused although expected"), error
         else:
             verdict, detail = judge(label, plan)
-        for name in (source.split("/")[1].split(":")[0], f"all {kind}s", "all"):
+        for name in (*sources, "all"):
             table[name][verdict] += 1
         if options.show and verdict not in ("right", "refused justly"):
             print(f"{number} {verdict}: {said}\n    label: {text}\n    {detail}")

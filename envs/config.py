@@ -31,7 +31,8 @@ class EpisodeConfig:
     """A scene folder or a pat3d.Scene; None for the one that ships with the package."""
     task: str | Task | None = None
     """"pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task; None for
-    picking the first object that can be picked. With a suite, a kind of task ("pick"); None for all."""
+    the scene's own task, and where it has none for picking the first object that can be picked. With a suite, a kind of
+    task ("pick"); None for all."""
     robot: str = ""
     """"panda", "fr3", "ur5e", "ur10e", "iiwa14", "gen3", "xarm7", ... of MuJoCo Menagerie, PATH.xml for one's own, or
     with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`."""

@@ -266,7 +266,8 @@ def _again(
 
 
 def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
-    """The task and where the robot stands for it; without a task, the first object that can be picked."""
+    """The task and where the robot stands for it; without a task the scene's own, else the first possible pick."""
+    task = scene.task if task is None else task
     if task is not None:
         if not isinstance(task, Task | str):
             raise EnvironmentSetupError(f'a task is text such as "pick:red mug", or a task, not {type(task).__name__}.')

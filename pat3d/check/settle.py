@@ -246,7 +246,7 @@ def _lost(mujoco: Any, model: Any) -> tuple[ObjectDrift, ...]:
     """Every moving body, anywhere."""
     bodies = model.jnt_bodyid[np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)]
     return tuple(
-        ObjectDrift(name=_object_name(mujoco, model, body), centre_mm=np.inf, origin_mm=np.inf, degrees=np.inf)
+        ObjectDrift(name=object_name(mujoco, model, body), centre_mm=np.inf, origin_mm=np.inf, degrees=np.inf)
         for body in bodies
     )
 

@@ -225,7 +225,7 @@ class Attempts:
             own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
             provenance = {**self._provenance(layout_seed), **own}
             own = {"settling_friction": self.friction, "least_tilt": self.least_tilt, "provenance": provenance}
-            return replace(scene, **own), kept[1]
+            return replace(scene, **own, task=self.request.task), kept[1]
         from pat3d.layout.layout import arrange
 
         if not self._objects_made:
@@ -249,6 +249,7 @@ class Attempts:
             arrangements=self.request.arrangements,
             attachments=layout.attachments,
             prompt=self.request.prompt,
+            task=self.request.task,
             seed=self.seed,
             settling_friction=self.friction,
             least_tilt=self.least_tilt,

@@ -55,6 +55,8 @@ class SceneRequest:
     """What is said beyond the relations."""
     adjustable: bool = True
     """Whether another layout seed can make a difference."""
+    task: str | None = None
+    """What the environment of the scene is about where nobody says."""
     provenance: Mapping[str, Any] = field(default_factory=lambda: {"source": "prompt"})
     """Where it came from; JSON-serialisable."""
 
@@ -80,6 +82,7 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
         + ([arranged, postured] if arranged or postured else []),
         arrangements=plan.held(),
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
+        task=plan.task,
         record={
             "objects": objects,
             "notes": list(plan.notes),

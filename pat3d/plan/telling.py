@@ -41,7 +41,7 @@ class _Teller:
         """Objects that one phrase named alike."""
         self._like: dict[str, list[str]] = {}
         for obj in plan.objects:
-            like = self._kinds.setdefault(f"{self._base[obj.name]}/{obj.phrase}", [])
+            like = self._kinds.setdefault(f"{self._base[obj.name]}/{obj.phrase.lower()}", [])
             like.append(obj.name)
             self._like[obj.name] = like
         self._named: set[str] = set()

@@ -105,6 +105,7 @@ def load_scene(folder: str | Path) -> Scene:
                 for entry in document.get("attachments", [])
             ),
             prompt=document["prompt"],
+            task=document.get("task"),
             seed=document["seed"],
             settling_friction=float(document["settling_friction"]),
             least_tilt=float(document.get("least_tilt", LEAST_TILT)),
@@ -162,6 +163,8 @@ def _write(scene: Scene, folder: Path) -> None:
             {"child": one.child, "parent": one.parent, "anchors": [[[*a], [*b]] for a, b in one.anchors]}
             for one in scene.attachments
         ]
+    if scene.task is not None:
+        document["task"] = scene.task
     try:
         text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     except (TypeError, ValueError, RecursionError) as error:

@@ -124,6 +124,8 @@ class Scene:
     attachments: tuple[Attachment, ...] = ()
     """What hangs by points, rather than rests on surfaces; at most one for every pair of objects."""
     prompt: str = ""
+    task: str | None = None
+    """What an environment has a robot do here where nobody says: "place:green apple:bowl"; None for no such task."""
     seed: int = 0
     settling_friction: float = SETTLING_FRICTION
     """Friction coefficient [-] of every contact while settling; exports carry each material's own."""
@@ -143,6 +145,9 @@ class Scene:
         check_tree(names, self.relations)
         check_arrangements(names, self.relations, self.arrangements)
         self._check_attachments(names)
+        for name in self.task.split(":")[1:] if self.task is not None else ():
+            if name not in names:
+                raise SpecError(f'the task "{self.task}" names "{name}". Objects: {", ".join(names)}.')
 
     def _check_attachments(self, names: list[str]) -> None:
         pairs = set()

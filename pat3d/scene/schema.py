@@ -115,6 +115,7 @@ SCENE_SCHEMA: dict[str, Any] = {
             "least_tilt": {"type": "number", "minimum": 0, "maximum": MAX_TILT},
             "arrangements": {"type": "array", "items": _ARRANGEMENT, "maxItems": 10_000},
             "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
+            "task": _NAME,
             "checksums": _CHECKSUMS,
             "checksum": _SHA256,
         },

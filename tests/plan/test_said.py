@@ -146,7 +146,7 @@ def test_a_size_that_nothing_has_is_refused(planner: GrammarPlanner, prompt: str
         ("A mug in the middle of a table", 'not arranged: "A mug" in the middle'),
         # Places without anything to relate to
         ("A table with a mug on the left", '"a mug" (left): there is nothing beside it that it could be left of.'),
-        ("A lamp on the desk's left side", 'not modelled: "left side"'),
+        ("A lamp on the desk's left side", '"A lamp" (left): there is nothing beside it that it could be left of.'),
         # Words
         ("A box that is twice as large as the mug next to it", 'not modelled: "A box" twice as large as "the mug"'),
         ("A mug or a bowl on a plate", '"or" is read as "and": everything named is placed.'),

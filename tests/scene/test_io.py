@@ -235,6 +235,20 @@ def test_attachments_and_anchors_read_back_and_are_written_only_where_there_are_
     assert read["swing"].asset.anchors == swing.anchors
 
 
+def test_a_task_reads_back_and_is_written_only_where_there_is_one(scene, tmp_path):
+    save_scene(scene, tmp_path / "plain")
+    assert '"task"' not in (tmp_path / "plain" / "scene.json").read_text()
+    assert load_scene(tmp_path / "plain").task is None
+    told = replace(scene, task="pick:second")
+    save_scene(told, tmp_path / "told")
+    assert load_scene(tmp_path / "told").task == "pick:second"
+
+
+def test_a_task_for_what_is_not_there_is_refused(scene):
+    with pytest.raises(SpecError, match='the task "pick:spoon" names "spoon"'):
+        replace(scene, task="pick:spoon")
+
+
 def test_a_file_that_is_no_json_or_too_large_is_refused(scene, tmp_path, monkeypatch):
     path = save_scene(scene, tmp_path / "s")
     monkeypatch.setattr("pat3d.scene.io.MAX_JSON_BYTES", path.stat().st_size - 1)

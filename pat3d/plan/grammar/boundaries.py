@@ -12,7 +12,8 @@ from pat3d.plan.grammar.vocabulary import Nouns
 
 JOINERS = frozenset({
     "and", "or", "plus", "while", "whereas", "but", "there", "there's", "without", "no", "not", "than", "as", "which",
-    "meanwhile", "where", "who", "for", "from", "through", "via", "per", "if", "because", "so", "that", "'s", "against",
+    "meanwhile", "where", "who", "whose", "for", "from", "through", "via", "per", "if", "because", "so", "that",
+    "'s", "against",
 })  # fmt: skip
 _ALWAYS_BREAK = (
     frozenset(key[0] for key in LINKS if len(key) == 1 and not key[0].endswith(("ing", "ed", "s")))
@@ -79,10 +80,12 @@ class Boundaries:
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
         if word in lexicon.VERBS and link_at(self._tokens, at + 1):
-            return True
+            return not (self._extends(words, word) and self._names_a_stand(words, at))
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)
-        if word in lexicon.DIRECTIONS:
+        if word in lexicon.DIRECTIONS or (
+            word in lexicon.STATES and self._tokens[at + 1].text in ("into", "from", "by")
+        ):
             return True
         posture = word in lexicon.VERBS and not self._names_a_stand(words, at)
         verb = is_marked(word) or multi or posture or word in lexicon.PARTICIPLES or word in lexicon.COPULAS

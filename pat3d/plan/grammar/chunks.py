@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import LONGEST_LINK, Link
@@ -34,6 +35,30 @@ class Chunk:
     """For forms: how many rows or stacks."""
     each: int = 0
     """For forms: objects in each row or stack; 0 where that is not said."""
+    words: tuple[str, ...] = ()
+    """The tokens it was cut from."""
+
+    @property
+    def relation(self) -> Link:
+        """Its relation.
+
+        Raises:
+            PromptError: it has none.
+        """
+        if self.link is None:
+            raise PromptError(f'"{self.text}" relates nothing where it stands. Say "on", "in" or "next to".')
+        return self.link
+
+    @property
+    def named(self) -> Phrase:
+        """Its noun phrase.
+
+        Raises:
+            PromptError: it has none.
+        """
+        if self.phrase is None:
+            raise PromptError(f'"{self.text}" names nothing where it stands. Name an object.')
+        return self.phrase
 
 
 @dataclass(kw_only=True)
@@ -62,6 +87,8 @@ class Cursor:
         self._bounds = Boundaries(self._tokens, nouns)
         self._made = Sentence()
         self._at = 0
+        self._read: set[int] = set()
+        """Tokens that are in a chunk."""
         self._ahead = NO_MODIFIERS
         """Measures and postures that wait for the phrase they are said of."""
 
@@ -76,8 +103,11 @@ class Cursor:
 
     def _add(self, kind: ChunkKind, taken: int = 1, text: str | None = None, **fields: object) -> None:
         words = self._text[self._tokens[self._at].start : self._tokens[self._at + taken - 1].end]
-        chunk = Chunk(kind=kind, text=words if text is None else text, **fields)  # type: ignore[arg-type]
-        self._made.chunks.append(chunk)
+        said = self._words(taken)
+        self._made.chunks.append(
+            Chunk(kind=kind, text=words if text is None else text, words=said, **fields)  # type: ignore[arg-type]
+        )
+        self._read.update(range(self._at, self._at + taken))
         self._at += taken
 
     def _words(self, count: int) -> tuple[str, ...]:

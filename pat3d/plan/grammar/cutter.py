@@ -6,16 +6,15 @@ from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.asides import ABOUT, Asides
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import MAX_CHUNKS, Chunk, Sentence
-from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import LINKS, LONGEST_LINK, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import sense
-from pat3d.plan.grammar.relation_words import RelationWords
-from pat3d.plan.grammar.shapes import refuse, shape_said
 
 _JOINED = (
     ("along", "with"), ("together", "with"), ("as", "well", "as"), ("accompanied", "by"), ("next", "comes"),
@@ -25,22 +24,28 @@ _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _EMPTY = frozenset({
-    "for", "as", "so", "if", "because", "where", "who", "which", "that", "'s", "via", "than", "both", "either", "of",
-    "a", "an", "the", "some", "them", "to", "it", "its", "do", "does", "did", "about", "all", "at",
+    "so", "who", "which", "that", "'s", "both", "of", "a", "an", "the", "some", "them", "to", "it", "its", "do", "does",
+    "did", "about", "all", "at", "there", "here", "too", "well", "as", "is", "are",
 })  # fmt: skip
 """Words that mean nothing by themselves."""
-_ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
+_JOINTS = frozenset({"and", "plus", "while", "but"})
 
 
-class Cutter(RelationWords):
+class Cutter(Asides):
     """Cuts the tokens of one sentence, which end in a stop, into chunks."""
 
     def cut(self) -> Sentence:
         """The sentence in chunks."""
         while self._at < self._end:
-            before = self._at
+            before, told = self._at, (len(self._made.unread), len(self._made.aside))
             self._step()
             self._at += self._at == before
+            if told == (len(self._made.unread), len(self._made.aside)):
+                passed = (self._tokens[at] for at in range(before, self._at) if at not in self._read)
+                held = self._word(-2) in ("holding", "holds", "hold", "held")
+                self._made.unread += [
+                    token.text for token in passed if self._means_something(token) or (held and token.text == "up")
+                ]
         if len(self._made.chunks) > MAX_CHUNKS:
             raise PromptError(
                 f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "
@@ -70,7 +75,7 @@ class Cutter(RelationWords):
             return self._add("clause")
         for key in _JOINED:
             if self._words(len(key)) == key:
-                return self._add("joint", len(key), text="and")
+                return self._joined(key)
         if word in _MODALS and follower == "be":
             self._at += 1
             return None
@@ -89,7 +94,8 @@ class Cutter(RelationWords):
             return self._add("noun", 3, phrase=phrase)
         if word == "so" and self._opens and follower in lexicon.COPULAS | lexicon.VERBS | {"do", "does"}:
             return self._so()
-        if word in ("each", "both", "all") and not of_each and alone and self._last is not None and not (
+        finite = self._finite_at(self._at + 1)
+        if word in ("each", "both", "all") and not of_each and (finite or (alone and self._last is not None)) and not (
             word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
         ):  # fmt: skip
             return self._add("noun", phrase=Phrase(kind="pieces", head=word, words=word, number=token.number))
@@ -121,9 +127,14 @@ class Cutter(RelationWords):
             return self._pronoun(word) if word in lexicon.PRONOUNS else self._drop()
         phrase, after = read
         if phrase.kind == "background" and phrase.head in lexicon.PICTURES and self._tokens[after].text == "of":
+            if self._last is not None and self._last.kind == "have":
+                return self._depicted(after)
             return self._aside(after + 1 - self._at)
         if phrase.kind == "object":
             phrase = self._sense(phrase)
+        if phrase.possessive and word in ("its", "their") and self._nouns.of_class(phrase.noun, lexicon.FLOOR):
+            # "a truck with a block in its bed"
+            phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         self._add("noun", after - self._at, phrase=phrase)
@@ -132,30 +143,14 @@ class Cutter(RelationWords):
             self._made.unread.append(self._word(1))
             self._at += 2
 
-    def _unsaid(self, word: str, follower: str) -> bool:
-        """Name what no scene has and go on behind it: purposes, directions, the viewer."""
-        number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
-        if word == "at" and follower in ("least", "most") and number:
-            return self._leave(2)
-        if word in _ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
-            self._at += 1
-            return True
-        if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
-            return self._leave(read[1] - self._at)
-        if word == "which" and follower in ("means", "ensures", "makes"):
-            self._remark()
-            return True
-        if word in lexicon.DIRECTIONS:
-            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
-            return self._leave(3 if to else 1)
-        size = link_at(self._tokens, self._at)
-        if (
-            size
-            and self._word(size) in lexicon.VIEWERS
-            and (self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or"))
-        ):
-            return self._leave(size + 1)
-        return False
+    def _joined(self, key: tuple[str, ...]) -> None:
+        """Read "along with two plates"; of "(is) in the sink along with two plates" these are in the sink too."""
+        placed = [piece.kind for piece in self._made.chunks[-3:]] == ["verb", "rel", "noun"]
+        self._add("joint", len(key), text="and")
+        read = self._phrases.read(self._at) if placed and key[-1] == "with" else None
+        if read is not None and self._tokens[read[1]].mark:
+            self._add("noun", read[1] - self._at, phrase=read[0])
+            self._made.chunks.append(Chunk(kind="place", text="too"))
 
     def _correlative(self) -> bool:
         """Whether "both the soup and the sauce" begins here, and not "both the mugs"."""
@@ -236,12 +231,15 @@ class Cutter(RelationWords):
         return None
 
     def _drop(self) -> None:
-        """Leave out the next word, and say so where it has a meaning."""
-        word = self._word(0)
-        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word not in empty:
-            self._made.unread.append(word)
+        """Leave out the next word, of which a note speaks where it means something."""
         self._at += 1
+
+    @staticmethod
+    def _means_something(token: Token) -> bool:
+        """Whether a word that is in no chunk changes what the sentence says."""
+        word = token.text
+        empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
+        return not (token.mark or word in empty or is_marked(word) or word in _MODALS | _JOINTS | ABOUT)
 
     def _meaningless(self, word: str, follower: str) -> bool:
         """Whether the word may be dropped: a posture before its preposition, an adverb, a command."""
@@ -263,40 +261,6 @@ class Cutter(RelationWords):
             return True
         participle = word.endswith(("ing", "ed")) and word not in lexicon.NOT_VERBS and not is_modifier(word)
         return after_phrase and participle and moving
-
-    def _remark(self) -> None:
-        """Set aside the rest of the sentence, which tells of light or mood."""
-        size = 0
-        while self._at + size < self._end:
-            token, after = self._tokens[self._at + size], self._tokens[self._at + size + 1]
-            if shape_said(token.text) and self._word(size - 1) in ("a", "an") and after.mark:
-                raise refuse(token.text, token.number)
-            size += 1
-        self._aside(size)
-
-    def _absence(self) -> None:
-        """Read "without a lid", "no people": set aside with the phrase."""
-        read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
-        end = read[1] if read else self._at + 1
-        told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
-        pronoun = False
-        while not told and not pronoun and (size := link_at(self._tokens, end)):
-            more = self._phrases.read(end + size)
-            pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
-            if more is None and not pronoun:
-                break
-            end = more[1] if more is not None else end + size + 1
-        if self._last is not None and self._last.kind in ("have", "there"):
-            self._made.chunks.pop()
-        self._aside(end - self._at)
-
-    def _more_follows(self, at: int) -> bool:
-        """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""
-        while not self._tokens[at].mark or self._tokens[at].text == ",":
-            if self._tokens[at].text in (",", "but"):
-                return True
-            at += 1
-        return False
 
     def _too(self, size: int) -> None:
         """Read "(a mug is on the tray) and a bowl (is) too": it stands as what was named before."""

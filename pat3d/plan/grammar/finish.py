@@ -10,7 +10,7 @@ from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.postures import is_natural, kind_of
 from pat3d.plan.grammar.vocabulary import Nouns
-from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
 from pat3d.scene.relations import GROUND, LateralKind, Relation
 
@@ -37,10 +37,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
         if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
             world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
-    gone = {item for group in world.groups if group.replaced for item in group.items}
     world.groups = [group for group in world.groups if not group.replaced]
-    world.supports = {c: e for c, e in world.supports.items() if c not in gone and e.parent not in gone}
-    world.laterals = [edge for edge in world.laterals if edge.child not in gone and edge.parent not in gone]
+    there = set(world.items())
+    world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
+    world.laterals = [edge for edge in world.laterals if {edge.child, edge.parent} <= there]
     _open_boxes(world, nouns)
     _widen_bowls(world, nouns)
     _pair_sides(world)
@@ -135,6 +135,14 @@ def _side_alone(world: World, told: Sided) -> None:
 
 def _share_supports(world: World) -> None:
     """What stands beside something on a table stands on that table, unless it belongs on the floor."""
+    for each in world.arranged:
+        carriers = {world.support(other) for other in each.of}
+        if each.kind == "between" and len(carriers) == 1 and (carrier := carriers.pop()) is not None:
+            # Of what stands on a board too: between its neighbours is beside both of them.
+            free = [item for item in each.items if world.support(item) is None and not world.on_floor(item)]
+            edge = world.supports.get(each.of[0])
+            free = [item for item in free if item not in world.ancestors(carrier)]
+            world.place(free, edge.kind if edge is not None else "on", [carrier])
     edges = list(world.laterals)
     for _ in range(len(edges)):
         known = len(world.supports)
@@ -160,8 +168,8 @@ def _surface_below(world: World, item: Item, *, dishes: bool) -> Item | None:
             continue
         if edge.kind == "hangs_from":
             return None
-        wide = world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS)
-        wide = wide and (dishes or not world.is_a(edge.parent, lexicon.DISHES))
+        dish = world.is_a(edge.parent, lexicon.DISHES)
+        wide = dishes if dish else world.is_a(edge.parent, lexicon.LEVEL, lexicon.SEATS)
         if edge.kind == "on" and wide and edge.parent.group.height == 1:
             return edge.parent
     return None
@@ -243,6 +251,15 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
     return made
 
 
+def _note_lift(world: World, edge: Edge, pair: tuple[Item, Item]) -> None:
+    """Say that what carries an object stands beside the other in its place, but of a stack, which stands as one."""
+    lifted = [(said, meant) for said, meant in ((edge.child, pair[0]), (edge.parent, pair[1])) if said is not meant]
+    if edge.weak or all(said.group is meant.group or meant.group.height > 1 for said, meant in lifted):
+        return
+    told, (child, parent) = edge.kind.replace("_", " "), (f'"{item.group.words}"' for item in pair)
+    world.note(f'"{edge.child.group.words}" {told} "{edge.parent.group.words}": {child} is {told} {parent}.')
+
+
 def _supports(world: World, names: dict[Item, str]) -> list[Relation]:
     relations: list[Relation] = []
     for item, name in names.items():
@@ -258,12 +275,13 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
     for edge in world.laterals:
         pair = world.siblings(edge.child, edge.parent)
         if pair is None:
-            if edge.parent not in world.ancestors(edge.child):
+            if not edge.weak:
                 world.note(
                     f'"{edge.child.group.words}" {edge.kind} "{edge.parent.group.words}" is left out: '
                     "one carries the other."
                 )
             continue
+        _note_lift(world, edge, pair)
         relations.append(Relation(child=names[pair[0]], kind=edge.kind, parent=names[pair[1]]))
     for group in world.groups:
         first = world.supports.get(group.items[0])

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar.chart import Node
-from pat3d.plan.grammar.judging import Judging
+from pat3d.plan.grammar.having import Having
 
 
-class Goals(Judging):
+class Goals(Having):
     """Rules that only instructions have."""
 
     def _goals(self, first: Node, second: Node) -> Node:

@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.modifiers import is_modifier
-from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Item, Manner, Step, World
 from pat3d.scene.relations import SUPPORT_KINDS
@@ -53,7 +51,6 @@ _ASKING = (
 )  # fmt: skip
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
 _PARTICLES = frozenset({"up", "down", "away", "back", "out", "over", "off", "on", "close"})
-_NEGATIONS = frozenset({"not", "never", "neither", "nor", "isn't", "aren't", "don't", "doesn't", "cannot", "can't"})
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _PURPOSES = frozenset({"make", "begin", "create", "start", "prepare", "access", "complete"})
 
@@ -68,37 +65,6 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
-
-
-def plainer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` in plainer words: "should be on" as "is on", "a tower made of" as "a tower of".
-
-    A bare "beside table" is a bedside table: with a relation there would be a determiner. The owner in "a child's
-    desk" is no object.
-
-    Raises:
-        PromptError: the prompt says what is not there.
-    """
-    plain = ("there", "here", "that", *lexicon.PRONOUNS)
-    kept: list[Token] = []
-    for at, token in enumerate(tokens):
-        follower = tokens[min(at + 1, len(tokens) - 1)].text
-        before = kept[-1].text if kept else "."
-        if token.text in _NEGATIONS:
-            raise PromptError(
-                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
-                "are, and leave the rest out."
-            )
-        if token.text in _MODALS and follower == "be":
-            continue
-        if token.text == "'s" and before not in plain and not nouns.match([before]):
-            kept.pop()
-            continue
-        beside = token.text == "beside" and follower in ("table", "tables", "lamp", "lamps")
-        if beside and before in (",", "and", "a") and nouns.match(["bedside", "table"]):
-            token = Token(text="bedside", start=token.start, end=token.end, number=token.number)
-        kept.append(token)
-    return of_what(kept)
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -259,7 +225,10 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
 
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "unload":
-        return [f"unload:{names[item]}" for item in step.items[:1] if item in names]
+        edges = [(item, world.supports.get(item)) for item in step.items[:1]]
+        # "unload the cups from the crate" is about the crate.
+        holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
+        return [f"unload:{names[item]}" for item in holders if item in names]
     if step.manner == "sort":
         return ["sort"] if len(step.goal) > 1 else []
     # No robot moves furniture.

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.account import holds_already, learned, miscounted, words_left
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
@@ -50,6 +52,8 @@ class Interpreter(Placing):
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
         self._said.related = [(set(fact[2]), set(fact[3])) for fact in facts
                                if fact[0] in ("rel", "have", "list", "goal")]  # fmt: skip
+        self._chunks = self._said.with_parts(facts)
+        self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
         for at, chunk in enumerate(self._chunks):
             if chunk.phrase is not None:
                 self._said.create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
@@ -59,10 +63,19 @@ class Interpreter(Placing):
         for fact in facts:
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None:
-                handler(fact[1], fact[2], fact[3])
+                self._effect(handler, fact[1], fact[2], fact[3])
+        owners: Sequence[int] = ()
+        moved = any(fact[0] == "goal" for fact in facts)
         for fact in facts:
-            if fact[0] == "place":
-                self._placed(fact[1], fact[2], fact[3])
+            side = fact[0] == "place" and self._chunks[fact[1]].text in LATERAL_SIDES
+            if side and moved and not fact[3]:
+                # "put the fork left of the plate and the knife to the right": nothing stands there yet.
+                self._world.note(f'not understood: "{" ".join(self._chunks[fact[1]].words)}"')
+            elif fact[0] == "place":
+                # "with a fork to its left and a knife to its right": of the same thing.
+                owned = {"its", "their"} & set(self._chunks[fact[1]].words)
+                owners = fact[3] or (owners if owned else ())
+                self._effect(self._placed, fact[1], fact[2], owners)
             elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
                 self._formed(fact[1], fact[2])
             elif fact[0] == "quality":
@@ -83,9 +96,48 @@ class Interpreter(Placing):
         if self._clause.manner is not None:
             world.subject = subject or world.subject
         world.landmark = self._relating.landmark
+        world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:
             self._relating.cost += self._loose()
+        self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _effect(
+        self, hear: Callable[[int, Sequence[int], Sequence[int]], None], at: int, one: Sequence[int], two: Sequence[int]
+    ) -> None:
+        """Let chunk `at` have its effect through `hear`; a note names it where it has none."""
+        before = learned(self._world)
+        hear(at, one, two)
+        if learned(self._world) != before or holds_already(
+            self._world, self._said.ref_all(one), self._said.ref_all(two)
+        ):
+            return
+        heads = [head for head in (*one, *two) if self._chunks[head].phrase is not None]
+        kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
+        link = self._chunks[at].link
+        told = link is not None and link.manner not in ("include", "gaze", "goal")
+        if told and kinds <= {"object", "unknown", "pieces", "pronoun"}:
+            said = " ".join(f'"{self._chunks[head].text}"' for head in two)
+            self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
+
+    def _account(self, facts: Sequence[tuple]) -> None:
+        """Name every word of the sentence that had no effect."""
+        heard = {fact[1] for fact in facts if isinstance(fact[1], int)}
+        heard |= {head for fact in facts for part in fact[2:] if isinstance(part, tuple) for head in part}
+        for at, chunk in enumerate(self._chunks):
+            if chunk.kind in ("rel", "have", "place", "form", "quality") and at not in heard:
+                self._world.note(f'not understood: "{chunk.text}"')
+            if chunk.kind != "noun":
+                continue
+            speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
+            if speaks and not self._said.ref(at) and at not in self._said.bound:
+                self._world.note(f'not understood: "{chunk.text}"')
+            if at in heard or self._clause.manner is not None:
+                self._note_part(at)
+            for word in words_left(chunk):
+                self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
+            if (word := miscounted(chunk, self._said.ref(at))) is not None:
+                self._world.note(f'not understood: "{word}" of "{chunk.text}"')
 
     def _loose(self) -> float:
         """What it costs that small things are nowhere, where something is there to carry them."""
@@ -118,8 +170,7 @@ class Interpreter(Placing):
 
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         before = self._world.subject
         parents = self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
@@ -127,7 +178,11 @@ class Interpreter(Placing):
             parents = [item for item in before if item not in children]
         phrases = [self._chunks[head].phrase for head in child_heads]
         made_up = self._clause.manner in ("make", "stack") and all(
-            phrase is not None and phrase.determined and not phrase.definite and phrase.kind in ("object", "unknown")
+            phrase is not None
+            and phrase.determined
+            and not phrase.definite
+            and phrase.kind in ("object", "unknown")
+            and not phrase.superlative.size_word
             for phrase in phrases
         )
         if made_up:
@@ -148,6 +203,8 @@ class Interpreter(Placing):
         for head in parent_heads:
             self._note_part(head)
         self._said.not_understood((*child_heads, *parent_heads))
+        if self._clause.verb == "hang" and link.kind == "on":
+            link = Link(kind="hangs_from")
         self._step(children, link, parents)
 
     def _done(self, heads: Sequence[int]) -> None:
@@ -162,7 +219,8 @@ class Interpreter(Placing):
 
     def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
         manner = self._clause.manner
-        assert manner is not None
+        if manner is None:
+            raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
         self._world.steps.append(
             Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
         )
@@ -178,13 +236,21 @@ class Interpreter(Placing):
                     tell(item, told)
 
     def _related(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         parents: list[Item] = []
         if not any(self._said.is_open(head) for head in child_heads):
             parents = self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
+        if link.manner == "goal" and self._clause.manner in ("other", "unload"):
+            # "Pour the milk into the glass": before that it is not there.
+            self._said.not_understood((*child_heads, *parent_heads))
+            return
+        if self._chunks[at].words == ("to",) and self._clause.manner is None:
+            # "connected to", "closer to": nothing rests there.
+            said = " ".join(f'"{self._chunks[head].text}"' for head in parent_heads)
+            self._world.note(f'not understood: "to" {said}')
+            return
         places = [self._chunks[head].phrase for head in parent_heads]
         for head in parent_heads:
             self._note_part(head)
@@ -236,8 +302,7 @@ class Interpreter(Placing):
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
-        link = self._chunks[at].link
-        assert link is not None
+        link = self._chunks[at].relation
         self._have(link, owner_heads, child_heads)
 
     def _listed(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
@@ -266,7 +331,9 @@ class Interpreter(Placing):
             sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]
             self._relating.flanked(children, owners, sides)
             return
-        if each and len(children) < len(owners):
+        every = self._said.speaks_of_each(owner_heads) and not any(item.group.multiplied for item in children)
+        every = every and not any(phrase is not None and phrase.definite for _, phrase in ordered)
+        if (each and len(children) < len(owners)) or every:
             multiply(world, children, len(owners))
             for head in things:
                 self._said.known[head] = [

@@ -23,14 +23,10 @@ class Judging:
         self._likely = likely
 
     def _phrase(self, at: int) -> Phrase:
-        phrase = self._chunks[at].phrase
-        assert phrase is not None
-        return phrase
+        return self._chunks[at].named
 
     def _link(self, at: int) -> Link:
-        link = self._chunks[at].link
-        assert link is not None
-        return link
+        return self._chunks[at].relation
 
     def _noun(self, at: int) -> str:
         return self._likely.fits(self._phrase(at))
@@ -98,6 +94,10 @@ class Judging:
         told = len(heads) == 1 and phrase.definite and set(phrase.modifiers.adjectives) & TELLING
         nouns = {self._phrase(owner).noun for owner in owners if self._several(owner)}
         return bool(told and nouns) and (phrase.kind == "pieces" or phrase.noun in nouns)
+
+    def _each_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether `heads` is "each", and `owners` are several."""
+        return self._phrase(heads[0]).head == "each" and any(self._several(owner) for owner in owners)
 
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)

@@ -195,6 +195,7 @@ def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
         return items
     for group in dict.fromkeys(item.group for item in items):
         group.items += [Item(group=group) for _ in range(len(group.items) * (factor - 1))]
+        group.multiplied = True
         share_colours(group)
     check_total(world)
     return [each for group in dict.fromkeys(item.group for item in items) for each in group.items]

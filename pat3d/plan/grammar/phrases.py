@@ -18,6 +18,8 @@ PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun
 _ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""
 _THESE = frozenset({"these", "those"})
+_MEMBERS = frozenset({"others", "rest", "remainder", "former", "latter"})
+"""Heads that speak of what was named before."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +84,12 @@ class PhraseReader:
         self._definite = flags.get("definite", False)
         run, after = self._bounds.run(at)
         tokens = self._tokens
+        another = flags.pop("another", False)
+        flags["other"] = flags.get("other", False) or another
+        if another and (not run or [token.text for token in run] in (["one"], ["ones"])):
+            words = self._text[tokens[start].start : tokens[after - 1].end]
+            number = tokens[after - 1].number
+            return Phrase(kind="pronoun", head="another", words=words, number=number, count=count), after
         if not run:
             if after == start:
                 return None
@@ -105,7 +113,7 @@ class PhraseReader:
         elif tokens[after].text == "of" and run[-1].text in lexicon.PICTURES:
             phrase = Phrase(kind="background", head=run[-1].text, number=run[-1].number)
         else:
-            if run[-1].text in ("others", "rest", "remainder") and len(run) == 1 and flags.get("definite"):
+            if run[-1].text in _MEMBERS and len(run) == 1 and flags.get("definite"):
                 return Phrase(kind="pieces", head=run[0].text, number=run[0].number, words=run[0].text), after
             if flags.get("definite") and (told := _telling(run)) is not None:
                 return self._told(start, after, run[0], told, depth)
@@ -116,6 +124,8 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
+        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+            count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
         merged = {key: value or getattr(phrase, key) for key, value in flags.items()}
@@ -168,8 +178,12 @@ class PhraseReader:
                 flags["determined"] = flags["vague"] = True
             elif word in ("couple", "dozen") and not self._tokens[at + 1].mark:
                 count = lexicon.NUMBERS[word]
+            elif word == "more" and count is not None and "another" not in flags:
+                flags["another"] = True
             elif word in lexicon.DETERMINERS:
                 flags["determined"] = True
+                if word == "another":
+                    flags["another"] = True
                 if word in lexicon.DEFINITE:
                     flags["definite"] = True
                 if word in ("each", "every"):
@@ -203,6 +217,11 @@ class PhraseReader:
                 and (plural or generic in lexicon.MASS_GENERICS or size == 2 or not self._nouns.match([head]))
             ):
                 cycle = self._known(lexicon.GENERICS[generic])
+                kind = self._nouns.match(words[-size - 1 : -size]) if generic == "toy" else None
+                if kind is not None and not is_modifier(words[-size - 1]):
+                    # "a dinosaur toy"
+                    return replace(base, kind="object", noun=kind.noun, said=kind.said, plural=plural,
+                                   modifiers=read_modifiers(words[: -size - 1]))  # fmt: skip
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip

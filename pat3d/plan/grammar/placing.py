@@ -8,7 +8,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
-from pat3d.plan.grammar.objects import Maker, recount
+from pat3d.plan.grammar.objects import Maker, multiply, recount
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, Sided, World
@@ -32,6 +32,12 @@ class Placing:
         children = self._said.refs_of(heads)
         owners = self._said.refs_of(owner_heads)
         if not children:
+            return
+        if len(owners) > 1 and len(children) < len(owners) and self._said.speaks_of_each(owner_heads):
+            children = multiply(world, children, len(owners))
+        if len(owners) > 1 and len(children) == len(owners) and chunk.text in LATERAL_SIDES:
+            # "Three plates, each with a fork on its left"
+            self._relating.relate(children, Link(kind=LATERAL_SIDES[chunk.text]), owners)
             return
         begun = self._begun(at, heads)
         implied = begun or self._previous(at)

@@ -13,11 +13,12 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.cutter import Cutter
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.finish import finish
-from pat3d.plan.grammar.instructions import Clause, clauses, plainer, task_of
+from pat3d.plan.grammar.instructions import Clause, clauses, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.objects import Maker
+from pat3d.plan.grammar.paraphrase import plainer, reordered
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
@@ -30,7 +31,7 @@ MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
 TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
-CLOSE = 0.15
+CLOSE = 0.13
 """Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
@@ -75,8 +76,8 @@ class GrammarPlanner:
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [
             clause
-            for sentence in _sentences(tokens)
-            for clause in clauses(text, plainer(sentence, self._nouns), self._nouns)
+            for sentence in reordered(_sentences(tokens))
+            for clause in clauses(text, plainer(text, sentence, self._nouns), self._nouns)
         ]
         world, others = World(self._likely), list[tuple[int, World]]()
         for at, clause in enumerate(told):
@@ -126,11 +127,10 @@ class GrammarPlanner:
                 continue
             tried.append((cost, trial))
         if not tried:
-            assert error is not None
-            raise error
+            raise error or PromptError(f'cannot read "{clause.said}". Say one thing a sentence.')
         tried.sort(key=lambda each: each[0])
         best, first = tried[0]
-        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.signature() != first.signature())
+        close = (trial for cost, trial in tried[1:] if cost - best < CLOSE and trial.rivals(first))
         return first, next(close, None)
 
     def _readings(self, chunks: list[Chunk], world: World, *, moving: bool) -> tuple[list[Node], list[Chunk]]:

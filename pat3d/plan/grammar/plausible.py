@@ -22,6 +22,8 @@ _SUPPORTING = (
 """Flat enough to carry one thing, besides furniture and dishes."""
 
 
+_SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
+"""Seats on which nobody leaves a cup."""
 LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
     "barrel",
           "tv", "dog", "rabbit", "robot", "globe", "drum", "broom", "toy truck", "ladder")  # fmt: skip
@@ -68,6 +70,8 @@ class Plausible:
             return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
             return 0.1 if self._fits_dish(child) else 0.9
+        if self.is_a(parent, _SOFT) and self.hollow(child) and not self.is_a(child, lexicon.LARGE_VESSELS):
+            return 0.7
         if self.level(parent):
             return 0.0
         if self.is_a(child, lexicon.ON_HEAD):
@@ -103,7 +107,11 @@ class Plausible:
         if self.floor(child) == self.floor(parent):
             return 0.1
         lone = child if self.floor(parent) else parent
-        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.0
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.4
+
+    def held(self, child: str, kind: str, parent: str) -> float:
+        """Of `child` being carried by `parent` in the manner `kind`."""
+        return self.within(child, parent) if kind == "in" else 0.2 if kind == "hangs_from" else self.on(child, parent)
 
     def relation(self, link: Link, child: str, parent: str) -> float:
         """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""
@@ -152,7 +160,7 @@ class Plausible:
         return phrase.noun or (self._nouns.resolve(phrase.cycle[0]) or "" if phrase.cycle else "")
 
 
-def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, Collection[str]]]) -> str:
+def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, str]]) -> str:
     """Which of `senses` of the word `said` its company tells of; the first where none does."""
-    scored = [(len(set(company) & set(about)), -rank, noun) for rank, (noun, about) in enumerate(senses)]
+    scored = [(len(set(company) & set(about.split())), -rank, noun) for rank, (noun, about) in enumerate(senses)]
     return max(scored)[2] if scored else said

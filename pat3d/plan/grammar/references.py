@@ -7,41 +7,22 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import LATERAL_SIDES, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
-from pat3d.plan.grammar.objects import Maker, forget_count, tell, tell_colours
+from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.relating import Relating
-from pat3d.plan.grammar.world import Group, Item, World
+from pat3d.plan.grammar.pronouns import Pronouns
+from pat3d.plan.grammar.world import Group, Item
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
+_ENUMERATED = {"former": 0, "latter": 1}
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
 
-class References:
+class References(Pronouns):
     """Resolves the phrases of one sentence."""
-
-    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, relating: Relating) -> None:
-        self._world = world
-        self._chunks = chunks
-        self._maker = maker
-        self._relating = relating
-        self._earlier = list(world.groups)
-        self.cost = 0.0
-        """Of pronouns that are not sure."""
-        self.known: dict[int, list[Item]] = {}
-        """What the phrases speak of, by chunk."""
-        self.bound: dict[int, tuple[int, ...]] = {}
-        """Pronouns of which the grammar says what they mean."""
-        self.each: set[int] = set()
-        """Phrases that speak of every one of a group."""
-        self.all: set[int] = set()
-        """Phrases that speak of all of a group: "both"."""
-        self.clauses: dict[int, tuple[int, ...]] = {}
-        """What the clauses are about, by where they begin."""
-        self.related: list[tuple[set[int], set[int]]] = []
-        """Phrases that a relation joins, so that they are different objects."""
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
         """Make, or find, what chunk `at` speaks of."""
@@ -57,13 +38,12 @@ class References:
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
                 return
-            generic = self.known.get(kind) if kind is not None else None
-            owner = next((item.group for item in generic or () if item.group.cycle), None)
+            generic = self.known.get(kind, []) if kind is not None else []
+            owner = next((item.group for item in generic if item.group.cycle), None)
             group = self._maker.make(world, phrase, filling=filling, kind=owner)
             if owner is not None:
                 owner.replaced = True
                 forget_count(world, owner)
-                assert generic is not None
                 # What is said of the kind is said of its members.
                 generic += group.items
             if phrase.each and phrase.count is None:
@@ -77,6 +57,10 @@ class References:
         elif phrase.kind == "pieces":
             self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            shape = tuple(word for word in phrase.modifiers.adjectives if word in lexicon.HONOURED)
+            for item in self.known[at]:
+                told = item.told.marked_as(phrase.modifiers)
+                item.told = replace(told, adjectives=tuple(dict.fromkeys((*told.adjectives, *shape))))
             self.cost += 0.0 if self.known[at] or at in self.bound else 0.5
         elif phrase.kind == "items":
             self.known[at] = []
@@ -181,8 +165,13 @@ class References:
         groups += [group for group in reversed(world.groups) if not group.replaced]
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
-            groups = [group for group in groups if group not in besides]
+            # "the smaller of two boxes inside the larger one"
+            pairs = {group for group in besides if words.size_word and len(group.items) > 1}
+            groups = [group for group in groups if group not in besides or group in pairs]
         rest = phrase.head in _REST
+        if phrase.head in _ENUMERATED:
+            told = (self._earlier or [group for group in world.groups if group.items])[-2:]
+            return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
@@ -226,7 +215,8 @@ class References:
         groups = [named[0][0].group] if named else self._world.groups[-1:]
         if not groups or groups[0].proxy:
             return []
-        more = replace(groups[0].phrase, words=phrase.words, count=1, plural=False, height=None, definite=False)
+        more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
+                       definite=False)  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
@@ -259,10 +249,10 @@ class References:
             more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
                            modifiers=words, definite=phrase.definite)  # fmt: skip
             return list(self._maker.make(self._world, more).items)
-        picked = free[:count]
+        picked = ([item for item in free if item in self._world.telling] or free)[:count]
         for item in picked:
             tell(item, words)
-        self._world.telling = free[count:]
+        self._world.telling = [item for item in free if item not in picked]
         return picked or list(whole.items[:count])
 
     def _plural_before(self, at: int) -> list[Group]:
@@ -278,13 +268,22 @@ class References:
             return [item for head in listed for item in self.known[head]]
         return list(plural[0].items) if plural else list(self._world.subject)
 
-    def ref(self, at: int) -> list[Item]:
-        """What chunk `at` speaks of."""
-        if at in self.known:
-            return self.known[at]
-        if at in self.bound:
-            return [item for head in self.bound[at] for item in self.ref(head)]
-        return []
+    def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
+        """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""
+        made = list(self._chunks)
+        for fact in facts:
+            if fact[0] != "have" or self._chunks[fact[1]].link.manner != "with":  # type: ignore[union-attr]
+                continue
+            owners = [self._chunks[head].phrase for head in fact[2]]
+            storage = any(owner and self._world.likely.is_a(owner.noun, lexicon.STORAGE) for owner in owners)
+            for head in fact[3]:
+                phrase = made[head].phrase
+                words = {phrase.head, *singulars(phrase.head)} if phrase is not None else set()
+                if phrase is not None and storage and phrase.kind == "object" and words & lexicon.STORAGE_PARTS:
+                    part = replace(phrase, kind="part", said=phrase.head, noun="")
+                    made[head] = replace(made[head], phrase=part)
+        self._chunks = made
+        return made
 
     def refs_of(
         self, heads: Sequence[int], link: Link | None = None, other: Sequence[int] = (), *, child: bool = False
@@ -311,66 +310,9 @@ class References:
         told = self.each | self.all if carrying else self.each
         return any(inner in told for head in heads for inner in self._meant(head))
 
-    def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
-        """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
-        phrase = self._chunks[at].phrase
-        assert phrase is not None
-        plural = phrase.head in ("them", "they", "these", "those", "their")
-        candidates: list[tuple[float, list[Item]]] = []
-        starts = [start for start in sorted(self.clauses) if start < at]
-        heads = [self.clauses[start] for start in reversed(starts)]
-        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
-        before += [self._world.subject]
-        if plural and len([each for each in before if each]) > 1:
-            # "A lamp is on the left, a plant on the right, and between them a radio."
-            together = [item for each in reversed(before) for item in each if item not in other]
-            candidates.append((0.15, list(dict.fromkeys(together))))
-        near = phrase.head == "which" or phrase.head in lexicon.DEMONSTRATIVES
-        meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
-        if meant and not plural:
-            # "behind it a mug, and in front of it a bowl" speaks twice of the same.
-            candidates.append((-0.1, meant[-1]))
-        if self._relating.landmark[0] and not near:
-            # "A fork is left of a plate and a knife right of it"
-            aside = link is not None and link.kind in LATERAL_SIDES.values()
-            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
-        for rank, items in enumerate([each for each in before if each]):
-            candidates.append((0.2 * rank, items))
-        nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
-        nearest = [items for items in nearest if not set(items) & set(other)]
-        for rank, items in enumerate(nearest[:4]):
-            candidates.append(
-                ((-0.2 if near and phrase.head != "which" else -0.05 if near else 0.35) + 0.1 * rank, items)
-            )
-        for rank, group in enumerate(reversed(self._earlier[-3:])):
-            candidates.append((0.6 + 0.2 * rank, group.items))
-        best: tuple[float, list[Item]] | None = None
-        for cost, items in candidates:
-            if not items or set(items) & set(other) or items[0].group.replaced:
-                continue
-            # A stack is "it".
-            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
-                cost += 0.4
-            if link is not None and other:
-                world = self._world
-                pair = (items[0], other[0]) if child else (other[0], items[0])
-                cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
-            if best is None or cost < best[0]:
-                best = (cost, list(items))
-        if best is None:
-            self._world.note(f'"{phrase.words}" (word {phrase.number}): nothing before it is meant.')
-            self.cost += 2.0
-            return []
-        self.cost += min(best[0], 1.5)
-        return best[1]
-
     def is_open(self, at: int) -> bool:
         """Whether chunk `at` is a pronoun of which it is still to be found what it means."""
         return self._is_pronoun(at) and at not in self.bound and at not in self.known
-
-    def _is_pronoun(self, at: int) -> bool:
-        phrase = self._chunks[at].phrase
-        return phrase is not None and phrase.kind == "pronoun"
 
     def _the_one(self, items: list[Item], phrase: Phrase) -> list[Item]:
         """The one of `items` that "the smallest of", "the second of" means; all where it tells none."""

@@ -60,7 +60,8 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            self.relate(children, Link(kind=world.containment(parents[0])), parents)
+            lid = world.is_a(children[0], lexicon.ON_RIMS)
+            self.relate(children, Link(kind="on" if lid else world.containment(parents[0])), parents)
         elif link.kind in SUPPORT_KINDS:
             self._carried(children, link, parents, said)
         elif link.kind in LATERAL_KINDS:
@@ -149,7 +150,6 @@ class Relating:
                 note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
                 world.arrange("across", children, tops, note)
                 self.cost += 0.3
-        assert kind in SUPPORT_KINDS
         world.place(children, kind, parents)
 
     def _under(self, children: list[Item], parents: list[Item], said: str) -> None:

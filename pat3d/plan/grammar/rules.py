@@ -85,8 +85,7 @@ class Grammar(Goals):
 
     def _relation(self, link: Node, objects: Node) -> Node:
         """Read "on" + "a table": a modifier that waits for what it is said of."""
-        assert link.mod
-        at = link.mod[0]
+        at = link.start
         cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
         said = self._link(at)
         if said.manner == "between":
@@ -99,17 +98,15 @@ class Grammar(Goals):
         return Node("M", link.start, cost, objects.heads, objects.facts, objects.joints, flags, ("link", at))
 
     def _place(self, node: Node) -> Node:
-        assert node.mod
         kind = "form" if node.cat == "F" else "place"
-        return Node("M", node.start, node.cost, mod=(kind, node.mod[0]))
+        return Node("M", node.start, node.cost, mod=(kind, node.start))
 
     def _placed(self, verb: Node, place: Node) -> Node:
         made = self._place(place)
         return replace(made, start=verb.start, flags=made.flags | {"finite"})
 
     def _quality(self, verb: Node, quality: Node) -> Node:
-        assert quality.mod
-        return Node("M", verb.start, verb.cost, flags=frozenset({"finite"}), mod=("quality", quality.mod[0]))
+        return Node("M", verb.start, verb.cost, flags=frozenset({"finite"}), mod=("quality", quality.start))
 
     def _predicate(self, verb: Node, modifier: Node) -> Node:
         return replace(modifier, start=verb.start, cost=verb.cost + modifier.cost, flags=modifier.flags | {"finite"})
@@ -136,6 +133,12 @@ class Grammar(Goals):
             cost += 0.1
         if "finite" in named.flags and "finite" not in modifier.flags:
             cost += 0.1
+        if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
+            # "a candle, a rose in a vase and a cup": the list goes on behind what is said of the rose.
+            cost += 0.4
+        if "finite" in named.flags & modifier.flags and len(named.heads) > 1:
+            # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
+            cost += 0.5
         if "colon" in named.flags:
             cost += 0.3
         if "mute" in named.flags and "finite" in modifier.flags:
@@ -169,6 +172,9 @@ class Grammar(Goals):
                 return None
             if self._chunks[at].text in ("one", "other"):
                 cost += 0.5
+            if named.start == 0 and {"its", "their"} & set(self._chunks[at].words):
+                # "three plates, each with a fork on its left": said of the fork.
+                cost += 0.6
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
                 close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
                 cost += 0.2 if close else 0.45
@@ -194,6 +200,8 @@ class Grammar(Goals):
             twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
             # What is on a book that is on a table is on the book; nothing is on two small things.
             extra += twice * (1.0 if self._likely.level(self._noun(modifier.heads[0])) else 3.0)
+            # "A mug is on the table, and two more are on the shelf": the first mug is not.
+            extra += 0.5 * (bool(twice) and {"finite"} <= named.flags & modifier.flags)
         if link.manner == "under" and modifier.heads[:1] != (self._carrier(modifier.heads[0], modifier.facts),):
             # "A book under a lamp on a table": the book is on the table.
             cost += 0.6
@@ -203,65 +211,6 @@ class Grammar(Goals):
             cost += 1.2
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
-
-    def _having(self, at: int, link: Link, named: Node, modifier: Node) -> tuple[list[tuple], float]:
-        """Facts of `named` with what `modifier` names: in or on it, or where it says ("a pen inside")."""
-        owners = named.heads
-        facts: list[tuple] = []
-        placed: set[int] = set()
-        cost = 0.0
-        for fact in modifier.facts:
-            ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
-            if ours and link.manner == "flank":
-                facts.append(("side", fact[1], fact[2]))
-                cost -= 0.5
-                continue
-            if ours and not placed & set(fact[2]):
-                facts.append(("place", fact[1], fact[2], owners))
-                placed |= set(fact[2])
-                said = self._chunks[fact[1]].link
-                if said is not None:
-                    near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
-                    cost += 0.1 if near else self._arcs(said, fact[2], owners)
-                continue
-            apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
-            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._named_again(fact[3][0], named))
-            if known and self._link(fact[1]).kind not in SUPPORT_KINDS:
-                # "A pot on a stove with flour beside the stove"
-                placed |= set(fact[2])
-                cost += 0.2
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._one_of(fact[3], owners):
-                # "A row of cans, with an orange behind the last one"
-                cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
-                placed |= set(fact[2])
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
-                facts.append(("bind", fact[3][0], owners))
-                cost += self._arcs(self._link(fact[1]), fact[2], owners)
-                placed |= set(fact[2])
-            facts.append(fact)
-        carriers = {head: self._carrier(head, modifier.facts) for head in modifier.heads}
-        # What stands on something known already is told of by that alone.
-        placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
-        left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
-        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
-        if left:
-            facts.append(("have", at, owners, left))
-            parts = [head for head in left if self._phrase(head).kind in HEADLESS]
-            things = [head for head in left if head not in parts]
-            if things and link.manner not in ("include", "of"):
-                cost += sum(
-                    self._likely.having(link, self._noun(owner), self._noun(head))
-                    for head in things
-                    for owner in owners
-                ) / (len(things) * len(owners)) + 0.25 * sum(
-                    self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
-                )
-        if link.manner == "of" and left:
-            cost += 0.6 * any(self._phrase(head).determined for head in modifier.heads[1:])
-            cost += (
-                0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
-            )
-        return facts, cost
 
     # Lists
 

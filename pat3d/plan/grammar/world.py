@@ -17,6 +17,8 @@ from pat3d.scene.relations import LateralKind, RelationKind
 
 HARDLY = 2.0
 """Cost of a support from which on a note says that it is odd: what is round or slender carries nothing."""
+UNUSUAL = 0.6
+"""Cost of a support above which nobody thinks of it unless it is said outright."""
 MAX_OBJECTS = 60
 """Objects in one scene."""
 
@@ -56,6 +58,8 @@ class Group:
     """Rows that the objects stand in; 0 where nothing is said."""
     heap: bool = False
     proxy: bool = False
+    multiplied: bool = False
+    """Whether there are as many for each of several objects: "three plates, each with two eggs"."""
     replaced: bool = False
     """A generic whose members were listed ("plush toys, including ...")."""
 
@@ -134,6 +138,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.front: list[Item] = []
+        """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What "to the left of" was last said of, and whether it was "on the left side of"."""
         self.telling: list[Item] = []
@@ -149,6 +155,13 @@ class World:
         edges = ((number.get(e.child, -1), e.kind, number.get(e.parent, -1)) for e in self.supports.values())
         return len(number), frozenset(edges)
 
+    def rivals(self, other: World) -> bool:
+        """Whether a person may mean this as well as `other`: the same objects, as many of them carried, none oddly."""
+        ours, theirs = self.signature(), other.signature()
+        edges = [edge for edge in self.supports.values() if edge not in other.supports.values()]
+        odd = (self.likely.held(self.noun(edge.child), edge.kind, self.noun(edge.parent)) > UNUSUAL for edge in edges)
+        return ours != theirs and ours[0] == theirs[0] and len(ours[1]) >= len(theirs[1]) and not any(odd)
+
     def note(self, text: str) -> None:
         """Say `text` once."""
         if text not in self.notes:
@@ -163,7 +176,10 @@ class World:
     def noun(self, item: Item) -> str:
         """Catalogue noun of `item`."""
         group = item.group
-        return group.cycle[group.items.index(item) % len(group.cycle)] if group.cycle else group.noun
+        if not group.cycle:
+            return group.noun
+        # One that a later number of its group has taken away again is of the first kind.
+        return group.cycle[group.items.index(item) % len(group.cycle) if item in group.items else 0]
 
     def on_floor(self, item: Item) -> bool:
         """Whether it stands on the floor by nature."""
@@ -176,6 +192,15 @@ class World:
     def flat(self, item: Item) -> bool:
         """Whether nothing can be in it."""
         return not self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED)) and self.likely.level(self.noun(item))
+
+    def oddly_below(self, child: Item, parent: Item) -> bool:
+        """Whether `parent` is a small thing that nobody puts the furniture `child` on."""
+        small = (
+            not self.on_floor(parent)
+            and not self.is_a(parent, lexicon.THIN)
+            and not self.likely.level(self.noun(parent))
+        )
+        return small and self.is_table(child) and self.on_floor(child)
 
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
@@ -246,6 +271,11 @@ class World:
                     f'"{child.group.words}" would rest on itself: it already carries "{parent.group.words}". '
                     "Say which one is below."
                 )
+        if self.oddly_below(child, parent):
+            raise PromptError(
+                f'"{child.group.words}" on "{parent.group.words}": furniture rests on no such thing. Say which one is '
+                "below."
+            )
         if old is not None and not old.weak:
             below = old.parent
             free = self.support(below) is None and not self.on_floor(below)

@@ -1,0 +1,108 @@
+"""What no scene has: purposes, pictures of things, states, absences, remarks on light and mood. Each is named."""
+
+from __future__ import annotations
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.relation_words import RelationWords
+from pat3d.plan.grammar.shapes import refuse, shape_said
+
+ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
+
+
+class Asides(RelationWords):
+    """Reads what is left out of the scene."""
+
+    def _unsaid(self, word: str, follower: str) -> bool:
+        """Name what no scene has and go on behind it: purposes, directions, the viewer."""
+        number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
+        if word == "at" and follower in ("least", "most") and number:
+            return self._leave(2)
+        if word in ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
+            self._at += 1
+            return True
+        if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            return self._leave(read[1] - self._at)
+        after_noun = self._last is not None and self._last.kind == "noun"
+        if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
+            return self._leave(self._to_mark())
+        if self._words(3) == ("of", "the", "same") and after_noun:
+            return self._leave(4)
+        if word in ("all", "both") and follower in lexicon.STATES and self._tokens[self._at + 2].mark:
+            return self._leave(2)
+        if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):
+            size = self._to_mark()
+            off = self._word(1) in ("off", "up", "out", "open", "down")
+            return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1 + off)
+        if word == "which" and follower in ("means", "ensures", "makes"):
+            self._remark()
+            return True
+        if word in lexicon.DIRECTIONS:
+            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
+            return self._leave(3 if to else 1)
+        size = link_at(self._tokens, self._at)
+        if (
+            size
+            and self._word(size) in lexicon.VIEWERS
+            and (self._tokens[self._at + size + 1].mark or self._word(size + 1) in ("and", "or"))
+        ):
+            return self._leave(size + 1)
+        return False
+
+    def _to_mark(self) -> int:
+        """Tokens up to the next mark."""
+        return next(size for size in range(1, len(self._tokens)) if self._tokens[self._at + size].mark)
+
+    def _ends_state(self, ahead: int) -> bool:
+        """Whether what became of an object ends here or goes on: "cut into slices,", "hidden from view."."""
+        follower = self._tokens[self._at + ahead]
+        if follower.text in ("off", "up", "out", "open", "down"):
+            return True
+        bare = follower.text in ("into", "from", "by", "in") and self._word(ahead + 1) not in lexicon.DETERMINERS
+        return follower.mark or follower.text == "and" or (bare and any(
+            self._tokens[self._at + ahead + size].mark for size in (2, 3)
+        ))  # fmt: skip
+
+    def _depicted(self, of: int) -> None:
+        """Name "a picture of a cat on it", which is no object."""
+        shown = self._phrases.read(of + 1)
+        end = shown[1] if shown is not None else of + 1
+        size = link_at(self._tokens, end)
+        if size and self._tokens[end + size].text in lexicon.PRONOUNS:
+            end += size + 1
+        self._made.chunks.pop()
+        self._leave(end - self._at)
+
+    def _remark(self) -> None:
+        """Set aside the rest of the sentence, which tells of light or mood."""
+        size = 0
+        while self._at + size < self._end:
+            token, after = self._tokens[self._at + size], self._tokens[self._at + size + 1]
+            if shape_said(token.text) and self._word(size - 1) in ("a", "an") and after.mark:
+                raise refuse(token.text, token.number)
+            size += 1
+        self._aside(size)
+
+    def _absence(self) -> None:
+        """Read "without a lid", "no people": set aside with the phrase."""
+        read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
+        end = read[1] if read else self._at + 1
+        told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
+        pronoun = False
+        while not told and not pronoun and (size := link_at(self._tokens, end)):
+            more = self._phrases.read(end + size)
+            pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
+            if more is None and not pronoun:
+                break
+            end = more[1] if more is not None else end + size + 1
+        if self._last is not None and self._last.kind in ("have", "there"):
+            self._made.chunks.pop()
+        self._aside(end - self._at)
+
+    def _more_follows(self, at: int) -> bool:
+        """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""
+        while not self._tokens[at].mark or self._tokens[at].text == ",":
+            if self._tokens[at].text in (",", "but"):
+                return True
+            at += 1
+        return False

@@ -1,0 +1,81 @@
+"""What "with", "holding" and "of" say: of the owner, unless the objects' own places are told with them."""
+
+from __future__ import annotations
+
+from pat3d.plan.grammar.chart import Node
+from pat3d.plan.grammar.judging import HEADLESS, Judging
+from pat3d.plan.grammar.links import Link
+from pat3d.scene.relations import SUPPORT_KINDS
+
+
+class Having(Judging):
+    """The rule for what an object has."""
+
+    def _having(self, at: int, link: Link, named: Node, modifier: Node) -> tuple[list[tuple], float]:
+        """Facts of `named` with what `modifier` names: in or on it, or where it says ("a pen inside")."""
+        owners = named.heads
+        facts: list[tuple] = [("heard", at)]
+        placed: set[int] = set()
+        cost = 0.0
+        for fact in modifier.facts:
+            ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
+            if ours and link.manner == "flank":
+                facts.append(("side", fact[1], fact[2]))
+                cost -= 0.5
+                continue
+            if ours and not placed & set(fact[2]):
+                facts.append(("place", fact[1], fact[2], owners))
+                placed |= set(fact[2])
+                said = self._chunks[fact[1]].link
+                if said is not None:
+                    near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
+                    cost += 0.1 if near else self._arcs(said, fact[2], owners)
+                continue
+            apart = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).manner == "place"
+            known = apart and (self._likely.floor(self._noun(fact[3][0])) or self._named_again(fact[3][0], named))
+            if known and self._link(fact[1]).kind not in SUPPORT_KINDS:
+                # "A pot on a stove with flour beside the stove"
+                placed |= set(fact[2])
+                cost += 0.2
+            if (
+                fact[0] == "rel"
+                and set(fact[2]) <= set(modifier.heads)
+                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
+            ):
+                # "A row of cans, with an orange behind the last one"
+                cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
+                placed |= set(fact[2])
+            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
+                facts.append(("bind", fact[3][0], owners))
+                cost += self._arcs(self._link(fact[1]), fact[2], owners)
+                placed |= set(fact[2])
+            facts.append(fact)
+        carriers = {head: self._carrier(head, modifier.facts) for head in modifier.heads}
+        # What stands on something known already is told of by that alone.
+        placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
+        left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
+        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        lateral = [
+            fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS
+        ]
+        if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in lateral):
+            # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
+            cost += 0.8
+        if left:
+            facts.append(("have", at, owners, left))
+            parts = [head for head in left if self._phrase(head).kind in HEADLESS]
+            things = [head for head in left if head not in parts]
+            if things and link.manner not in ("include", "of"):
+                cost += sum(
+                    self._likely.having(link, self._noun(owner), self._noun(head))
+                    for head in things
+                    for owner in owners
+                ) / (len(things) * len(owners)) + 0.25 * sum(
+                    self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
+                )
+        if link.manner == "of" and left:
+            cost += 0.6 * any(self._phrase(head).determined for head in modifier.heads[1:])
+            cost += (
+                0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
+            )
+        return facts, cost

@@ -1,0 +1,232 @@
+"""Constructions in plainer words, token by token, before a sentence is cut into phrases.
+
+"The box that the ball is in" becomes "the box with the ball in it", "a cup (red)" "a red cup", "has been put" "is put".
+Every rewriting keeps the tokens' places in the prompt, so that notes and errors still quote it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.shapes import of_what
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_NEGATIONS = frozenset({
+    "not", "never", "neither", "nor", "isn't", "aren't", "don't", "doesn't", "cannot", "can't", "none", "nobody",
+    "wasn't", "weren't", "hasn't", "haven't",
+})  # fmt: skip
+_CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
+_MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
+_FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
+_SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
+           ("what", "about"), ("how", "about"), ("nothing", "on", "it", "but"), ("nothing", "in", "it", "but"),
+           ("nothing", "on", "it", "except"), ("nothing", "in", "it", "except"))  # fmt: skip
+"""Words that change nothing where they stand."""
+_FINITE = lexicon.COPULAS | lexicon.VERBS
+
+
+def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of one sentence of `text` in plainer words.
+
+    Raises:
+        PromptError: the prompt says what is not there, or how many by a fraction.
+    """
+    tokens = _without(tokens, _SILENT)
+    _refuse_negations(tokens)
+    tokens = _sides_of(_perfect(_parentheses(text, tokens, nouns)), nouns)
+    tokens = _counted_after(_owned(tokens, nouns), nouns)
+    return of_what(_relatives(_plain_words(tokens, nouns), nouns))
+
+
+def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
+    """`sentences` with "there are three plates" before the "every plate" of which it gives the number."""
+    made = list(sentences)
+    for at, sentence in enumerate(made):
+        words = [token.text for token in sentence]
+        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
+            continue
+        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
+        for before in range(at):
+            told = [token.text for token in made[before]]
+            follows = (two for one, two in zip(told, told[1:], strict=False) if one in ("each", "every"))
+            if any(word in nouns for word in follows):
+                made.insert(before, made.pop(at))
+                break
+    return made
+
+
+def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 4]]
+        size = next((len(each) for each in phrases if tuple(words[: len(each)]) == each), 0)
+        if not size:
+            kept.append(tokens[at])
+        at += size or 1
+    return kept
+
+
+def _refuse_negations(tokens: Sequence[Token]) -> None:
+    """Raises: PromptError: the sentence denies, leaves a choice, or counts by a fraction."""
+    for at, token in enumerate(tokens[:-1]):
+        follower = tokens[at + 1].text
+        if token.text in _NEGATIONS:
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
+                "are, and leave the rest out."
+            )
+        side = follower in ("side", "end")
+        if token.text in _CHOICES and not side:
+            raise PromptError(f'"{token.text}" (word {token.number}): say the one thing that is to be there.')
+        number = follower == "of" and at + 2 < len(tokens) and tokens[at + 2].text in ("the", "them", "these", "all")
+        plural = number and any(
+            each.text in lexicon.NUMBERS or each.text in lexicon.PRONOUNS or singulars(each.text)
+            for each in tokens[at + 2 : at + 6]
+        )
+        if token.text in _FRACTIONS and plural and not tokens[at + 1].mark:
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): say how many in numbers: "four of the eight blocks are red".'
+            )
+
+
+def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a cup (red)" as "a red cup"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        end = next((n for n in range(at + 1, min(at + 6, len(tokens))) if tokens[n].mark), at)
+        inside = tokens[at + 1 : end]
+        opens = token.mark and text[token.start : token.end] == "(" and end > at + 1
+        if opens and text[tokens[end].start : tokens[end].end] == ")" and all(is_modifier(t.text) for t in inside):
+            size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
+            made[len(made) - size : len(made) - size] = inside
+            at = end + 1
+        else:
+            made.append(token)
+            at += 1
+    return made
+
+
+def _perfect(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "has been put" as "is put"."""
+    made: list[Token] = []
+    for token in tokens:
+        if token.text == "been" and made and made[-1].text in ("has", "have", "had"):
+            made[-1] = replace(made[-1], text="is" if made[-1].text == "has" else "are")
+        else:
+            made.append(token)
+    return made
+
+
+def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "to the globe's left" as "to the left of the globe"."""
+    words = [token.text for token in tokens]
+    for at, word in enumerate(words[:-1]):
+        if word != "'s" or words[at + 1] not in ("left", "right") or not nouns.match([words[at - 1]]):
+            continue
+        start = next((n for n in range(at - 1, max(at - 5, -1), -1) if words[n] in ("to", "on", "at")), None)
+        after = at + 2 + (words[at + 2] == "side")
+        if start is not None:
+            owner = tokens[start + 1 : at]
+            the, of = (replace(tokens[at], text=text) for text in ("the", "of"))
+            return [*tokens[: start + 1], the, *tokens[at + 1 : after], of, *owner, *tokens[after:]]
+    return list(tokens)
+
+
+def _owned(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the pot's lid" as "the lid", where the pot is spoken of elsewhere too."""
+    words = [token.text for token in tokens]
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        owner = at and token.text == "'s" and nouns.match([words[at - 1]])
+        lid = owner and nouns.match([words[at + 1]]) and words.count(words[at - 1]) > 1
+        if lid and words[at + 1] in lexicon.ON_RIMS:
+            made.pop()
+        else:
+            made.append(token)
+    return made
+
+
+def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "bowls, of which there are two," as "two bowls"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        start = at + (words[at] == ",")
+        if words[start : start + 3] != ["of", "which", "there"] or words[start + 3] not in lexicon.COPULAS:
+            continue
+        size = next((n for n in (3, 2, 1) if n <= at and nouns.match(words[at - n : at])), 0)
+        number = start + 4
+        if size and words[number] in lexicon.NUMBERS and tokens[number + 1].mark:
+            after = number + 1 + (words[number + 1] == ",")
+            head = tokens[: at - size]
+            while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
+                size, head = size + 1, head[:-1]
+            return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
+    return list(tokens)
+
+
+def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "should be on" as "is on" and a bare "beside table" as a bedside table.
+
+    With a relation there would be a determiner. The owner in "a child's desk" is no object.
+    """
+    plain = ("there", "here", "that", *lexicon.PRONOUNS)
+    kept: list[Token] = []
+    for at, token in enumerate(tokens):
+        follower = tokens[min(at + 1, len(tokens) - 1)].text
+        before = kept[-1].text if kept else "."
+        if token.text in _MODALS and follower == "be":
+            continue
+        if token.text == "'s" and before not in plain and not nouns.match([before]):
+            kept.pop()
+            continue
+        beside = token.text == "beside" and follower in ("table", "tables", "lamp", "lamps")
+        if beside and before in (",", "and", "a") and nouns.match(["bedside", "table"]):
+            token = replace(token, text="bedside")
+        kept.append(token)
+    return kept
+
+
+def _relatives(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the box that the ball is in" as "the box with the ball in it"."""
+    made = list(tokens)
+    at = 1
+    while at < len(made) - 4:
+        opener = made[at].text in ("that", "which")
+        start = at + 1 if opener else at
+        known = nouns.match([made[at - 1].text]) is not None
+        if known and made[start].text in ("the", "a", "an") and (found := _gap(made, start, nouns)):
+            verb, link, end = found
+            told = [
+                replace(made[at], text="with"),
+                *made[start:verb],
+                *made[link:end],
+                replace(made[end - 1], text="it"),
+            ]
+            made[at:end] = told
+            at += len(told)
+        else:
+            at += 1
+    return made
+
+
+def _gap(tokens: Sequence[Token], start: int, nouns: Nouns) -> tuple[int, int, int] | None:
+    """Verb, relation and end of "the ball is in" at token `start`, behind which a clause goes on; or None."""
+    verb = next((n for n in range(start + 2, min(start + 5, len(tokens) - 2)) if tokens[n].text in _FINITE), None)
+    if verb is None or any(each.mark or each.text in ("and", "with", "of") for each in tokens[start:verb]):
+        return None
+    if not nouns.match([tokens[verb - 1].text]) or any(link_at(tokens, n) for n in range(start, verb)):
+        return None
+    link = verb + 1 + (tokens[verb + 1].text in lexicon.PARTICIPLES)
+    size = link_at(tokens, link)
+    after = tokens[min(link + size, len(tokens) - 1)]
+    goes_on = after.mark or after.text in _FINITE or after.text in ("holds", "contains", "has", "into", "onto", "and")
+    return (verb, link, link + size) if size and goes_on else None

@@ -1,0 +1,115 @@
+"""What pronouns speak of: what makes the relation likely, what the clause is about, what is nearest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.matching import LATERAL_SIDES
+from pat3d.plan.grammar.objects import Maker
+from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.world import Item, World
+
+
+class Pronouns:
+    """What the phrases of one sentence speak of so far."""
+
+    def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, relating: Relating) -> None:
+        self._world = world
+        self._chunks = chunks
+        self._maker = maker
+        self._relating = relating
+        self._earlier = list(world.groups)
+        self.cost = 0.0
+        """Of pronouns that are not sure."""
+        self.known: dict[int, list[Item]] = {}
+        """What the phrases speak of, by chunk."""
+        self.bound: dict[int, tuple[int, ...]] = {}
+        """Pronouns of which the grammar says what they mean."""
+        self.each: set[int] = set()
+        """Phrases that speak of every one of a group."""
+        self.all: set[int] = set()
+        """Phrases that speak of all of a group: "both"."""
+        self.clauses: dict[int, tuple[int, ...]] = {}
+        """What the clauses are about, by where they begin."""
+        self.fronts: set[int] = set()
+        """Phrases of the modifier that a clause opens with: "behind it there is"."""
+        self.related: list[tuple[set[int], set[int]]] = []
+        """Phrases that a relation joins, so that they are different objects."""
+
+    def ref(self, at: int) -> list[Item]:
+        """What chunk `at` speaks of."""
+        if at in self.known:
+            return self.known[at]
+        if at in self.bound:
+            return [item for head in self.bound[at] for item in self.ref(head)]
+        return []
+
+    def ref_all(self, heads: Sequence[int]) -> list[Item]:
+        """What the chunks `heads` speak of together."""
+        return [item for head in heads for item in self.ref(head) if item in item.group.items]
+
+    def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
+        """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
+        phrase = self._chunks[at].named
+        plural = phrase.head in ("them", "they", "these", "those", "their")
+        world_front = self._world.front if at in self.fronts else []
+        candidates: list[tuple[float, list[Item]]] = []
+        starts = [start for start in sorted(self.clauses) if start < at]
+        heads = [self.clauses[start] for start in reversed(starts)]
+        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
+        before += [self._world.subject]
+        if plural and len([each for each in before if each]) > 1:
+            # "A lamp is on the left, a plant on the right, and between them a radio."
+            together = [item for each in reversed(before) for item in each if item not in other]
+            candidates.append((0.15, list(dict.fromkeys(together))))
+        which = phrase.head == "which"
+        near = which or phrase.head in lexicon.DEMONSTRATIVES
+        meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
+        if meant and not plural:
+            # "behind it a mug, and in front of it a bowl" speaks twice of the same.
+            candidates.append((-0.6 if which else -0.1, meant[-1]))
+        if world_front:
+            # "Behind the sofa: a lamp. In front of it: a rug."
+            candidates.append((-0.4, world_front))
+        if self._relating.landmark[0] and not near:
+            # "A fork is left of a plate and a knife right of it"
+            aside = link is not None and link.kind in LATERAL_SIDES.values()
+            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
+        for rank, items in enumerate([each for each in before if each]):
+            candidates.append((0.2 * rank + 0.3 * which, items))
+        nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
+        nearest = [items for items in nearest if not set(items) & set(other)]
+        for rank, items in enumerate(nearest[:4]):
+            candidates.append((-0.5 + 0.3 * rank if which else (-0.2 if near else 0.35) + 0.1 * rank, items))
+        for rank, group in enumerate(reversed(self._earlier[-3:])):
+            candidates.append((0.6 + 0.2 * rank, group.items))
+        best: tuple[float, list[Item]] | None = None
+        for cost, items in candidates:
+            if not items or set(items) & set(other) or items[0].group.replaced:
+                continue
+            # A stack is "it".
+            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
+                cost += 0.4
+            if not plural and other and items[0].group.noun == other[0].group.noun:
+                # "a wrench in the box, another on it": on the box.
+                cost += 0.6
+            if link is not None and other:
+                world = self._world
+                pair = (items[0], other[0]) if child else (other[0], items[0])
+                cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
+            if best is None or cost < best[0]:
+                best = (cost, list(items))
+        if best is None:
+            raise PromptError(
+                f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
+            )
+        self.cost += min(best[0], 1.5)
+        return best[1]
+
+    def _is_pronoun(self, at: int) -> bool:
+        phrase = self._chunks[at].phrase
+        return phrase is not None and phrase.kind == "pronoun"
