@@ -22,7 +22,9 @@ from benchmarks.generate import read_prompts
 SUITE = ("suite", "generate", "suite", "--tasks", "pick,place,stack,sort,unload", "--scenes", "12", "--seed", "0")
 EPISODES = ("evaluate", "--policy", "scripted", "--episodes", "20", "--perturb", "pose=0.04", "--out", "episodes")
 
-VOLATILE = re.compile(r',?\s*"(versions?|pat3d|code|seconds|created|host|checksums?)": *(\{[^}]*\}|"[^"]*"|[-\d.e]+)')
+VOLATILE = re.compile(
+    r',?\s*"(versions?|pat3d|code|seconds|created|host|checksums?|manifest_sha256)": *(\{[^}]*\}|"[^"]*"|[-\d.e]+)'
+)
 """JSON values that differ between two runs of one commit, or name it."""
 
 UNCOMPARED = ("report.json", "report.html", "index.html", "manifest.json.lock", "preview.png", "env.py")

@@ -310,6 +310,15 @@ def test_an_answer_is_asked_for_once_and_no_key_is_written(ask, tmp_path):
     assert KEY not in files[0].read_text()
 
 
+def test_the_record_tells_of_the_last_plan_alone(ask):
+    with serving(said(MUG, tokens=(70, 7)), said(MUG, tokens=(50, 5))) as server:
+        planner = LLMPlanner(ask(server).chat)
+        planner.plan("una taza roja")
+        planner.plan("una taza verde")
+    record = planner.record()
+    assert (record["requests"], record["prompt_tokens"], record["completion_tokens"]) == (1, 50, 5)
+
+
 @pytest.mark.parametrize("damage", ["", "{", '{"answer": 3}', '{"answer": "{}"}', '["answer"]'])
 def test_a_damaged_answer_is_asked_for_again(ask, tmp_path, damage):
     with serving(said(MUG), said(MUG)) as server:

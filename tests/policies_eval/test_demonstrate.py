@@ -128,7 +128,7 @@ def test_demonstrations_that_never_succeed_are_an_error(every_third_succeeds):
 
 
 def test_most_demonstrations_succeed_at_the_noise_that_nobody_chose():
-    """Six picks with an unsteady hand; at three times the noise most of them fail."""
+    """Six picks with an unsteady hand; at three times the noise a third of them fail."""
     from inspect import signature
 
     from pat3d.policies_eval.datasets.demonstrations import Demonstrator

@@ -42,6 +42,7 @@ class LLMPlanner:
         """Ask `chat`; with `allow_proxies` plain boxes stand in for what the catalogue lacks."""
         self._chat = chat
         self._proxies = allow_proxies
+        self._cost: dict[str, int] = {}
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt`.
@@ -70,9 +71,9 @@ class LLMPlanner:
         return self._ask(prompt, [*self._messages(prompt), {"role": "user", "content": words}])
 
     def record(self) -> dict[str, Any]:
-        """What the report says: the model and what it has cost so far."""
+        """What the report says: the model, and what the last plan has cost."""
         settings = self._chat.settings
-        return {"planner": "llm", "model": settings.name, "server": settings.server, **self._chat.usage.as_dict()}
+        return {"planner": "llm", "model": settings.name, "server": settings.server, **self._cost}
 
     def _messages(self, prompt: str) -> list[Message]:
         if not prompt.strip():
@@ -99,7 +100,9 @@ class LLMPlanner:
             # What is missing is said before a plan without it is looked at.
             return replace(_NONE, missing=missing) if missing else _checked(shape.made(Answer, data))
 
+        before = self._chat.usage.as_dict()
         answer = self._chat.ask(messages, shape, made=made)
+        self._cost = {name: count - before[name] for name, count in self._chat.usage.as_dict().items()}
         if answer.missing:
             words = ", ".join(f'"{word}"' for word in answer.missing)
             raise PromptError(
