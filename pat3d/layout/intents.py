@@ -137,11 +137,10 @@ class Intents:
         rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in ("row", "side_by_side")]
         for row in (one.moved(one.arrangement.objects) for one in rows):
             if sight.observer in row and set(row) <= set(groups):
-                widths = [float(groups[name].size[0]) for name in row]
-                natural = sum(
-                    natural_gap(groups[a].size[:2], groups[b].size[:2]) for a, b in zip(row, row[1:], strict=False)
-                )
-                return (sum(widths) - widths[0] + natural) / 2 / math.tan(math.radians(_AHEAD))
+                sizes = [groups[name].size[:2] for name in row]
+                free = sum(natural_gap(one, other) for one, other in zip(sizes, sizes[1:], strict=False))
+                length = sum(float(one[0]) for one in sizes[1:]) + free
+                return length / 2 / math.tan(math.radians(_AHEAD))
         return 0.0
 
     def _placed(self, one: Arrangement, kinds: Mapping[str, str]) -> Intent | None:
