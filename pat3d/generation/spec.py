@@ -89,7 +89,8 @@ class Spec:
         together = built_together([obj["name"] for obj in self.objects], self.relations)
         for number, obj in enumerate(self.objects):
             progress(Event(stage="making assets", detail=obj["name"], step=number, steps=len(self.objects)))
-            own = derived_seed(seed, together.get(obj["name"], obj["name"]))
+            name: str = obj["name"]
+            own = derived_seed(seed, together.get(name, name))
             try:
                 asset = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
             except (AssetError, PromptError) as error:

@@ -72,6 +72,8 @@ class Sight:
     observer: str
     target: str
     way: tuple[float, float]
+    gap: float = 0.0
+    """Least free distance [m]: from a row, all of which faces one thing, it has to be far enough."""
 
     def meets(self, offset: Array) -> NDArray[np.bool_]:
         """Whether `offset` [m], shape (n, 2), from the observer's middle to the target's, is that way."""
@@ -163,6 +165,17 @@ def _ring(members: Sequence[str], centre: str | None, items: Mapping[str, Item],
 def start_angle(count: int) -> float:
     """Angle [rad] of the first of `count` things on a ring: two stand left and right, more leave the front free."""
     return math.pi if count <= 2 else math.pi + math.pi / count
+
+
+def ring_angles(laterals: Sequence[Lateral]) -> dict[str, float]:
+    """Angle [rad], counter-clockwise from +x, of every item that stands around another."""
+    angles: dict[str, float] = {}
+    for centre in dict.fromkeys(lat.parent for lat in laterals if lat.kind == "around"):
+        members = [lat.child for lat in laterals if lat.kind == "around" and lat.parent == centre]
+        start = start_angle(len(members))
+        for k, name in enumerate(members):
+            angles[name] = start + 2 * math.pi * k / len(members)
+    return angles
 
 
 def _apart(first: Item, at: Array, second: Item, there: Array) -> float:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import Lateral
+from pat3d.layout.flat import OPPOSITE, Lateral, natural_gap
 from pat3d.layout.formations import Formation, Sight, Wishes, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, under_offset
@@ -23,9 +23,10 @@ from pat3d.scene.relations import GROUND
 
 _WAYS = {"left_of": (1.0, 0.0), "right_of": (-1.0, 0.0), "in_front_of": (0.0, 1.0), "behind": (0.0, -1.0)}
 """From what stands so to the other."""
+_AHEAD = 17.0
+"""Angle [degrees] at which the ends of a row see what all of it faces."""
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 """Where the first, second, ... of several that face one thing have it."""
-_OPPOSITE = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +71,10 @@ class Intents:
         self.leaning: dict[str, Array] = {}
         """Objects that lean, and unit vectors, shape (3,), to what they lean on."""
         self._sights: dict[str, list[Sight]] = {}
-        for one in arrangements:
+        self.targets: list[tuple[str, str]] = []
+        """Who faces what."""
+        # Who faces what depends on the circles and rows that they stand in.
+        for one in sorted(arrangements, key=lambda one: one.kind == "facing"):
             intent = self._placed(one, kinds)
             if intent is not None:
                 self.by_surface.setdefault(intent.support, []).append(intent)
@@ -121,8 +125,23 @@ class Intents:
                 items = [item_of(groups[one], turnable=False) for one in below]
                 fixed = ring_of_carriers(items, build(name).size[:2])
                 formations.append(Formation(members=tuple(below), fixed=fixed))
-        sights = tuple(one for one in self._sights.get(support, []) if {one.observer, one.target} <= set(groups))
+        sights = tuple(
+            replace(one, gap=self._back(one, support, groups))
+            for one in self._sights.get(support, [])
+            if {one.observer, one.target} <= set(groups)
+        )
         return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places)
+
+    def _back(self, sight: Sight, support: str, groups: Mapping[str, Group]) -> float:
+        """How far from its target the row of an observer stands [m], so that its ends too have it nearly ahead."""
+        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in ("row", "side_by_side")]
+        for row in (one.moved(one.arrangement.objects) for one in rows):
+            if sight.observer in row and set(row) <= set(groups):
+                sizes = [groups[name].size[:2] for name in row]
+                free = sum(natural_gap(one, other) for one, other in zip(sizes, sizes[1:], strict=False))
+                length = sum(float(one[0]) for one in sizes[1:]) + free
+                return length / 2 / math.tan(math.radians(_AHEAD))
+        return 0.0
 
     def _placed(self, one: Arrangement, kinds: Mapping[str, str]) -> Intent | None:
         """On which surface `one` is brought about; None, with a note, where the layout cannot."""
@@ -165,23 +184,35 @@ class Intents:
         elif one.kind == "facing":
             targets = one.of * len(one.objects) if one.of else one.objects[::-1]
             sights = self._sights.setdefault(intent.support, [])
+            line = self._line(intent) if one.of else ()
             for number, (observer, target) in enumerate(zip(one.objects, targets, strict=True)):
                 ring = self._ring_angle(intent, observer, target)
                 if ring is not None:
                     way = (-math.cos(ring), -math.sin(ring))
                 else:
-                    way = self._way(intent, observer, target) or _FACING[number]
+                    way = self._way(intent, observer, target) or ((0.0, 1.0) if line else _FACING[number])
                     pair = intent.moved((observer, target))
-                    sights.append(Sight(observer=pair[0], target=pair[1], way=way))
+                    # Of a row, the middle one has the target straight ahead.
+                    if not line or observer == line[len(line) // 2]:
+                        sights.append(Sight(observer=pair[0], target=pair[1], way=way))
+                self.targets.append((observer, target))
                 # The front of an asset is at -y.
                 self.yaws[observer] = math.atan2(way[1], way[0]) + math.pi / 2
+
+    def _line(self, intent: Intent) -> tuple[str, ...]:
+        """The row in which all objects of `intent` stand, if there is one."""
+        for other in self.by_surface.get(intent.support, []):
+            one = other.arrangement
+            if one.kind in ("row", "side_by_side") and set(intent.arrangement.objects) <= set(one.objects):
+                return tuple(name for name in one.objects if name in intent.arrangement.objects)
+        return ()
 
     def _way(self, intent: Intent, name: str, other: str) -> tuple[float, float] | None:
         """From `name` to `other` as a lateral relation has it."""
         own, there = intent.moved((name, other))
         for lat in self.laterals.get(intent.support, ()):
             if lat.kind in _WAYS and {lat.child, lat.parent} == {own, there}:
-                return _WAYS[lat.kind if lat.child == own else _OPPOSITE[lat.kind]]
+                return _WAYS[lat.kind if lat.child == own else OPPOSITE[lat.kind]]
         return None
 
     def _ring_angle(self, intent: Intent, name: str, centre: str) -> float | None:

@@ -20,6 +20,7 @@ from pat3d.layout.bodies import Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
+from pat3d.layout.formations import ring_angles
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group
 from pat3d.layout.hanging import attachment, hang
@@ -27,8 +28,9 @@ from pat3d.layout.intents import Intents
 from pat3d.layout.leaning import leaning_rotation
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.spans import homes, put_across
-from pat3d.layout.surfaces import arrange_flat, ring_angles
+from pat3d.layout.surfaces import arrange_flat
 from pat3d.layout.tops import Top, item_of, spread
+from pat3d.layout.turning import turned_to_targets
 from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
@@ -152,7 +154,12 @@ class _Arranger:
             else:
                 height = self.gap - float(group.low[2])
                 result.append(group.shifted(np.array([*spots[name].position, height])))
-        return self._span(GROUND, result)
+        return self._span(GROUND, self._turned(result))
+
+    def _turned(self, groups: list[Group]) -> list[Group]:
+        """`groups`, placed side by side, those turned that face something."""
+        sights = [pair for pair in self.intents.targets if not {*pair} & set(self.fixed)]
+        return turned_to_targets(groups, sights, gap=self.gap) if sights else groups
 
     def _span(self, home: str, placed: list[Group]) -> list[Group]:
         """`placed`, all that stands on `home` or is it, with what has several carriers there."""
@@ -232,7 +239,7 @@ class _Arranger:
         )
         placed, notes = spread(top, groups, laterals, self._rng(group.name, "on"))
         self.notes.extend(notes)
-        return self._with(group, [*given, *placed])
+        return self._with(group, [*given, *self._turned(placed)])
 
     def _pinned(self, name: str, parent: str) -> Group:
         """A fixed child in its fixed parent's frame."""

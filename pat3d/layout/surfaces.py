@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import Item, Lateral, Spot, Surface, natural_gap
-from pat3d.layout.formations import CLOSE, Wishes, far_gap, start_angle
+from pat3d.layout.flat import OPPOSITE, Item, Lateral, Spot, Surface, natural_gap
+from pat3d.layout.formations import CLOSE, Wishes, far_gap, ring_angles
 
 BRANCHES = 4
 """Places tried for each thing before backing up."""
@@ -105,17 +105,6 @@ def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) 
     aside = np.abs((low + high)[:, other] - (low_p + high_p)[other]) / 2
     ahead = np.abs((low + high)[:, axis] - (low_p + high_p)[axis]) / 2
     return (clear > 0) & (aside <= 1.2 * ahead)
-
-
-def ring_angles(laterals: Sequence[Lateral]) -> dict[str, float]:
-    """Angle [rad], counter-clockwise from +x, of every item that stands around another."""
-    angles: dict[str, float] = {}
-    for centre in dict.fromkeys(lat.parent for lat in laterals if lat.kind == "around"):
-        members = [lat.child for lat in laterals if lat.kind == "around" and lat.parent == centre]
-        start = start_angle(len(members))
-        for k, name in enumerate(members):
-            angles[name] = start + 2 * math.pi * k / len(members)
-    return angles
 
 
 @dataclass(eq=False)
@@ -250,7 +239,9 @@ class _Search:
         formation = self.wishes.together(item.name, other.name)
         if formation is not None:
             return -ABOVE if formation.overlapping else CLOSE / 2
-        return self._natural(item, other)
+        pair = {item.name, other.name}
+        sights = [one.gap for one in self.wishes.sights if {one.observer, one.target} == pair]
+        return max(self._natural(item, other), *sights) if sights else self._natural(item, other)
 
     def _forced(self, item: Item) -> Array | None:
         """The centre that placed members of its formations leave to `item` [m], shape (1, 2), or none of them."""
@@ -314,7 +305,7 @@ class _Search:
             other, spot, _ = self.placed[other_name]
             low, high = spot + other.low, spot + other.high
             middle = (low + high) / 2
-            kind = lat.kind if lat.child == item.name else _OPPOSITE[lat.kind]
+            kind = lat.kind if lat.child == item.name else OPPOSITE[lat.kind]
             in_line = np.abs(centres - middle)
             if item.walled and other.walled:
                 in_line[:, 1] = np.abs(centres[:, 1] + half[1] - high[1])
@@ -402,13 +393,3 @@ class _Search:
             if (np.linalg.norm(weight) if self.surface.disc else np.abs(weight).max()) > 0.92:
                 return None
         return shift
-
-
-_OPPOSITE = {
-    "left_of": "right_of",
-    "right_of": "left_of",
-    "in_front_of": "behind",
-    "behind": "in_front_of",
-    "next_to": "next_to",
-    "around": "around",
-}

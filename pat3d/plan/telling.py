@@ -139,10 +139,8 @@ class _Teller:
         first, second = row.objects[:2]
         ways = {"in_front_of": ("front", "back"), "behind": ("back", "front"), "right_of": ("right", "left")}
         turned = {"in_front_of": "behind", "behind": "in_front_of", "left_of": "right_of"}
-        kinds = [rel.kind for rel in self._plan.relations if (rel.child, rel.parent) == (first, second)]
-        kinds += [
-            turned.get(rel.kind, "") for rel in self._plan.relations if (rel.child, rel.parent) == (second, first)
-        ]
+        relations = {(rel.child, rel.parent): rel.kind for rel in self._plan.relations if not rel.supports}
+        kinds = [relations.get((first, second), ""), turned.get(relations.get((second, first), ""), "")]
         start, end = next((ways[kind] for kind in kinds if kind in ways), ("left", "right"))
         return f"from {start} to {end}"
 

@@ -80,6 +80,11 @@ SCENES = {
     ),
     "pyramid": spec(objects("a:can", "b:can", "c:can"), "  - {child: c, kind: on, parent: [a, b]}\n"),
     "facing": spec(objects("a:chair", "b:chair", "box:box"), "", "  - {kind: facing, objects: [a, b]}\n"),
+    "a row faces one thing": spec(
+        objects("tv:television", "a:chair", "b:chair", "c:chair"),
+        "",
+        "  - {kind: facing, objects: [a, b, c], of: [tv]}\n  - {kind: row, objects: [a, b, c]}\n",
+    ),
     "side by side": spec(
         TABLE + objects("laptop:laptop", "book:book"),
         on("laptop", "book"),
