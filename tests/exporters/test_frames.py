@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -9,6 +9,7 @@ from pat3d.exporters.common.frames import principal_axes, rotation_of, rpy_of, t
 angles = st.floats(-np.pi, np.pi)
 
 
+@settings(deadline=None)
 @given(angles, st.sampled_from([0.0, 1e-12, 1e-9, 1e-5, 0.3]), st.sampled_from([-1, 1]), angles)
 def test_roll_pitch_yaw_are_exact_up_to_the_pole(roll, off, sign, yaw):
     """Scipy builds the rotation; beside 90 degrees of pitch the angles are arbitrary but their product is not."""
@@ -18,6 +19,7 @@ def test_roll_pitch_yaw_are_exact_up_to_the_pole(roll, off, sign, yaw):
     np.testing.assert_allclose(Rotation.from_euler("xyz", angles).as_matrix(), rotation, atol=1e-15 * 8)
 
 
+@settings(deadline=None)
 @given(st.integers(0, 10_000))
 def test_principal_axes_are_a_rotation_that_diagonalises_far_from_the_pole(seed):
     rng = np.random.default_rng(seed)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -16,6 +16,7 @@ from pat3d.policies_eval.analysis.compare import PairedResult, verdict
 from pat3d.policies_eval.analysis.statistics import clopper_pearson, compare, episodes_needed, mcnemar, wilson
 
 
+@settings(deadline=None)
 @given(st.integers(1, 400), st.data())
 def test_both_intervals_are_those_of_their_definitions(n, data):
     """Wilson's ends are where the score test is just significant; the exact ones where a tail has 2.5 %."""

@@ -6,7 +6,7 @@ import contextlib
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 msgpack = pytest.importorskip("msgpack")
@@ -56,6 +56,7 @@ def test_arrays_that_are_not_plain_numbers_are_refused(array):
         wire.unpack(msgpack.packb({"actions": array}))
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=200))
 def test_junk_is_a_wire_error_or_plain_data(data):
     with contextlib.suppress(wire.WireError):
