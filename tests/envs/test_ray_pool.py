@@ -13,18 +13,18 @@ from pat3d.envs.suites.ray_pool import Cluster, RayPool
 from pat3d.errors import SuiteError
 
 
-class ClusterLost(Exception):
+class ClusterLostError(Exception):
     """In the place of RayError."""
 
 
-class WorkerLost(ClusterLost):
+class WorkerLostError(ClusterLostError):
     """In the place of RayActorError."""
 
 
 class Ray:
     """As much of the module as is used; remembers what it was asked to do."""
 
-    exceptions = SimpleNamespace(RayError=ClusterLost, RayActorError=WorkerLost)
+    exceptions = SimpleNamespace(RayError=ClusterLostError, RayActorError=WorkerLostError)
 
     def __init__(self, connected: bool = False) -> None:
         self.connected, self.told = connected, []
@@ -168,12 +168,12 @@ def test_a_worker_that_names_a_file_outside_of_the_suite_writes_nothing(ray, poo
 
 
 def test_a_worker_that_is_lost_ends_and_a_cluster_that_is_lost_is_an_error(ray, pool):
-    ray.answers.append(WorkerLost("the node\nis gone"))
+    ray.answers.append(WorkerLostError("the node\nis gone"))
     answer = pool.answer(1.0)
     assert (answer.ended, answer.units) == ("ended (the node is gone)", ((3, 1),))
     assert ray.told == ["kill"]
     assert pool.size == 0
     pool.spawn()
-    ray.answers.append(ClusterLost("no head"))
+    ray.answers.append(ClusterLostError("no head"))
     with pytest.raises(SuiteError, match="the Ray cluster was lost: no head What is finished is kept"):
         pool.answer(1.0)
