@@ -190,3 +190,21 @@ def test_the_hand_starts_eight_centimetres_above_what_is_near_it(stand, toward, 
     np.testing.assert_allclose(found.base_position, (0.0, 0.0, RISER), atol=1e-12)
     np.testing.assert_allclose(found.start, (0.4, 0.0, under + GRIPPER.tip + 0.08 - RISER), atol=1e-9)
     assert stand(post, arm=Arm(hand=(0.4, 0.0, 0.6))).start == (0.4, 0.0, 0.6)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "bench"),
+    [
+        ((0.0, 0.0, 0.0), (1.6, 1.2, 1.0), True),
+        ((0.0, 0.0, 0.0), (1.6 + 1e-6, 1.2, 1.0), False),
+        ((0.0, 0.0, 0.0), (1.6, 1.2 + 1e-6, 1.0), False),
+        ((0.0, 0.0, 0.0), (1.6, 1.2, 1.0 + 1e-6), False),
+        ((0.0, 0.0, 0.4 - 1e-6), (0.1, 0.1, 0.5), True),
+        ((0.0, 0.0, 0.4), (0.1, 0.1, 0.5), False),
+    ],
+)
+def test_on_a_workbench_goes_what_fits_there_and_stands_low(low, high, bench):
+    """At most 1.6 m by 1.2 m and 1 m high; what is to be taken stands less than 40 cm above the ground."""
+    site = placement._Site.of(Scene(objects=(block("cube", low, high),)), Needs(grasp=("cube",)))
+    assert site.bench == bench
+    assert site.surface == (0.0 if bench else low[2])
