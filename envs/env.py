@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pickle
+import copy
 from typing import Any, ClassVar
 
 import gymnasium
@@ -187,7 +187,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 
     def __deepcopy__(self, memo: dict[int, Any]) -> TabletopEnv:
         """As `__reduce__` says."""
-        return pickle.loads(pickle.dumps(self))
+        made, about = self.__reduce__()
+        return made(*copy.deepcopy(about, memo))
 
     def close(self) -> None:
         """Free the graphics context."""
