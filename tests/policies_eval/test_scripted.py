@@ -310,3 +310,14 @@ def test_what_is_to_be_held_is_lifted_until_it_has_risen_and_kept(trace):
     # What is jerked slips.
     heights = np.array([row.tip for row in rows if row.phase == "lift"]) - (HEIGHT - BITE)
     assert (heights <= scripted.LIFT_STEP * np.arange(2, 2 + len(heights)) + 1e-9).all()
+
+
+def test_a_hand_before_its_grasp_waits_until_it_no_longer_moves_fast_but_not_for_ever(trace):
+    """One that shot there is looked at again; one that never gets there goes on when patience ends."""
+    before = np.array([0.0, 0.0, HEIGHT - BITE + GRIPPER.tip + HOVER])
+    rows = trace(World(start(-0.039, before[2]), speed=0.038))
+    away = [float(np.linalg.norm(row.hand - before)) for row in rows if row.phase == "hover"]
+    assert [one < scripted.ALIGNED for one in away] == [True, True]
+    stopped = trace(World(start(-0.3, 0.2), limit=-0.1), steps=200)
+    for phase in ("hover", "descend"):
+        assert sum(row.phase == phase for row in stopped) == scripted.PATIENCE
