@@ -171,11 +171,14 @@ def test_others_are_sound_while_none_of_them_topples_or_falls():
 
 
 def judged_over(places, *, within: bool, lean: float = 0.0, **shape):
-    """Whether a cube with its middle at `places` of a parent's frame is in it or on it; the parent is elsewhere."""
+    """Whether a cube with its middle at `places` of a parent's frame, elsewhere and turned, is in it or on it."""
     s, f = at_rest(len(places)), floor_of((CHILD, PARENT), **shape)
     for world, place in enumerate(places):
+        turn(s, world, PARENT, 2, 40.0)
+        yaw = s.xmat[world, s.bodies[PARENT]].reshape(3, 3).copy()
         turn(s, world, PARENT, 1, lean)
-        frame = s.xmat[world, s.bodies[PARENT]].reshape(3, 3)
+        frame = yaw @ s.xmat[world, s.bodies[PARENT]].reshape(3, 3) @ yaw
+        s.xmat[world, s.bodies[PARENT]] = frame.reshape(9)
         put(s, world, CHILD, frame @ np.array(place) + s.xpos[world, s.bodies[PARENT]])
         # The cube leans along.
         s.xmat[world, s.bodies[CHILD]] = frame.reshape(9)
