@@ -14,6 +14,7 @@ import argparse
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -55,6 +56,9 @@ MESHES = (
     ("several bodies", "gymnasium_robotics/envs/assets/stls/hand/palm.stl"),
 )
 """What each is, and where it lies."""
+
+WHERE = re.compile(r'^\w+Error: (scene\.yaml:\d+:\d+: )?(objects\[0\](\.\w+)?: )?("thing": )?')
+"""Of an error's message, what says where in the specification it is."""
 
 SIZE = 0.2
 """Longest side [m], since the files have all kinds of units."""
@@ -105,9 +109,7 @@ def build(what: str, mesh: Path, limit: float, folder: Path) -> Row:
     verdict = {0: "verified", 1: "not verified", 2: "refused"}.get(done.returncode, "CRASH")
     if done.returncode and not lines:
         verdict, lines = "CRASH", done.stderr.strip().splitlines()[-1:]
-    reason = "" if done.returncode == 0 else lines[0].replace(str(mesh), mesh.name)
-    for words in ("SpecError: ", "scene.yaml:3:3: ", "objects[0].mesh: ", '"thing": ', " Nothing was written."):
-        reason = reason.replace(words, "")
+    reason = "" if done.returncode == 0 else WHERE.sub("", lines[0]).replace(str(mesh), mesh.name)
     return Row(name=mesh.name, what=what, parts=parts, verdict=verdict, seconds=seconds, reason=reason)
 
 

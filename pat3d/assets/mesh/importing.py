@@ -74,6 +74,10 @@ NEARLY_CONVEX = 0.93
 MAX_DENT = 0.11
 """Depth below the convex hull as a fraction of the object's longest side; 0.02 for objects with a cavity."""
 
+PATIENCE = 20.0
+"""Where there is a limit of processor time it decides, on a busy machine too: the clock only ends what has hung, after
+so many times the limit."""
+
 LEAST_SECONDS = 1.0
 """[s]; what a decomposition gets at least, so that one that is known is still found."""
 
@@ -140,6 +144,7 @@ def import_mesh(
         # A copy, since objects that share an asset share its files.
         return replace(_imported[key])
     budget = CpuBudget(cpu_limit)
+    timeout = timeout if cpu_limit is None else max(timeout, PATIENCE * cpu_limit)
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
