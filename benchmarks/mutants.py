@@ -39,7 +39,7 @@ GRACE = 60.0
 
 @dataclass
 class Baseline:
-    """The tests of one folder on the unchanged code."""
+    """The tests of a file or folder on the unchanged code."""
 
     seconds: dict[str, float] = field(default_factory=dict)
     """Time of every test [s]."""
@@ -86,10 +86,11 @@ class Tree:
         scratch.mkdir()
         environment = {
             **os.environ,
-            "PYTHONPATH": str(self.root),
+            "PYTHONPATH": os.pathsep.join(filter(None, [str(self.root), os.environ.get("PYTHONPATH")])),
             "PYTHONDONTWRITEBYTECODE": "1",
             "PAT3D_CACHE": str(scratch / "cache"),
-            "NUMBA_CACHE_DIR": str(scratch / "numba"),
+            # Compiled functions leave no trace of their lines, and compiling them takes longer than running them.
+            "NUMBA_DISABLE_JIT": "1",
             "OMP_NUM_THREADS": "1",
             "PAT3D_MUTANT_ORDER": str(orders),
             "TMPDIR": str(scratch),
@@ -167,6 +168,21 @@ def drawn(modules: Iterable[str], count: int, seed: int) -> list[Mutation]:
     return sorted(chosen, key=lambda one: (mirrored(one.path), one.path, one.start))
 
 
+def test_files(paths: Sequence[str]) -> list[str]:
+    """Test files among and under `paths`, relative to the repository."""
+    return [file for file in modules_in(paths) if Path(file).name.startswith("test_")]
+
+
+def merged(baselines: Sequence[Baseline]) -> Baseline:
+    """All of them as one."""
+    lines: dict[str, dict[int, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for one in baselines:
+        for module, by_line in one.lines.items():
+            for line, tests in by_line.items():
+                lines[module][line] += tests
+    return Baseline({name: time for one in baselines for name, time in one.seconds.items()}, lines)
+
+
 def by_turns(chosen: Sequence[Mutation]) -> list[Mutation]:
     """One mutation of each folder of tests after the other."""
     folders: dict[str, list[Mutation]] = defaultdict(list)
@@ -224,18 +240,17 @@ def main() -> int:
         for k in range(options.jobs):
             trees.put(Tree(ROOT, Path(scratch, str(k))))
 
-        def baseline(home: str) -> Baseline:
+        def baseline(home: str, tests: str) -> Baseline:
             tree = trees.get()
             try:
-                watched = [module for module in modules if mirrored(module) == home]
-                return tree.baseline([home, *options.tests], watched)
+                return tree.baseline([tests], [module for module in modules if mirrored(module) == home])
             finally:
                 trees.put(tree)
 
         def judge(mutation: Mutation) -> Verdict:
             if str(mutation) in known:
                 return Verdict(mutation, *known[str(mutation)])
-            unchanged = baselines[mirrored(mutation.path)].result()
+            unchanged = merged([future.result() for future in baselines[mirrored(mutation.path)]])
             tests = unchanged.tests_of(mutation.path, mutation.line, mutation.last_line)
             limit = GRACE + options.factor * sum(unchanged.seconds[test] for test in tests)
             tree = trees.get()
@@ -250,7 +265,9 @@ def main() -> int:
             return verdict
 
         homes = dict.fromkeys(mirrored(one.path) for one in chosen if str(one) not in known)
-        baselines = {home: pool.submit(baseline, home) for home in homes}
+        baselines = {
+            home: [pool.submit(baseline, home, file) for file in test_files([home, *options.tests])] for home in homes
+        }
         # Mutants of different folders by turns: those whose baseline is there first need not wait for the others.
         verdicts = list(pool.map(judge, by_turns(chosen)))
     print(table(sorted(verdicts, key=lambda one: (one.mutation.path, one.mutation.start))))
