@@ -107,6 +107,10 @@ class Cutter(Asides):
         relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
         if relative and (follower in lexicon.COPULAS | lexicon.VERBS or self._finite_at(self._at + 1)):
             return self._add("which")
+        if word == "'s" and is_modifier(follower) and self._tokens[self._at + 2].mark:
+            # "The mug's blue."
+            self._add("verb")
+            return self._quality()
         owned = word == "'s" and not link_at(self._tokens, self._at + 1)
         if owned and follower not in lexicon.DETERMINERS:
             return self._owned_part()
@@ -145,7 +149,8 @@ class Cutter(Asides):
 
     def _joined(self, key: tuple[str, ...]) -> None:
         """Read "along with two plates"; of "(is) in the sink along with two plates" these are in the sink too."""
-        placed = [piece.kind for piece in self._made.chunks[-3:]] == ["verb", "rel", "noun"]
+        rel = self._made.chunks[-2].link if [piece.kind for piece in self._made.chunks[-2:]] == ["rel", "noun"] else None
+        placed = rel is not None and rel.kind in ("on", "in") and rel.manner == "place"
         self._add("joint", len(key), text="and")
         read = self._phrases.read(self._at) if placed and key[-1] == "with" else None
         if read is not None and self._tokens[read[1]].mark:
@@ -266,7 +271,9 @@ class Cutter(Asides):
         """Read "(a mug is on the tray) and a bowl (is) too": it stands as what was named before."""
         before = [piece.kind for piece in self._made.chunks if piece.kind != "verb"]
         joined = before[-1:] == ["noun"] and before[-2:-1] in (["joint"], ["clause"])
-        if joined and self._tokens[self._at + size].mark:
+        alone = [piece.kind for piece in self._made.chunks] in (["noun"], ["noun", "joint"])
+        if (joined or alone) and self._tokens[self._at + size].mark:
+            self._made.chunks = [piece for piece in self._made.chunks if not (alone and piece.kind == "joint")]
             self._add("place", size, text="too")
         else:
             self._at += size

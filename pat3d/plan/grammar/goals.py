@@ -31,6 +31,9 @@ class Goals(Having):
         if kind != "link" or self._link(at).manner == "source":
             return None
         link = self._link(at)
+        if "which" in modifier.flags:
+            # "the bottle that is behind the oven": where it is, not where it is to go.
+            return None
         if link.inverse and (link.manner != "with" or link.kind is not None):
             return None
         cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)

@@ -236,6 +236,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "pick":
         return [f"pick:{names[items[0]]}"] if len(items) == 1 else []
     goal = next((item for item in step.goal if item in names), None)
+    if goal is not None and goal.group.height > 1:
+        goal = world.tops(step.goal)[-1]
     if step.manner == "stack" and goal is None and len(items) == 2:
         return [f"stack:{names[items[0]]}:{names[items[1]]}"]
     if goal is None or step.link is None:

@@ -103,7 +103,8 @@ class PhraseReader:
                 and depth < 3
                 and (inner := self.read(after + 1, depth + 1))
             ):
-                single = flags.get("one", False)
+                single = flags.get("one", False) and not flags.get("each", False)
+                count = None if flags.get("each", False) else count
                 phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
                 if single and (phrase.count or 1) > 1:
                     phrase, count = replace(phrase, one_of=True), phrase.count

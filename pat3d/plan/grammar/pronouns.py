@@ -43,7 +43,11 @@ class Pronouns:
     def ref(self, at: int) -> list[Item]:
         """What chunk `at` speaks of."""
         if at in self.known:
-            return self.known[at]
+            items = self.known[at]
+            if at in self.each and len(items) == 1 and items[0].group.multiplied:
+                # "a cushion on each chair and a cat on each cushion": of all that there are by now.
+                return list(items[0].group.items)
+            return items
         if at in self.bound:
             return [item for head in self.bound[at] for item in self.ref(head)]
         return []

@@ -150,7 +150,7 @@ class Relating:
                 note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
                 world.arrange("across", children, tops, note)
                 self.cost += 0.3
-        world.place(children, kind, parents)
+        world.place(children, kind or "on", parents)
 
     def _under(self, children: list[Item], parents: list[Item], said: str) -> None:
         world = self.world

@@ -17,6 +17,8 @@ from pat3d.scene.relations import LateralKind, RelationKind
 
 HARDLY = 2.0
 """Cost of a support from which on a note says that it is odd: what is round or slender carries nothing."""
+CRAMPED = 1.3
+"""Cost of being in a vessel from which on a note says so: dishes in a pan, a vase in a mug."""
 UNUSUAL = 0.6
 """Cost of a support above which nobody thinks of it unless it is said outright."""
 MAX_OBJECTS = 60
@@ -292,6 +294,9 @@ class World:
         self.supports[child] = Edge(child=child, kind=kind, parent=parent, weak=weak)
         if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
             self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
+        hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
+        if hollow and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:
+            self.note(f'"{child.group.words}" in "{parent.group.words}": it hardly fits there.')
         if not weak:
             self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]
             if old is not None and old.weak and self._may_stand(parent, old.parent):
