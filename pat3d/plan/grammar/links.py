@@ -97,6 +97,8 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
+    rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
+    add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))
     for near in ("at", "on", "near", "in", "by"):
         for part in ("edge", "corner", "end"):
             place = f"{near} the {part} of"
@@ -185,9 +187,10 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
             "in a single line", "in a horizontal line", "in line", "in one line",
         ),
         "beside": (
-            "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
-            "next to one another", "close together", "face to face",
+            "next to each other", "beside each other", "near each other", "next to one another", "close together",
         ),
+        "side_by_side": ("side by side", "side-by-side"),
+        "facing": ("face to face", "face-to-face"),
         "order": ("from left to right", "left to right", "ordered from left to right"),
         "reverse": ("from right to left", "right to left"),
     }.items()

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.arranging import stands_under
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.objects import forget_count, multiply, recount
 from pat3d.plan.grammar.plausible import LARGE
@@ -71,6 +72,8 @@ class Relating:
                 world.arrange(
                     "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
                 )
+            if link.says == "circle":
+                world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
             table = world.is_table(parents[0]) and world.on_floor(parents[0])
@@ -162,8 +165,10 @@ class Relating:
         if thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
+        elif stands_under(world, children, parents):
+            world.arrange("under", children, parents, said.format("under"))
         else:
-            world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
+            world.note(f"not arranged: {said.format('under')}; it is placed next to it")
             world.beside(children, "next_to", parents)
 
     def both_sides(self, children: list[Item], parents: list[Item]) -> None:
@@ -201,7 +206,8 @@ class Relating:
             world.forget_guess(child, parents[0])
         if len(sides) > 2:
             world.arrange("between", children, sides, f"{said}: between more than two")
-            world.beside(children, "next_to", sides[:1])
+            if len(children) > 1:
+                world.beside(children, "next_to", sides[:1])
             return
         world.arrange("between", children, sides)
         for index, neighbour in enumerate(sides):

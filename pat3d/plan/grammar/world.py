@@ -110,6 +110,8 @@ class Arranged:
     items: list[Item]
     of: list[Item]
     arranged: bool = False
+    otherwise: str = ""
+    """What a note says of it where the scene cannot hold it; empty where the relations say it in any case."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -345,7 +347,5 @@ class World:
         return None
 
     def arrange(self, kind: ArrangementKind, items: Sequence[Item], of: Sequence[Item] = (), note: str = "") -> None:
-        """Record an arrangement; `note` says what is not arranged."""
-        self.arranged.append(Arranged(kind=kind, items=list(items), of=list(of), arranged=not note))
-        if note:
-            self.note(f"not arranged: {note}")
+        """Record an arrangement; `note` says what is not arranged where the scene cannot hold it."""
+        self.arranged.append(Arranged(kind=kind, items=list(items), of=list(of), arranged=not note, otherwise=note))
