@@ -16,15 +16,10 @@ def together(world: World) -> list[Edge]:
     return [
         Edge(child=child, kind="next_to", parent=parent, weak=False)
         for each in world.arranged
-        if each.kind in _SHARED and _takes(each)
+        if each.kind in _SHARED
         for child in each.items
         for parent in each.of
     ]
-
-
-def stands_under(world: World, children: list[Item], parents: list[Item]) -> bool:
-    """Whether `children` can be brought about under `parents`: one thing below an overhang."""
-    return len(children) == 1 and len(parents) == 1 and world.is_a(parents[0], lexicon.OVERHANGING)
 
 
 def settle(world: World) -> None:
@@ -35,9 +30,11 @@ def settle(world: World) -> None:
             each.of = [] if carrier is None else [carrier]
         if not each.otherwise:
             continue
-        each.arranged = _spans(world, each) if each.kind == "across" else _holds(world, each)
+        each.arranged = each.exact and (_spans(world, each) if each.kind == "across" else _holds(world, each))
         if not each.arranged:
             world.note(f"not arranged: {each.otherwise}")
+            if each.kind == "under":
+                world.beside(each.items, "next_to", each.of)
 
 
 def further_carriers(world: World, names: dict[Item, str]) -> list[Relation]:
@@ -71,7 +68,14 @@ def _holds(world: World, each: Arranged) -> bool:
         level = world.likely.level(world.noun(each.of[0]))
         return level and all(edge is not None and edge.kind == "on" and edge.parent is each.of[0] for edge in edges)
     everything = {*each.items, *each.of}
-    return not any(everything & set(world.ancestors(item)) for item in everything)
+    supports = {world.support(item) for item in everything}
+    kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
+    if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
+        return False
+    if each.kind == "under" and not world.is_a(each.of[0], lexicon.OVERHANGING):
+        return False
+    within = len(supports) == 1 and "in" in kinds
+    return not within and not any(everything & set(world.ancestors(item)) for item in everything)
 
 
 def _spans(world: World, each: Arranged) -> bool:

@@ -248,6 +248,8 @@ STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage b
 OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley")  # fmt: skip
 """What stands on legs, so that things can stand below it."""
+LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
+"""What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})

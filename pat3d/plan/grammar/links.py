@@ -111,21 +111,23 @@ def _table() -> dict[tuple[str, ...], Link]:
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
     add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
+    add(Link(manner="gaze", says="facing"), "facing", "pointing at", "turned toward", "turned towards", "facing toward",
+        "facing towards", "pointing towards", "pointing toward")  # fmt: skip
+    add(Link(manner="gaze", says="facing", finite=True), "faces", "face", "points at")
     add(
-        Link(manner="gaze", says="facing"),
-        "gazing into", "facing", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
+        Link(manner="gaze"),
+        "gazing into", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
         "watching",
         "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
-        "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
+        "reading", "reaching for", "admiring", "eyeing",
     )  # fmt: skip
     add(
-        Link(manner="gaze", finite=True, says="facing"),
+        Link(manner="gaze", finite=True),
         "gazes into",
         "gazes at",
         "looks at",
         "stares at",
         "watches",
-        "faces",
     )
     add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
     add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.arranging import stands_under
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.objects import forget_count, multiply, recount
 from pat3d.plan.grammar.plausible import LARGE
@@ -37,7 +36,7 @@ class Relating:
         if link.manner == "than":
             world.note(f"not modelled: {said.format(link.said)}")
         elif link.manner == "gaze":
-            world.arrange("facing", children, parents, said.format("facing"))
+            world.arrange("facing", children, parents, said.format("facing"), link.says == "facing")
         elif link.manner == "far":
             world.arrange("far_from", children, parents, said.format("far from"))
         elif link.manner == "under":
@@ -151,7 +150,8 @@ class Relating:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
                 note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
-                world.arrange("across", children, tops, note)
+                like = world.is_a(children[0], lexicon.LONG) or world.noun(children[0]) == world.noun(parent)
+                world.arrange("across", children, tops, note, link.says == "across" or like)
                 self.cost += 0.3
         world.place(children, kind or "on", parents)
 
@@ -165,11 +165,8 @@ class Relating:
         if thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
-        elif stands_under(world, children, parents):
-            world.arrange("under", children, parents, said.format("under"))
         else:
-            world.note(f"not arranged: {said.format('under')}; it is placed next to it")
-            world.beside(children, "next_to", parents)
+            world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
 
     def both_sides(self, children: list[Item], parents: list[Item]) -> None:
         """`children` stand on both sides of `parents`."""
