@@ -113,7 +113,7 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
     add(Link(manner="gaze", says="facing"), "facing", "pointing at", "turned toward", "turned towards", "facing toward",
         "facing towards", "pointing towards", "pointing toward")  # fmt: skip
-    add(Link(manner="gaze", says="facing", finite=True), "faces", "face", "points at")
+    add(Link(manner="gaze", says="facing", finite=True), "faces", "points at")
     add(
         Link(manner="gaze"),
         "gazing into", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
@@ -192,7 +192,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
             "next to each other", "beside each other", "near each other", "next to one another", "close together",
         ),
         "side_by_side": ("side by side", "side-by-side"),
-        "facing": ("face to face", "face-to-face"),
+        "facing": ("face to face", "face-to-face", "face each other", "face one another"),
         "order": ("from left to right", "left to right", "ordered from left to right"),
         "reverse": ("from right to left", "right to left"),
     }.items()

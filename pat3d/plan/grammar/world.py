@@ -351,5 +351,7 @@ class World:
     def arrange(
         self, kind: ArrangementKind, items: Sequence[Item], of: Sequence[Item] = (), note: str = "", exact: bool = True
     ) -> None:
-        """Record an arrangement; `note` says what is not arranged where the scene cannot hold it, or it is not `exact`."""
-        self.arranged.append(Arranged(kind=kind, items=list(items), of=list(of), arranged=not note, otherwise=note, exact=exact))
+        """Record an arrangement; `note` says what is not arranged where it is not `exact` or no scene can hold it."""
+        self.arranged.append(
+            Arranged(kind=kind, items=list(items), of=list(of), arranged=not note, otherwise=note, exact=exact)
+        )
