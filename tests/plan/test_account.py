@@ -1,4 +1,4 @@
-"""Every word of a sentence has an effect on the plan, or a note names it; what no plan can say is refused by its word."""
+"""Every word of a sentence has an effect on the plan, or a note names it; else it is refused by that word."""
 
 from dataclasses import replace
 

@@ -149,9 +149,8 @@ class Cutter(Asides):
 
     def _joined(self, key: tuple[str, ...]) -> None:
         """Read "along with two plates"; of "(is) in the sink along with two plates" these are in the sink too."""
-        rel = (
-            self._made.chunks[-2].link if [piece.kind for piece in self._made.chunks[-2:]] == ["rel", "noun"] else None
-        )
+        last = self._made.chunks[-2:]
+        rel = last[0].link if [piece.kind for piece in last] == ["rel", "noun"] else None
         placed = rel is not None and rel.kind in ("on", "in") and rel.manner == "place"
         self._add("joint", len(key), text="and")
         read = self._phrases.read(self._at) if placed and key[-1] == "with" else None
