@@ -183,7 +183,10 @@ class _Teller:
     def _said(self, rel: Relation) -> bool:
         """Whether a row or "between" says it."""
         for each in self._plan.arrangements:
-            if each.arranged and each.kind == "row" and {rel.child, rel.parent} <= set(each.objects):
+            if each.arranged and each.kind in ("row", "side_by_side") and {rel.child, rel.parent} <= set(each.objects):
+                return True
+            beside = each.kind in ("circle", "leaning_against") and rel.kind in ("around", "next_to")
+            if each.arranged and beside and rel.child in each.objects and rel.parent in each.of:
                 return True
             if each.arranged and each.kind == "between" and rel.parent in each.objects and rel.child in each.of:
                 return True

@@ -9,7 +9,7 @@ import pytest
 from pat3d.cli.main import main
 from pat3d.cli.reading import AskingPlanner
 
-TWO_READINGS = "a mug far from a laptop on a desk"
+TWO_READINGS = "a mug facing a laptop on a desk"
 
 
 def test_plan_prints_the_telling_the_tree_the_notes_and_the_task(capsys):

@@ -52,7 +52,7 @@ def test_a_number_for_each_of_several_is_as_many_times_it():
         ("A tower of alternating red and white cubes, six in all.", "six"),
         ("The second shelf of the bookcase holds a trophy.", "second"),
         ("Each of the four corners of the table has a candle.", "four"),
-        ("A tray that carries two cups, one upside down.", "upside down"),
+        ("A tray that carries two cups, one tilted.", "tilted"),
         ("The mug's handle points to the left of the kettle.", "points"),
         ("A mug with a picture of a cat on it.", "picture of a cat"),
         ("Six glasses on a tray, two of them broken.", "broken"),

@@ -26,8 +26,10 @@ class Asides(RelationWords):
         after_noun = self._last is not None and self._last.kind == "noun"
         if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
             return self._leave(self._to_mark())
-        if self._words(3) == ("of", "the", "same") and after_noun:
-            return self._leave(4)
+        if self._words(3) == ("of", "the", "same") and self._last is not None and after_noun:
+            self._made.unread.append(" ".join((self._last.text, *self._words(4))))
+            self._at += 4
+            return True
         if word in ("all", "both") and follower in lexicon.STATES and self._tokens[self._at + 2].mark:
             return self._leave(2)
         if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 
 from pat3d.errors import PromptError
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import arranging, lexicon
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
-from pat3d.plan.grammar.postures import is_natural, kind_of
+from pat3d.plan.grammar.postures import is_held, kind_of
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
@@ -45,9 +45,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     _widen_bowls(world, nouns)
     _pair_sides(world)
     _share_supports(world)
+    arranging.settle(world)
     objects = _objects(world, nouns)
     names = {item: obj.name for item, obj in objects.items()}
-    relations = [*_supports(world, names), *_laterals(world, names)]
+    relations = [*_supports(world, names), *arranging.further_carriers(world, names), *_laterals(world, names)]
     postures = _postures(world, names)
     arrangements = [
         Arrangement(kind=each.kind, objects=tuple(names[i] for i in each.items if i in names),
@@ -143,7 +144,7 @@ def _share_supports(world: World) -> None:
             edge = world.supports.get(each.of[0])
             free = [item for item in free if item not in world.ancestors(carrier)]
             world.place(free, edge.kind if edge is not None else "on", [carrier])
-    edges = list(world.laterals)
+    edges = [*world.laterals, *arranging.together(world)]
     for _ in range(len(edges)):
         known = len(world.supports)
         for edge in edges:
@@ -243,9 +244,9 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
     for item, name in names.items():
         group = item.group
         for said in dict.fromkeys((*group.modifiers.postures, *item.told.postures)):
-            natural = is_natural(said, lies=world.is_a(item, lexicon.LYING))
-            made.append(Posture(object=name, kind=kind_of(said), said=said, arranged=natural))
-            if not natural:
+            held = is_held(said, lies=world.is_a(item, lexicon.LYING))
+            made.append(Posture(object=name, kind=kind_of(said), said=said, arranged=held))
+            if not held:
                 note = f'not arranged: "{said}"; "{group.words}" is placed the way the catalogue makes it'
                 world.note(note)
     return made

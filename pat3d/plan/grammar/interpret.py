@@ -130,7 +130,7 @@ class Interpreter(Placing):
             if chunk.kind != "noun":
                 continue
             speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
-            if speaks and not self._said.ref(at) and at not in self._said.bound:
+            if speaks and not self._said.ref(at) and at not in self._said.bound and at not in self._handled:
                 self._world.note(f'not understood: "{chunk.text}"')
             if at in heard or self._clause.manner is not None:
                 self._note_part(at)
@@ -147,6 +147,7 @@ class Interpreter(Placing):
         if not carried or not any(world.is_table(item) for item in items):
             return 0.0
         related = {each for edge in world.laterals for each in (edge.child, edge.parent)}
+        related |= {item for each in world.arranged if each.kind == "under" for item in (*each.items, *each.of)}
         told = {item for each in world.sided for item in each.items}
         loose = [
             item for item in items
@@ -256,7 +257,13 @@ class Interpreter(Placing):
             self._note_part(head)
         if not children or not parents:
             if not (parents and not children and self._of_everything(child_heads, link, parents)):
-                self._said.not_understood((*child_heads, *parent_heads))
+                nothing = [head for head in child_heads if self._chunks[head].text == "both"]
+                if parents and nothing and self._clause.manner is None:
+                    # "both on a rug": the note names the rug.
+                    said = " ".join(f'"{self._chunks[head].text}"' for head in parent_heads)
+                    self._said.not_understood(nothing, f" {self._chunks[at].text} {said}")
+                    self._handled |= set(nothing)
+                self._said.not_understood([head for head in (*child_heads, *parent_heads) if head not in self._handled])
             return
         phrase = places[0]
         self._check_own(link, child_heads, children, parents)

@@ -245,6 +245,11 @@ THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet"
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
 """What else is below rather than beside what it is "under", where that does not stand on the floor."""
+OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
+    "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley")  # fmt: skip
+"""What stands on legs, so that things can stand below it."""
+LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
+"""What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk")
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})

@@ -97,6 +97,8 @@ def _table() -> dict[tuple[str, ...], Link]:
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
+    rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
+    add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))
     for near in ("at", "on", "near", "in", "by"):
         for part in ("edge", "corner", "end"):
             place = f"{near} the {part} of"
@@ -109,21 +111,23 @@ def _table() -> dict[tuple[str, ...], Link]:
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
     add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
+    add(Link(manner="gaze", says="facing"), "facing", "pointing at", "turned toward", "turned towards", "facing toward",
+        "facing towards", "pointing towards", "pointing toward")  # fmt: skip
+    add(Link(manner="gaze", says="facing", finite=True), "faces", "points at")
     add(
-        Link(manner="gaze", says="facing"),
-        "gazing into", "facing", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
+        Link(manner="gaze"),
+        "gazing into", "gazing at", "looking at", "looking into", "looking toward", "looking towards",
         "watching",
         "staring at", "staring into", "gazing toward", "gazing towards", "peering into", "peering at", "studying",
-        "reading", "pointing at", "reaching for", "admiring", "eyeing", "turned toward", "turned towards",
+        "reading", "reaching for", "admiring", "eyeing",
     )  # fmt: skip
     add(
-        Link(manner="gaze", finite=True, says="facing"),
+        Link(manner="gaze", finite=True),
         "gazes into",
         "gazes at",
         "looks at",
         "stares at",
         "watches",
-        "faces",
     )
     add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
     add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",
@@ -185,9 +189,10 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
             "in a single line", "in a horizontal line", "in line", "in one line",
         ),
         "beside": (
-            "next to each other", "beside each other", "side by side", "side-by-side", "near each other",
-            "next to one another", "close together", "face to face",
+            "next to each other", "beside each other", "near each other", "next to one another", "close together",
         ),
+        "side_by_side": ("side by side", "side-by-side"),
+        "facing": ("face to face", "face-to-face", "face each other", "face one another"),
         "order": ("from left to right", "left to right", "ordered from left to right"),
         "reverse": ("from right to left", "right to left"),
     }.items()

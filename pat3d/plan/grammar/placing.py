@@ -139,10 +139,16 @@ class Placing:
             kind = chunk.link.says or "far_from"
             world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
         elif chunk.text == "circle":
-            world.arrange("circle", items, (), f'"{groups[0].words}" in a circle')
+            world.arrange("circle", items, self._ringed(items), f'"{groups[0].words}" in a circle')
+        elif chunk.text == "facing":
+            world.arrange("facing", items, (), f'"{groups[0].words}" facing each other')
         elif whole is not None:
             whole.rows = 1
-            world.arrange("row", items)
+            world.arrange("side_by_side" if chunk.text == "side_by_side" else "row", items)
+        elif chunk.text == "side_by_side":
+            world.arrange("side_by_side", items)
+            for left, right in zip(items, items[1:], strict=False):
+                world.beside([right], "next_to", [left])
         else:
             ordered = items[::-1] if chunk.text == "reverse" else items
             world.arrange("row", ordered)
@@ -151,6 +157,14 @@ class Placing:
                     world.beside([right], "next_to", [left])
                 else:
                     world.beside([left], "left_of", [right])
+
+    def _ringed(self, items: Sequence[Item]) -> list[Item]:
+        """What all of `items` are around, if there is one such thing."""
+        around = {
+            item: edge.parent for edge in self._world.laterals for item in items
+            if edge.kind == "around" and edge.child is item
+        }  # fmt: skip
+        return list(set(around.values())) if len(around) == len(items) and len(set(around.values())) == 1 else []
 
     def _stacked(self, groups: list[Group], *, tall: bool) -> None:
         """Put each of `groups` on the one before, or where they are several objects each on one another."""

@@ -1,4 +1,4 @@
-"""Words for how an object is turned ("upside down", "on its side"), none of which the layout can do.
+"""Words for how an object is turned ("upside down", "on its side"), and which of them a scene holds.
 
 A posture becomes one token whose text begins with "_", which no word of a prompt can.
 """
@@ -19,7 +19,11 @@ POSTURE = (
     r"|leaning to (?:one|the|its) (?:side|left|right)|facing the (?:viewer|camera|front|left|right|wall)"
 )
 """Pattern of a posture."""
-_UPRIGHT = "upright"
+_HELD = re.compile(
+    r"upright|(?:turned )?upside[ -]down|bottom[ -]up|inverted|flipped(?: over)?|turned over"
+    r"|(?:\w+ )?(?:on|onto) (?:its|their) sides?|toppled(?: over)?|(?:tipped|knocked) over"
+)
+"""Postures that a scene holds as they are said."""
 
 
 def token_text(said: str) -> str:
@@ -37,9 +41,13 @@ def read_posture(word: str) -> str:
     return word.removeprefix("_posture:")
 
 
-def is_natural(posture: str, *, lies: bool) -> bool:
-    """Whether an object that by nature lies, or else stands, has `posture` anyway."""
-    return posture == _UPRIGHT and not lies
+def is_held(posture: str, *, lies: bool) -> bool:
+    """Whether a scene holds `posture` of an object that by nature lies, or else stands.
+
+    What lies as the catalogue makes it can be turned over; its sides are not those of what stands.
+    """
+    held = _HELD.fullmatch(posture.lower()) is not None
+    return held and (not lies or kind_of(posture) == "upside_down")
 
 
 def kind_of(posture: str) -> PostureKind:

@@ -324,9 +324,9 @@ class References(Pronouns):
             tell(items[0], told)
         return items[:1] if told.size_word or phrase.one_of else list(items)
 
-    def not_understood(self, heads: Sequence[int]) -> None:
-        """Name those of `heads` that speak of nothing."""
+    def not_understood(self, heads: Sequence[int], where: str = "") -> None:
+        """Name those of `heads` that speak of nothing, and `where` they are said to be."""
         for head in heads:
             phrase = self._chunks[head].phrase
             if phrase is not None and not self.ref(head) and phrase.kind in ("items", "pieces", "part", "pronoun"):
-                self._world.note(f'not understood: "{phrase.words}"')
+                self._world.note(f'not understood: "{phrase.words}"{where}')

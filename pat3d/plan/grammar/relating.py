@@ -36,7 +36,7 @@ class Relating:
         if link.manner == "than":
             world.note(f"not modelled: {said.format(link.said)}")
         elif link.manner == "gaze":
-            world.arrange("facing", children, parents, said.format("facing"))
+            world.arrange("facing", children, parents, said.format("facing"), link.says == "facing")
         elif link.manner == "far":
             world.arrange("far_from", children, parents, said.format("far from"))
         elif link.manner == "under":
@@ -71,6 +71,8 @@ class Relating:
                 world.arrange(
                     "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
                 )
+            if link.says == "circle":
+                world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
             table = world.is_table(parents[0]) and world.on_floor(parents[0])
@@ -148,7 +150,8 @@ class Relating:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
                 note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
-                world.arrange("across", children, tops, note)
+                like = world.is_a(children[0], lexicon.LONG) or world.noun(children[0]) == world.noun(parent)
+                world.arrange("across", children, tops, note, link.says == "across" or like)
                 self.cost += 0.3
         world.place(children, kind or "on", parents)
 
@@ -164,7 +167,6 @@ class Relating:
             world.arrange("under", children, parents)
         else:
             world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
-            world.beside(children, "next_to", parents)
 
     def both_sides(self, children: list[Item], parents: list[Item]) -> None:
         """`children` stand on both sides of `parents`."""
@@ -201,7 +203,8 @@ class Relating:
             world.forget_guess(child, parents[0])
         if len(sides) > 2:
             world.arrange("between", children, sides, f"{said}: between more than two")
-            world.beside(children, "next_to", sides[:1])
+            if len(children) > 1:
+                world.beside(children, "next_to", sides[:1])
             return
         world.arrange("between", children, sides)
         for index, neighbour in enumerate(sides):

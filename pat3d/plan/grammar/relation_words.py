@@ -105,12 +105,9 @@ class RelationWords(Cursor):
             return False
         if words[-1] not in RINGS:
             raise refuse(words[-1], self._tokens[after - 1].number)
-        around = self._tokens[after].text in ("around", "surrounding")
-        surrounded = any(piece.link is not None and piece.link.manner == "surround" for piece in self._made.chunks)
-        if around or surrounded:
-            self._at = after
-        else:
-            self._add("form", 3, text="circle")
+        if self._tokens[after].text in ("around", "surrounding"):
+            return False
+        self._add("form", 3, text="circle")
         return True
 
     def _several(self) -> bool:

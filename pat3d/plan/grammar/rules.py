@@ -90,7 +90,9 @@ class Grammar(Goals):
         said = self._link(at)
         if said.manner == "between":
             plural = len(objects.heads) > 1 or any(self._several(head) for head in objects.heads)
-            cost += 0.0 if plural and len(objects.heads) <= 2 else 1.5
+            # "between a, b and c", but not "between a and b, and c".
+            whole = len(objects.heads) <= 2 or not set(objects.joints[:-1]) - {","}
+            cost += (0.0 if len(objects.heads) <= 2 else 0.2) if plural and whole else 1.5
         if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5

@@ -110,6 +110,10 @@ class Arranged:
     items: list[Item]
     of: list[Item]
     arranged: bool = False
+    otherwise: str = ""
+    """What a note says of it where the scene cannot hold it; empty where the relations say it in any case."""
+    exact: bool = True
+    """Whether the kind is what was said: "gazing at" says more than "facing"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -344,8 +348,10 @@ class World:
                     return None if one in above_parent or other in above_child else (one, other)
         return None
 
-    def arrange(self, kind: ArrangementKind, items: Sequence[Item], of: Sequence[Item] = (), note: str = "") -> None:
-        """Record an arrangement; `note` says what is not arranged."""
-        self.arranged.append(Arranged(kind=kind, items=list(items), of=list(of), arranged=not note))
-        if note:
-            self.note(f"not arranged: {note}")
+    def arrange(
+        self, kind: ArrangementKind, items: Sequence[Item], of: Sequence[Item] = (), note: str = "", exact: bool = True
+    ) -> None:
+        """Record an arrangement; `note` says what is not arranged where it is not `exact` or no scene can hold it."""
+        self.arranged.append(
+            Arranged(kind=kind, items=list(items), of=list(of), arranged=not note, otherwise=note, exact=exact)
+        )

@@ -1,0 +1,85 @@
+"""Which of the arrangements that a prompt asks for the scene is to hold; a note names every other one."""
+
+from __future__ import annotations
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.world import Arranged, Edge, Item, World
+from pat3d.scene.arrangements import ARRANGEMENTS
+from pat3d.scene.relations import Relation
+
+_SHARED = ("far_from", "under")
+"""Kinds that have both on the same support and no lateral relation that says so."""
+
+
+def together(world: World) -> list[Edge]:
+    """What stands on the same surface because of an arrangement, as lateral relations of `world`."""
+    return [
+        Edge(child=child, kind="next_to", parent=parent, weak=False)
+        for each in world.arranged
+        if each.kind in _SHARED
+        for child in each.items
+        for parent in each.of
+    ]
+
+
+def settle(world: World) -> None:
+    """Mark what the scene is to hold, now that it is known what carries what; note what it is not."""
+    for each in world.arranged:
+        if each.kind == "in_middle" and not each.of:
+            carrier = world.support(each.items[0])
+            each.of = [] if carrier is None else [carrier]
+        if not each.otherwise:
+            continue
+        each.arranged = each.exact and (_spans(world, each) if each.kind == "across" else _holds(world, each))
+        if not each.arranged:
+            world.note(f"not arranged: {each.otherwise}")
+            if each.kind == "under":
+                world.beside(each.items, "next_to", each.of)
+
+
+def further_carriers(world: World, names: dict[Item, str]) -> list[Relation]:
+    """The carriers, beyond the first, of what lies across several."""
+    return [
+        Relation(child=names[child], kind="on", parent=names[parent])
+        for each in world.arranged
+        if each.kind == "across" and each.arranged
+        for child in world.bases(each.items)
+        for parent in each.of
+        if parent is not world.support(child)
+    ]
+
+
+def _takes(each: Arranged) -> bool:
+    rule = ARRANGEMENTS.get(each.kind)
+    if rule is None or not rule.takes(len(each.items), len(each.of)) or set(each.items) & set(each.of):
+        return False
+    alone = {"facing": len(each.items) == 2, "far_from": len(each.items) > 1}
+    return (each.kind != "between" or len(each.of) < 3 or len(each.items) == 1) and (
+        bool(each.of) or alone.get(each.kind, True)
+    )
+
+
+def _holds(world: World, each: Arranged) -> bool:
+    """Whether a scene can say `each`: so many objects, on what is to carry them, and not on one another."""
+    if not _takes(each):
+        return False
+    if ARRANGEMENTS[each.kind].on_it:
+        edges = [world.supports.get(item) for item in each.items]
+        level = world.likely.level(world.noun(each.of[0]))
+        return level and all(edge is not None and edge.kind == "on" and edge.parent is each.of[0] for edge in edges)
+    everything = {*each.items, *each.of}
+    supports = {world.support(item) for item in everything}
+    kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
+    if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
+        return False
+    if each.kind == "under" and not world.is_a(each.of[0], lexicon.OVERHANGING):
+        return False
+    within = len(supports) == 1 and "in" in kinds
+    return not within and not any(everything & set(world.ancestors(item)) for item in everything)
+
+
+def _spans(world: World, each: Arranged) -> bool:
+    """Whether one thing can lie on all of the others: they are alike and stand on one surface."""
+    alike = len({item.group.noun for item in each.of}) == 1 and len({world.support(item) for item in each.of}) == 1
+    edges = [world.supports.get(item) for item in world.bases(each.items)]
+    return alike and all(edge is not None and edge.kind == "on" and edge.parent in each.of for edge in edges)

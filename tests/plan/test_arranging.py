@@ -1,0 +1,140 @@
+"""What a sentence says of places and postures is what the scene is to hold; what it says otherwise is not."""
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import ScenePlan
+
+PLANNER = GrammarPlanner()
+
+
+def held(plan: ScenePlan) -> set[str]:
+    """The arrangements and the postures that the scene is to hold."""
+    return {*map(str, plan.held()), *map(str, plan.turned())}
+
+
+@pytest.mark.parametrize(
+    ("sentence", "wanted"),
+    [
+        # between
+        ("A mug between the bowl and the vase.", {"mug between bowl, vase"}),
+        ("A mug stands between a bowl, a can and a vase.", {"mug between bowl, can, vase"}),
+        ("There is a lamp in between two books on the desk.", {"lamp between book 1, book 2"}),
+        ("A table with a fork between a plate and a bowl.", {"fork between plate, bowl"}),
+        # far from
+        ("A mug far from the bowl.", {"mug far_from bowl"}),
+        ("A bowl is on a table. A mug is far away from the bowl.", {"mug far_from bowl"}),
+        ("Two vases far from each other.", {"vase 1, vase 2 far_from"}),
+        # places on a surface
+        ("A cup at the edge of the table.", {"cup at_edge table"}),
+        ("Two cups on the edge of a desk.", {"cup 1, cup 2 at_edge desk"}),
+        ("A table with a vase near the edge of it.", {"vase at_edge table"}),
+        ("A can in the corner of the table.", {"can in_corner table"}),
+        ("A lamp stands at the corner of a desk.", {"lamp in_corner desk"}),
+        ("There is a mug on the corner of the tray.", {"mug in_corner tray"}),
+        ("A bowl in the middle of the table.", {"bowl in_middle table"}),
+        ("A vase stands in the centre of a desk.", {"vase in_middle desk"}),
+        ("A vase is on a table, in the middle.", {"vase in_middle table"}),
+        ("At the center of the tray is a candle.", {"candle in_middle tray"}),
+        # rows, circles, each other
+        ("Four cups in a row.", {"cup 1, cup 2, cup 3, cup 4 row"}),
+        ("A mug, a can and a vase are lined up.", {"mug, can, vase row"}),
+        ("A laptop and a book side by side.", {"laptop, book side_by_side"}),
+        ("Two mugs side by side on a tray.", {"mug 1, mug 2 side_by_side"}),
+        ("Three vases stand side-by-side.", {"vase 1, vase 2, vase 3 side_by_side"}),
+        ("Four candles in a circle around the vase.", {"candle 1, candle 2, candle 3, candle 4 circle vase"}),
+        ("A vase surrounded by three cups in a circle.", {"cup 1, cup 2, cup 3 circle vase"}),
+        ("Five balls in a ring.", {"ball 1, ball 2, ball 3, ball 4, ball 5 circle"}),
+        ("Three stools arranged in a circle around a table.", {"stool 1, stool 2, stool 3 circle table"}),
+        # facing
+        ("Two chairs facing each other.", {"chair 1, chair 2 facing"}),
+        ("A cat and a dog face each other.", {"cat, dog facing"}),
+        ("A chair faces the television.", {"chair facing television"}),
+        ("A chair turned towards a table.", {"chair facing table"}),
+        # leaning
+        ("A book leaning against a box.", {"book leaning_against box"}),
+        ("An umbrella leans on a chair.", {"umbrella leaning_against chair"}),
+        ("A tablet is propped up against a vase on a desk.", {"tablet leaning_against vase"}),
+        # under
+        ("A ball under the table.", {"ball under table"}),
+        ("Under the bench is a shoe.", {"shoe under bench"}),
+        ("A dog lies beneath a desk.", {"dog under desk"}),
+        # postures
+        ("A bottle lying on its side on a table.", {"bottle on_its_side"}),
+        ("Two toppled cans.", {"can 1 on_its_side", "can 2 on_its_side"}),
+        ("A vase is on its side.", {"vase on_its_side"}),
+        ("An upside-down mug on a towel.", {"mug upside_down"}),
+        ("A tray that carries two cups, one upside down.", {"cup 1 upside_down"}),
+        ("An inverted bowl on a plate.", {"bowl upside_down"}),
+        ("A bottle standing upright on a table.", {"bottle upright"}),
+    ],
+)  # fmt: skip
+def test_what_is_said_is_held(sentence: str, wanted: set[str]):
+    plan = PLANNER.plan(sentence)
+    assert held(plan) == wanted
+    assert not any(note.startswith("not arranged") for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "note"),
+    [
+        ("A bear gazing at a mug.", "facing"),
+        ("A mug is in the middle of a box.", ""),
+        ("A book leaning against the wall.", ""),
+        ("Two books leaning against each other.", "leaning against each other"),
+        ("A book leans on a stack of two books.", "leaning against"),
+        ("Two balls under a table.", "under"),
+        ("A chair hanging from a tree, with a ball under it.", "under"),
+        ("A book under a lamp.", ""),
+        ("Two balls in a circle.", "in a circle"),
+        ("Three books standing upright.", "upright"),
+        ("A bear lying on its back.", "lying on its back"),
+        ("A mug rotated by 45 degrees.", "rotated by 45 degrees"),
+        ("A cup tilted to one side.", "tilted"),
+        ("A ruler across a box and a chair.", "across"),
+        ("A lamp on two books.", "together"),
+        ("Three chairs facing each other.", "facing each other"),
+        ("A chair at the corner of a rug, a box in the corner of a bed.", ""),
+        ("A clock with a white face.", ""),
+        ("Four chairs around a table.", ""),
+    ],
+)  # fmt: skip
+def test_what_is_said_otherwise_is_not_held(sentence: str, note: str):
+    plan = PLANNER.plan(sentence)
+    near = {one for one in held(plan) if "in_corner" not in one}
+    assert not near
+    assert not note or any(each.startswith("not arranged") and note in each for each in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "carriers"),
+    [
+        ("A plank across two blocks.", ("block 1", "block 2")),
+        ("A board lies across two boxes.", ("box 1", "box 2")),
+        ("A plank on two crates.", ("crate 1", "crate 2")),
+        ("A box on top of two other boxes.", ("box 2", "box 3")),
+    ],
+)  # fmt: skip
+def test_what_lies_across_is_carried_by_all(sentence: str, carriers: tuple[str, ...]):
+    plan = PLANNER.plan(sentence)
+    (child,) = {rel.child for rel in plan.relations if rel.supports}
+    assert sorted(rel.parent for rel in plan.relations if rel.child == child) == sorted(carriers)
+    assert not plan.notes
+
+
+def test_what_is_far_from_something_on_a_table_is_on_the_table():
+    plan = PLANNER.plan("A bowl is on a table. A mug is far from the bowl.")
+    assert plan.parent("mug") == "table"
+
+
+def test_what_cannot_be_under_is_beside_and_said():
+    plan = PLANNER.plan("A chair hanging from a tree, with a ball under it.")
+    assert "ball next_to tree" in set(map(str, plan.relations))
+
+
+def test_what_leans_and_what_is_under_is_told_once():
+    from pat3d.plan.telling import tell
+
+    assert tell(PLANNER.plan("A book leaning against a box.")) == (
+        "A book and a box stand on the ground. The book is leaning against the box."
+    )
