@@ -51,4 +51,6 @@ def test_the_fingers_of_a_cloned_policy_open_or_close_and_the_hand_moves_as_the_
     np.testing.assert_allclose(action[:6], np.tanh(said[:6].numpy()), rtol=1e-6)
     assert action[6] == fingers
     # An action of full size is no policy error.
-    np.testing.assert_array_equal(checked(action, 7)[0], action)
+    values, clipped = checked(action, 7)
+    np.testing.assert_array_equal(values, action[None])
+    assert clipped == 0
