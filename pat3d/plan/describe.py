@@ -9,15 +9,19 @@ from pat3d.scene.relations import GROUND
 def describe(plan: ScenePlan) -> str:
     """The scene tree of `plan`, one object a line, its relations in a column at the right; notes below.
 
-    Lateral relations follow the support ("on; next_to red mug").
+    Lateral relations and arrangements follow the support ("on; next_to red mug"); of several carriers, those beside the
+    one that it stands under are named ("on; on block 2").
     """
     tree = plan.tree()
-    words = {
-        obj.name: [rel.kind for rel in plan.relations if rel.supports and rel.child == obj.name] for obj in plan.objects
-    }
-    for relation in plan.relations:
-        if not relation.supports:
-            words[relation.child].append(f"{relation.kind} {relation.parent}")
+    words: dict[str, list[str]] = {obj.name: [] for obj in plan.objects}
+    for relation in sorted(plan.relations, key=lambda relation: not relation.supports):
+        plain = relation.supports and relation.parent == plan.parent(relation.child)
+        words[relation.child].append(relation.kind if plain else f"{relation.kind} {relation.parent}")
+    for each in plan.held():
+        for name in each.objects:
+            words[name].append(f"{each.kind} {', '.join(each.of)}".rstrip())
+    for each in plan.turned():
+        words[each.object].append(each.kind)
     proxies = {obj.name for obj in plan.objects if obj.proxy}
     rows: list[tuple[str, str]] = []
     waiting = [(GROUND, 0)]

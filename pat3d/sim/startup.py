@@ -9,6 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+_NOTICES = (b"NVIDIA CUDA driver", b"CUDA error 100:")
+"""No driver; a driver and no device."""
+
 
 def quiet_warp() -> Any:
     """The initialised `warp` module, without its banner."""
@@ -33,6 +36,6 @@ def _no_gpu_notice() -> Iterator[None]:
             os.dup2(terminal, 2)
             os.close(terminal)
             caught.seek(0)
-            rest = b"".join(line for line in caught if b"NVIDIA CUDA driver" not in line)
+            rest = b"".join(line for line in caught if not any(notice in line for notice in _NOTICES))
             if rest:
                 os.write(2, rest)
