@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
 PROMPT ?= A fruit bowl with an apple, an orange and a pear, a stack of three books with a red mug on top, and next to it a pen holder holding two pencils and a ruler.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-dev engines demo format check test test-all bench transfer clean
+.PHONY: help setup setup-dev engines demo format check test quick test-all bench transfer clean
 
 help:  ## list the targets
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -48,7 +48,11 @@ check: setup-dev  ## lint and types
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright
 
-test: check  ## lint, types and the quick tests
+# The type checker has one thread: beside the tests it costs little time.
+test: setup-dev  ## lint, types and the quick tests
+	@$(MAKE) --no-print-directory --jobs 2 check quick
+
+quick: setup-dev  ## the quick tests alone
 	$(BIN)/pytest -m 'not slow' --numprocesses auto
 
 test-all: check  ## every test, the slow ones too

@@ -80,6 +80,7 @@ def test_the_same_blocks_give_the_same_bits(together, tmp_path):
     assert files_of(again, {"index.html"}) == files_of(together, {"index.html"})
 
 
+@pytest.mark.slow
 def test_a_run_killed_in_the_middle_of_a_block_loses_nothing(alone, tmp_path):
     folder = SuiteFolder(tmp_path / "killed")
     run = subprocess.Popen([sys.executable, "-c", KILLED, str(folder.path)])

@@ -61,7 +61,16 @@ def test_the_same_command_again_keeps_what_is_done_and_makes_what_is_missing(run
     assert [row["folder"] for row in rows(root)] == ["a_wooden_block", "a_ball", "a_book"]
 
 
-@pytest.mark.parametrize("change", [["--seed", "1"], ["--friction", "0.3"], ["--formats", "mjcf", "urdf"]])
+@pytest.mark.parametrize(
+    "change",
+    [
+        ["--seed", "1"],
+        *(
+            pytest.param(change, marks=pytest.mark.slow)
+            for change in (["--friction", "0.3"], ["--formats", "mjcf", "urdf"])
+        ),
+    ],
+)
 def test_a_scene_with_other_settings_is_made_anew(run, change, capfd):
     root, _ = run
     (root / "one.txt").write_text("a ball\n")
