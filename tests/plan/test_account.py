@@ -95,3 +95,9 @@ def test_what_cannot_be_read_is_refused_by_its_word(sentence: str, why: str):
 )
 def test_no_second_reading_is_told_that_nobody_thinks_of(sentence: str, never: str):
     assert never not in PLANNER.plan(sentence).otherwise
+
+
+def test_what_is_set_aside_holds_nothing_up_and_a_note_says_so():
+    plan = PLANNER.plan("A broom leaning against the wall.")
+    assert plan.set_aside == ("the wall",)
+    assert plan.notes == ('not arranged: "leaning against" "the wall", which is set aside',)

@@ -116,9 +116,11 @@ class Interpreter(Placing):
         kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
         link = self._chunks[at].link
         told = link is not None and link.manner not in ("include", "gaze", "goal")
+        said = " ".join(f'"{self._chunks[head].text}"' for head in two)
         if told and kinds <= {"object", "unknown", "pieces", "pronoun"}:
-            said = " ".join(f'"{self._chunks[head].text}"' for head in two)
             self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
+        elif link is not None and link.says:
+            self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
 
     def _account(self, facts: Sequence[tuple]) -> None:
         """Name every word of the sentence that had no effect."""
