@@ -50,9 +50,10 @@ class Baseline:
         """Tests that run the module, those of lines `first` to `last` before the others, quick ones before slow."""
         lines = self.lines.get(module, {})
         near = {test for line in range(first, last + 1) for test in lines.get(line, ())}
-        # What runs at import, or is compiled by Warp and never run by Python, may matter to any test of the folder.
-        touching = {test for tests in lines.values() for test in tests if test} or set(self.seconds)
-        chosen = [test for test in self.seconds if test in touching]
+        # What a fixture made is looked at by tests that run no line themselves: all of a file count. What runs at
+        # import, or is compiled by Warp and never run by Python, may matter to any test of the folder.
+        files = {test.partition("::")[0] for tests in lines.values() for test in tests if test}
+        chosen = [test for test in self.seconds if not files or test.partition("::")[0] in files]
         return sorted(chosen, key=lambda test: (test not in near, self.seconds[test]))
 
 
