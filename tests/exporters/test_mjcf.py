@@ -287,8 +287,10 @@ def test_the_ground_reaches_under_what_stands_far_from_the_origin(x, tmp_path):
 
 @pytest.mark.parametrize("side", [0.02, 0.5, 4.0])
 def test_lights_and_camera_are_outside_of_the_scene_and_look_at_its_middle(side, tmp_path):
-    """A scene of two boxes to one side of the origin, of any size: the key light from the left, the other from the
-    right, and the camera in front, all above and further away than the scene is long, but not by much."""
+    """The key light is to the left and the other to the right, the camera in front between them, and all are above.
+
+    They are further away than the scene is long, but not by much.
+    """
     one = asset_of(box(side, side, side))
     scene = scene_of(placed("a", one, (3.0, -2.0, GAP)), placed("b", one, (3.0 + 2 * side, -2.0 + side, GAP)))
     model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m")))
