@@ -48,6 +48,9 @@ def test_a_line_meets_a_ball_where_geometry_says(angle):
 def test_a_line_beside_a_face_it_is_parallel_to_misses_the_part():
     towards = (1.0, 0.0, 0.0)
     assert through((0.3, 0.99, 0.0), towards, SIDES, np.ones(6)) == (-1.3, 0.7, 1.0, 1.0)
+    # A part has its surface: a line in a face, or along an edge, meets it.
+    assert through((0.3, 1.0, 0.0), towards, SIDES, np.ones(6)) == (-1.3, 0.7, 1.0, 1.0)
+    assert through((0.3, -1.0, 1.0), towards, SIDES, np.ones(6)) == (-1.3, 0.7, 1.0, 1.0)
     for start in ((0.0, 1.01, 0.0), (0.0, 0.0, -1.01)):
         assert through(start, towards, SIDES, np.ones(6))[:2] == (math.inf, -math.inf)
 

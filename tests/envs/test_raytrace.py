@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
-from pat3d.envs.rendering.raytrace import SUN, RayTracer
+from pat3d.envs.rendering.raytrace import SKY, SUN, TILE, RayTracer
 
 SIZE = 11
 BOX = """
@@ -63,3 +63,80 @@ def test_a_surface_shows_its_outside_unless_that_is_turned_away(normal):
     if normal[2] > 0.0:
         tracer._bodies[0].normals[:] *= -1.0
         np.testing.assert_array_equal(middle(tracer, data), seen)
+
+
+PAINTED = """
+<mujoco>
+  <asset>
+    <texture name="red" type="2d" builtin="flat" rgb1="1 0.2 0.1" width="4" height="4"/>
+    <texture name="blue" type="2d" builtin="flat" rgb1="0.1 0.4 1" width="4" height="4"/>
+    <material name="red" texture="red"/>
+    <material name="blue" texture="blue" rgba="0.5 1 0.5 1"/>
+    <material name="bare" rgba="0.2 0.6 0.4 1"/>
+  </asset>
+  <worldbody>
+    <body>
+      <geom name="a" type="box" size="0.1 0.1 0.1" material="red"/>
+      <geom name="b" type="box" size="0.1 0.1 0.1" pos="1 0 0" material="bare"/>
+      <geom name="c" type="box" size="0.1 0.1 0.1" pos="2 0 0" material="blue"/>
+      <geom name="d" type="box" size="0.1 0.1 0.1" pos="3 0 0" rgba="0.3 0.1 0.9 1"/>
+    </body>
+    {cameras}
+  </worldbody>
+</mujoco>
+"""
+COLOURS = [(1.0, 0.2, 0.1), (0.2, 0.6, 0.4), (0.05, 0.4, 0.5), (0.3, 0.1, 0.9)]
+"""Of the four boxes: texture times material where there are both."""
+
+
+def test_every_geom_of_a_body_has_its_own_texture_or_none():
+    cameras = "".join(f'<camera pos="{x} 0 2" fovy="5"/>' for x in range(4))
+    model = mujoco.MjModel.from_xml_string(PAINTED.format(cameras=cameras))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    tracer = RayTracer(model)
+    brightness = lit((0.0, 0.0, 1.0)) / (255.0 * np.array([0.8, 0.4, 0.2]))
+    for camera, colour in enumerate(COLOURS):
+        drawn = tracer.draw(data, camera, SIZE, SIZE, depth=False, segmentation=True)
+        assert drawn.geoms is not None
+        assert (drawn.geoms == camera).all()
+        expected = np.clip(255.0 * brightness * np.array(colour), 0.0, 255.0)
+        # A texture has 255 steps of its own.
+        np.testing.assert_allclose(drawn.image.reshape(-1, 3), np.tile(expected, (SIZE * SIZE, 1)), atol=1.3)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 25.0, 60.0, 80.0])
+def test_a_floor_is_where_the_view_meets_it_in_tiles_that_fade_into_the_sky(tilt):
+    """Seen from 2 m above a floor that is turned, from one straight down to one with its horizon in the picture."""
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><geom name="floor" type="plane" size="0 0 1" pos="0.3 -0.2 0.1" euler="0 0 30"/>
+        <camera pos="1 0.5 2.1" euler="{tilt} 0 0" fovy="40"/></worldbody></mujoco>"""
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    drawn = RayTracer(model).draw(data, 0, 30, 40, depth=True, segmentation=True)
+    assert drawn.depth is not None
+    assert drawn.geoms is not None
+    scale = 2.0 * np.tan(np.radians(20.0)) / 30
+    y, x = np.mgrid[0:30, 0:40]
+    views = np.stack([(x + 0.5 - 20) * scale, (15 - y - 0.5) * scale, -np.ones((30, 40))], axis=-1)
+    views = views @ data.cam_xmat[0].reshape(3, 3).T
+    below = views[..., 2] < -1e-3
+    assert below.any()
+    assert below.all() == (tilt < 70.0)
+    np.testing.assert_array_equal(drawn.geoms, np.where(below, 0, -1))
+    # Views go a metre ahead, so that what they are multiplied by is the depth.
+    depth = 2.0 / -views[below][:, 2]
+    far = model.vis.map.zfar * model.stat.extent
+    np.testing.assert_allclose(drawn.depth[below], np.minimum(depth, far), rtol=1e-4)
+    assert (drawn.depth[~below] == np.float32(far)).all()
+    np.testing.assert_allclose(drawn.image[~below], np.tile(255.0 * SKY, (int((~below).sum()), 1)), atol=0.51)
+    place = (views[below] * depth[:, None] + [1.0, 0.5, 2.1] - [0.3, -0.2, 0.1]) @ data.geom_xmat[0].reshape(3, 3)
+    tiles = place[:, :2] / TILE
+    # Away from the joints, which are as sharp as rounding allows.
+    plain = (np.abs(tiles - np.round(tiles)) > 1e-3).all(axis=1)
+    shade = np.where(np.floor(tiles).sum(axis=1) % 2 > 0, 0.8, 0.74)[:, None] * [1.0, 0.99, 0.96]
+    fade = np.clip(depth * np.linalg.norm(views[below], axis=1) / 12.0, 0.0, 1.0)[:, None]
+    expected = 255.0 * (shade * (1.0 - fade) + SKY * fade)
+    assert len(set(np.round(shade[plain, 0], 3))) == 2
+    np.testing.assert_allclose(drawn.image[below][plain], expected[plain], atol=0.6)

@@ -1,15 +1,24 @@
 """Parity convicts files in which one number was changed, and acquits those that were not."""
 
 import json
+import math
 import re
 import shutil
+from dataclasses import replace
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from pat3d.assets.shapes import box
 from pat3d.errors import ExportError
 from pat3d.exporters import export, parity
+from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.compare import QUANTITIES
+from pat3d.exporters.compare import _errors as errors_of
+from pat3d.geometry.pose import Pose
 from tests.exporters.things import mixed_scene
+from tests.scenes import asset_of, placed
 
 FORMATS = ("mjcf", "urdf", "sdf")
 
@@ -119,3 +128,68 @@ def test_a_path_without_an_export_is_an_error_that_lists_what_is_looked_for(scen
 def test_the_report_is_json(scene, written):
     for path in written.values():
         json.dumps(parity(scene, path).as_dict(), allow_nan=False)
+
+
+LONG = placed("plank", asset_of(box(0.1, 0.2, 0.4)), (1.0, 2.0, 3.0))
+VOLUME = 0.1 * 0.2 * 0.4
+
+
+def _as_read(**changed) -> BodyReadback:
+    properties = LONG.asset.mass_properties
+    read = BodyReadback(
+        name="plank",
+        mass=properties.mass,
+        centre=np.array(properties.centre_of_mass),
+        inertia=np.array(properties.inertia),
+        friction=LONG.asset.material.friction,
+        hull_volume=VOLUME,
+        pose=LONG.pose,
+        fixed=False,
+    )
+    return replace(read, **changed)
+
+
+def _wrong(silent=frozenset(), **changed) -> dict[str, float | None]:
+    """The errors of a reading with these values in place of the plank's own."""
+    found = errors_of(LONG, _as_read(**changed), VOLUME, frozenset(silent))
+    return {name: getattr(found, name) for name in QUANTITIES}
+
+
+@pytest.mark.parametrize(
+    ("changed", "quantity", "expected"),
+    [
+        ({"mass": 1.03 * LONG.asset.mass_properties.mass}, "mass", 0.03),
+        ({"friction": 0.9 * LONG.asset.material.friction}, "friction", 0.1),
+        ({"hull_volume": 1.2 * VOLUME}, "hull_volume", 0.2),
+        # 3 mm along x and 4 mm along y are 5 mm, and the longest side has 400.
+        (
+            {"centre": np.array(LONG.asset.mass_properties.centre_of_mass) + (0.003, 0.004, 0.0)},
+            "centre",
+            0.005 / 0.4,
+        ),
+        ({"pose": replace(LONG.pose, position=(1.0, 2.003, 2.996))}, "position", 0.005),
+        ({"pose": Pose.from_yaw(0.3, LONG.pose.position)}, "rotation", 0.3),
+        ({"pose": Pose.from_yaw(-2.8, LONG.pose.position)}, "rotation", 2.8),
+    ],
+)
+def test_the_error_of_each_quantity_is_in_the_unit_it_is_said_to_be_in_and_of_no_other(changed, quantity, expected):
+    found = _wrong(**changed)
+    assert found.pop(quantity) == pytest.approx(expected, rel=1e-9)
+    assert all(error == pytest.approx(0.0, abs=1e-12) for error in found.values())
+    if quantity not in ("position", "rotation"):
+        assert _wrong({quantity}, **changed)[quantity] is None
+
+
+def test_the_error_of_inertia_is_the_larger_of_the_tensor_s_and_of_its_moments():
+    """A turned tensor has the same moments; a wrong smallest moment hardly shows in the whole."""
+    inertia = np.array(LONG.asset.mass_properties.inertia)
+    moments = np.diag(inertia)
+    turn = Rotation.from_euler("z", 90, degrees=True).as_matrix()
+    # A quarter of a turn about z swaps the first two.
+    swapped = math.sqrt(2.0) * abs(moments[0] - moments[1]) / np.linalg.norm(moments)
+    assert _wrong(inertia=turn @ inertia @ turn.T)["inertia"] == pytest.approx(swapped)
+    smallest = int(moments.argmin())
+    thicker = inertia.copy()
+    thicker[smallest, smallest] *= 1.01
+    assert _wrong(inertia=thicker)["inertia"] == pytest.approx(0.01)
+    assert math.isnan(_wrong(inertia=np.full((3, 3), np.nan))["inertia"])

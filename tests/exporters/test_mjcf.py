@@ -1,3 +1,4 @@
+import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -282,3 +283,30 @@ def test_the_ground_reaches_under_what_stands_far_from_the_origin(x, tmp_path):
     scene = scene_of(placed("block", asset_of(box(0.1, 0.1, 0.1)), (x, -x, GAP)))
     report = settle_in_mujoco(write_mjcf(scene, tmp_path / "mjcf"), 0.2)
     assert report.worst_mm < 0.1
+
+
+@pytest.mark.parametrize("side", [0.02, 0.5, 4.0])
+def test_lights_and_camera_are_outside_of_the_scene_and_look_at_its_middle(side, tmp_path):
+    """The key light is to the left and the other to the right, the camera in front between them, and all are above.
+
+    They are further away than the scene is long, but not by much.
+    """
+    one = asset_of(box(side, side, side))
+    scene = scene_of(placed("a", one, (3.0, -2.0, GAP)), placed("b", one, (3.0 + 2 * side, -2.0 + side, GAP)))
+    model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m")))
+    length = math.sqrt(9.0 + 4.0 + 1.0) * side
+    reach, middle = max(length, 0.2), np.array([3.0 + side, -2.0 + side / 2, side / 2 + GAP])
+    eye, frame = model.camera("front").pos, np.zeros(9)
+    mujoco.mju_quat2Mat(frame, model.camera("front").quat)
+    places = [*((model.light(name).pos, model.light(name).dir) for name in ("key", "fill")), (eye, -frame[2::3])]
+    for place, ahead in places:
+        np.testing.assert_allclose((middle - place) / np.linalg.norm(middle - place), ahead, atol=1e-6)
+        assert place[2] > middle[2]
+        assert length < np.linalg.norm(place - middle) < 6.0 * reach
+    (key, _), (fill, _), _ = places
+    assert key[0] < middle[0] < fill[0]
+    assert max(key[1], fill[1], eye[1]) < middle[1]
+    # Of a larger scene they are further away, to the same scale.
+    np.testing.assert_allclose((key - middle) / reach, 2.0 * np.array([-1.0, -1.2, 2.0]), atol=1e-5)
+    assert eye[0] == pytest.approx(middle[0])
+    assert bool(model.light("key").castshadow[0]) > bool(model.light("fill").castshadow[0])

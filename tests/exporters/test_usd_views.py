@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 pytest.importorskip("pxr")
-from pxr import Gf, Sdf, Usd, UsdGeom
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from pat3d.assets.shapes import box
 from pat3d.errors import ExportError
 from pat3d.exporters.usd import stage as stage_module
+from pat3d.exporters.usd.asset_layer import bind_physics, define_box, physics_material
 from pat3d.exporters.usd.reader import read_usd
 from pat3d.exporters.usd.stage import open_stage
 from pat3d.exporters.usd.writer import write_usd, write_usd_asset
@@ -107,3 +108,38 @@ def test_a_stage_of_as_many_prims_as_are_allowed_is_read_and_one_with_more_is_no
     monkeypatch.setattr(stage_module, "MAX_PRIMS", count - 1)
     with pytest.raises(ExportError, match=f"more than {count - 1} prims"):
         open_stage(path)
+
+
+HALF, CENTRE, TURN = (0.1, 0.2, 0.3), (1.0, -2.0, 0.5), (0.5, 0.5, 0.5, 0.5)
+"""A third of a turn about the diagonal takes x to y, y to z and z to x."""
+
+
+def test_a_box_is_a_collider_with_the_corners_and_the_bound_that_its_half_sizes_say():
+    stage = Usd.Stage.CreateInMemory()
+    box_prim = define_box(stage, "/box", CENTRE, HALF, TURN)  # type: ignore[arg-type]
+    boundable = UsdGeom.Boundable(box_prim)
+    np.testing.assert_array_equal(
+        boundable.GetExtentAttr().Get(), UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, Usd.TimeCode.Default())
+    )
+    np.testing.assert_array_equal(boundable.GetExtentAttr().Get(), [(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)])
+    purposes = [UsdGeom.Tokens.default_, UsdGeom.Tokens.guide]
+    around = UsdGeom.BBoxCache(Usd.TimeCode.Default(), purposes).ComputeWorldBound(box_prim).ComputeAlignedRange()
+    turned = np.array([HALF[2], HALF[0], HALF[1]])
+    np.testing.assert_allclose(around.GetMin(), CENTRE - turned, atol=1e-9)
+    np.testing.assert_allclose(around.GetMax(), CENTRE + turned, atol=1e-9)
+    assert box_prim.HasAPI(UsdPhysics.CollisionAPI)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.35, 1.2])
+def test_a_surface_rubs_as_much_at_rest_as_in_motion_and_does_not_bounce(friction):
+    """And every reader finds it, whichever purpose it looks for."""
+    stage = Usd.Stage.CreateInMemory()
+    prim = define_box(stage, "/box", CENTRE, HALF)  # type: ignore[arg-type]
+    bind_physics(prim, physics_material(stage, Sdf.Path("/rubber"), friction))
+    for purpose in ("physics", UsdShade.Tokens.allPurpose):
+        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial(purpose)
+        physics = UsdPhysics.MaterialAPI(material.GetPrim())
+        assert physics.GetPath() == Sdf.Path("/rubber")
+        assert physics.GetStaticFrictionAttr().Get() == pytest.approx(friction)
+        assert physics.GetDynamicFrictionAttr().Get() == pytest.approx(friction)
+        assert physics.GetRestitutionAttr().Get() == 0.0
