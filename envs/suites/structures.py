@@ -62,6 +62,7 @@ def _place_loose(kind: str, companions: int) -> Callable[[Composer], str]:
 def _place_from_tower(c: Composer) -> str:
     where = c.container(place=True)
     base = c.tower(1)
+    c.places.append(base)
     width = min(STACKED_WIDTH, where[1].width)
     return f"place:{c.item(base, 'on', moved=True, groups=(FLAT, STANDING), width=width)}:{where[0]}"
 
