@@ -206,7 +206,7 @@ def test_a_body_under_the_ground_is_named_and_a_start_inside_a_detailed_surface_
 
 @pytest.mark.parametrize("rings", [6, 12, 13, 25])
 def test_clusters_have_at_most_32_triangles_and_more_than_half_as_many(rings):
-    """A ring of 22 triangles a segment: halves of halves of 132 and of 264 have 33 just before they are halved again."""
+    """A ring of 22 triangles a segment: of 132 and of 264, halving leaves 33 at one time."""
     mesh = trimesh.creation.torus(0.05, 0.02, major_sections=rings, minor_sections=11)
     part = ConvexPart(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces, dtype=np.int32))
     assert len(part.faces) == 22 * rings
