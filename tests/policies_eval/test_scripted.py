@@ -15,7 +15,7 @@ from pat3d.assets.shapes import box, join
 from pat3d.envs.grasping.grasp import Grasp
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.robots.robot import Gripper
-from pat3d.envs.tasks.moves import DROP_HEIGHT, RELEASE, Move, Planner
+from pat3d.envs.tasks.moves import ABOVE, DROP_HEIGHT, RELEASE, Move, Planner
 from pat3d.policies_eval.policies import scripted
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
@@ -58,6 +58,10 @@ class World:
     sticky: bool = False
     """What was held stays on a finger."""
     spot: tuple[float, float, float] | None = GOAL
+    lean: float = 0.0
+    """Of the grasp [rad]."""
+    rest: int = 0
+    """Looks at what was let go until it is still."""
 
     def __post_init__(self):
         # Corners of the core are nearer to the hand than those of the whole.
@@ -92,6 +96,10 @@ class World:
         if self.grip:
             self.shift = self.shift + self.hand - before
 
+    def still(self, name):
+        self.rest -= 1
+        return self.rest < 0
+
     @property
     def env(self):
         state = SimpleNamespace(
@@ -102,7 +110,7 @@ class World:
             start_centre=lambda name: np.array([0.0, 0.0, HEIGHT / 2]),
             touched=lambda name: bool(self.grip) or self.sticky,
             touch=lambda name, other: self.touches(name, other),
-            still=lambda name: True,
+            still=self.still,
         )
         simulation = SimpleNamespace(state=state, fingers=np.array([self.width, -self.width]) / 2)
         return SimpleNamespace(
@@ -124,8 +132,8 @@ class Servo:
 class OneMove(Planner):
     """Plans one move of the block, and then nothing; everything else as the real planner does it."""
 
-    def __init__(self, env, spot):
-        self._env, self._gripper, self._left = env, GRIPPER, [spot]
+    def __init__(self, env, spot, lean):
+        self._env, self._gripper, self._left, self._lean = env, GRIPPER, [spot], lean
 
     def next(self, failures):
         if not self._left:
@@ -133,7 +141,7 @@ class OneMove(Planner):
         spot = self._left.pop()
         tips = (0.0, 0.0, HEIGHT - BITE)
         at = np.array(tips) + (0.0, 0.0, GRIPPER.tip)
-        grasp = Grasp(position=tips, closing=0.0, bite=BITE, score=1.0, width=WIDTH)
+        grasp = Grasp(position=tips, closing=0.0, bite=BITE, score=1.0, width=WIDTH, lean=self._lean)
         up = np.array([0.0, 0.0, HOVER])
         return Move(
             name="block",
@@ -157,7 +165,7 @@ class Live:
 
 class Policy(ScriptedPolicy):
     def _plan(self):
-        return OneMove(self._env, self._env.world.spot)
+        return OneMove(self._env, self._env.world.spot, self._env.world.lean)
 
 
 @pytest.fixture
@@ -173,7 +181,7 @@ def trace(monkeypatch):
         )
         policy.reset(start)
         while policy._phase != "wait" and len(rows) < steps:
-            policy.act({})
+            assert policy.act({}).shape == (7,)
             if policy._phase == "wait":
                 break
             world.step()
@@ -321,3 +329,74 @@ def test_a_hand_before_its_grasp_waits_until_it_no_longer_moves_fast_but_not_for
     stopped = trace(World(start(-0.3, 0.2), limit=-0.1), steps=200)
     for phase in ("hover", "descend"):
         assert sum(row.phase == phase for row in stopped) == scripted.PATIENCE
+
+
+@pytest.mark.parametrize("height", [0.0, 0.1, 0.3])
+def test_what_is_put_down_comes_from_well_above_its_place_however_high_that_is(trace, height):
+    """Nothing is on the way; where the place is low the hand's own way is higher still."""
+    rows = trace(World(start(0.0, 0.16), spot=(0.9, 0.0, height)))
+    let_go = next(row for row in rows if row.phase == "open").hand[2]
+    arrived = [row for row in rows if row.phase == "carry"][-1].hand[2]
+    assert arrived - let_go > ABOVE - scripted.NEAR
+    if height >= 0.1:
+        assert arrived - let_go < ABOVE + scripted.NEAR
+
+
+@pytest.mark.parametrize("looks", [1, 5, 100])
+def test_what_was_let_go_is_waited_for_until_it_is_still_but_not_for_ever(trace, looks):
+    rows = trace(World(start(0.0, 0.16), rest=looks))
+    waited = [row for row in rows if row.phase == "settle"]
+    assert len(waited) == min(looks + 1, scripted.SETTLE_STEPS)
+    # The hand stays where it was withdrawn to.
+    assert np.ptp([row.hand for row in waited], axis=0).max() < scripted.NEAR
+
+
+class Path:
+    """Stands for the planner of ways of the hand: some places on the way, or none."""
+
+    def __init__(self, places, planned):
+        self.places, self.planned = places, planned
+
+    def __call__(self, env):
+        return self
+
+    def through(self, goals):
+        self.planned.append(goals)
+        return None if self.places is None else [(np.array(place), goals[-1][1]) for place in self.places]
+
+
+def led(monkeypatch, trace, world, places):
+    """Rows of the phase before a leaning hand hovers, and how often its way was planned."""
+    planned = []
+    monkeypatch.setattr(scripted, "HandPath", Path(places, planned))
+    rows = trace(world, steps=300)
+    return rows, [row for row in rows if row.phase == "over"], planned
+
+
+WAY = ((-0.2, 0.2, 0.4), (0.0, 0.3, 0.4), (0.1, 0.1, 0.3))
+
+
+def test_a_leaning_hand_passes_all_places_of_a_way_that_is_planned_once(monkeypatch, trace):
+    rows, over, planned = led(monkeypatch, trace, World(start(-0.3, 0.1), lean=0.5), WAY)
+    assert phases(rows)[:3] == ["rise", "over", "hover"]
+    assert len(planned) == 1
+    nearest = [np.linalg.norm([row.hand - np.array(place) for row in over], axis=1) for place in WAY]
+    assert max(one.min() for one in nearest) < scripted.ON_THE_WAY + 0.02
+    assert np.all(np.diff([int(one.argmin()) for one in nearest]) > 0)
+    # The way begins above where the hand comes from and ends there.
+    (above, _), (before, _) = planned[0]
+    np.testing.assert_array_equal(above[:2], before[:2])
+    assert above[2] > before[2]
+
+
+def test_every_place_of_the_way_that_is_never_reached_is_given_up_when_patience_ends(monkeypatch, trace):
+    """One step is the phase's first, or the one in which the place before was passed."""
+    _, over, planned = led(monkeypatch, trace, World(start(-0.3, 0.1), limit=-0.3, lean=0.5), WAY)
+    assert len(planned) == 1
+    assert 3 * (scripted.PATIENCE - 1) <= len(over) <= 3 * (scripted.PATIENCE + 1)
+
+
+def test_a_leaning_hand_without_a_way_goes_straight_to_where_it_hovers(monkeypatch, trace):
+    rows, over, planned = led(monkeypatch, trace, World(start(-0.3, 0.1), lean=0.5), None)
+    assert (over, len(planned)) == ([], 1)
+    assert phases(rows)[:3] == ["rise", "hover", "descend"]

@@ -5,6 +5,8 @@ Erleben's (2018) wedges, spikes, holes, cliffs and internal edges; arches, card 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -182,15 +184,24 @@ def lever(ratio: float) -> Model:
     return builder.finalize("cpu")
 
 
-def edge_on_edge(angle: float, gap: float) -> Model:
-    """A cube standing on its edge above the upper edge of another at `angle` [rad] to it; parallel at 0."""
+def edge_on_edge(angle: float, gap: float, frame: np.ndarray | None = None) -> Model:
+    """A cube standing on its edge above the upper edge of another at `angle` [rad] to it; parallel at 0.
+
+    `frame`, a rotation matrix, turns the axes in which the bodies are given, and nothing in the world.
+    """
     builder = ModelBuilder()
-    quarter = (np.cos(np.pi / 8), np.sin(np.pi / 8), 0.0, 0.0)
+    quarter = Pose(quat_wxyz=(np.cos(np.pi / 8), np.sin(np.pi / 8), 0.0, 0.0))
     half = 0.05 * np.sqrt(2)
-    add_hull(builder, box_points(0.1, 0.1, 0.1), Pose(position=(0, 0, 0.1), quat_wxyz=quarter), fixed=True)
     turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-    tilted = Pose(quat_wxyz=quarter).apply(box_points(0.1, 0.1, 0.1)) @ turn.T
-    add_hull(builder, tilted, Pose(position=(0, 0, 0.1 + 2 * half + gap)))
+    tilted = quarter.apply(box_points(0.1, 0.1, 0.1)) @ turn.T
+    if frame is None:
+        lower, upper = box_points(0.1, 0.1, 0.1), tilted
+        below, above = quarter, Pose()
+    else:
+        lower, upper = box_points(0.1, 0.1, 0.1) @ frame.T, tilted @ frame.T
+        below, above = Pose.from_matrix(quarter.rotation @ frame.T, np.zeros(3)), Pose.from_matrix(frame.T, np.zeros(3))
+    add_hull(builder, lower, replace(below, position=(0, 0, 0.1)), fixed=True)
+    add_hull(builder, upper, replace(above, position=(0, 0, 0.1 + 2 * half + gap)))
     return builder.finalize("cpu")
 
 

@@ -202,3 +202,16 @@ def test_a_body_under_the_ground_is_named_and_a_start_inside_a_detailed_surface_
     add(builder, convex_part(box_points(0.01, 0.01, 0.01)), Pose(position=(0, 0, 0.1)))
     with pytest.raises(SimulationError, match='"body" and "body"'):
         Run(builder.finalize("cpu"), SettleOptions(), lambda *_: None).refuse_intersections()
+
+
+@pytest.mark.parametrize("rings", [6, 12, 13, 25])
+def test_clusters_have_at_most_32_triangles_and_more_than_half_as_many(rings):
+    """A ring of 22 triangles a segment: of 132 and of 264, halving leaves 33 at one time."""
+    mesh = trimesh.creation.torus(0.05, 0.02, major_sections=rings, minor_sections=11)
+    part = ConvexPart(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces, dtype=np.int32))
+    assert len(part.faces) == 22 * rings
+    split = clusters.cluster(part.vertices, sharp_edges(part), part.faces)
+    counts = split.ranges[:, 5] - split.ranges[:, 4]
+    assert counts.sum() == len(part.faces)
+    assert counts.max() <= 32
+    assert counts.min() >= 16

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import warp as wp
 
+from pat3d.geometry.rotations import turn
 from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.terms.d_hat_derivative import pull_back_d_hat
 from pat3d.sim.terms.friction_lag import pull_back_lag
@@ -36,10 +37,13 @@ def test_normal_forces_push_the_bodies_as_the_barrier_does(angle):
 
 
 @pytest.mark.parametrize("epsilon", [1e-6, 1e-3])
-@pytest.mark.parametrize("angle", [0.02, 0.3])
-def test_the_force_depends_on_the_recorded_state_as_differences_of_it_say(angle, epsilon):
-    """Through normal force, normal, closest points and the mollifier of nearly parallel edges, sliding or sticking."""
-    model = edge_on_edge(angle, 4e-4)
+@pytest.mark.parametrize(("angle", "frame"), [(0.02, None), (0.3, None), (0.02, turn(np.array([1.0, 2.0, 0.5]), 1.0))])
+def test_the_force_depends_on_the_recorded_state_as_differences_of_it_say(angle, frame, epsilon):
+    """Through normal force, normal, closest points and the mollifier of nearly parallel edges, sliding or sticking.
+
+    Whatever the axes of the bodies: in the first two cases no edge that touches has a height in them.
+    """
+    model = edge_on_edge(angle, 4e-4, frame)
     run = Run(model, SettleOptions(), lambda *_: None)
     run.set_d_hat(1e-3)
     potential, friction = run.potential, run.potential.friction

@@ -7,6 +7,7 @@ from scipy.linalg import expm
 
 from pat3d.geometry.pose import Pose
 from pat3d.sim.arrays import filled
+from pat3d.sim.launch_graph import LaunchGraph
 from pat3d.sim.model import Model, ModelBuilder
 from pat3d.sim.run import Run, SettleOptions
 from pat3d.sim.solvers import line_search
@@ -14,6 +15,7 @@ from pat3d.sim.solvers import newton as newton_module
 from pat3d.sim.terms.inertia import Inertia
 from pat3d.sim.terms.term import Evaluation
 from tests.sim.builders import add_hull, box_points, random_hull
+from tests.sim.canonical import edge_on_edge
 
 MOVE, REST, EXACT = 1e-5, 1e-3, 1e-2
 """Tolerances: motion of a full step [m], residual, and residual under which progress is judged by it."""
@@ -180,6 +182,41 @@ def test_a_world_that_finds_no_step_has_stalled_and_not_converged(monkeypatch):
     np.testing.assert_array_equal(result.stalled, [True, False])
     assert not result.converged.any()
     np.testing.assert_array_equal(run.state(), model.q0)
+
+
+@pytest.mark.parametrize("refused", [False, True])
+def test_a_whole_iteration_of_a_single_world_on_a_gpu_is_that_of_a_cpu_in_parts(monkeypatch, refused):
+    """To the bit, where the systems are solved alike; those that are refused are solved afterwards."""
+    # Only launches of kernels are recorded, not this solver.
+    monkeypatch.setattr(LaunchGraph, "run", lambda self, shape=None: self._launches())
+    ends, solved = [], {"at once": 0, "afterwards": 0}
+    for on_gpu in (False, True):
+        run = Run(edge_on_edge(0.3, 4e-4), SettleOptions(), lambda *_: None)
+        solver = run.newton.solver
+
+        def solve(hessian, when, solver=solver):
+            solved[when] += 1
+            solver.unsolved.zero_()
+            solver.factorise_and_solve(hessian, np.ones(1, dtype=bool))
+
+        def refuse(hessian, solver=solver):
+            solver.unsolved.fill_(1)
+
+        if on_gpu:
+            solver.on_gpu = True
+            monkeypatch.setattr(
+                solver, "launch_solve", refuse if refused else lambda hessian: solve(hessian, "at once")
+            )
+            monkeypatch.setattr(solver, "solve_unsolved", lambda hessian: solve(hessian, "afterwards"))
+        run.set_d_hat(1e-3)
+        run.drop(4)
+        ends.append((run.state(), run.iterations))
+    assert ends[0][1] == ends[1][1] > 4
+    # The last direction of every step is found to be short enough, and not gone.
+    assert sum(solved.values()) == ends[1][1] + 4
+    assert (solved["at once"] == 0) is refused
+    np.testing.assert_array_equal(ends[1][0], ends[0][0])
+    assert np.abs(ends[0][0] - run.model.q0).max() > 1e-4
 
 
 def test_one_step_of_free_fall_is_that_of_implicit_euler():

@@ -1,0 +1,36 @@
+"""What the flat arrangement is told of the things on a surface."""
+
+import numpy as np
+import pytest
+
+from pat3d.layout.bodies import Body
+from pat3d.layout.flat import Lateral, Surface
+from pat3d.layout.group import Group
+from pat3d.layout.surfaces import arrange_flat
+from pat3d.layout.tops import item_of
+from tests.layout.things import block
+
+
+def item(noun: str, x: float = 0.5, y: float = 0.4, name: str = ""):
+    body = Body(name or noun, block(x, y, 0.5, noun=noun))
+    return item_of(Group((body.at(np.eye(3), np.array([0.3, 0.2, 0.0])),)), turnable=True)
+
+
+@pytest.mark.parametrize("noun", ["bed", "oak bookcase", "nightstand", "filing cabinet", "bedside table", "mirror"])
+def test_furniture_stands_with_its_back_to_the_wall(noun):
+    assert item(noun).walled
+
+
+@pytest.mark.parametrize("noun", ["mug", "table", "chair", "lamp"])
+def test_other_things_do_not(noun):
+    assert not item(noun).walled
+
+
+@pytest.mark.parametrize(("noun", "aligned"), [("nightstand", True), ("stool", False)])
+def test_a_nightstand_beside_a_bed_has_its_back_in_line_with_it_and_a_stool_its_middle(noun, aligned):
+    """The back of furniture is at +y: its front is at -y."""
+    bed, other = item("bed", 1.6, 2.0), item(noun)
+    spots = arrange_flat([bed, other], [Lateral(child=noun, kind="next_to", parent="bed")], Surface())
+    assert spots is not None
+    offset = spots[noun].position[1] - spots["bed"].position[1]
+    assert offset == pytest.approx((2.0 - 0.4) / 2 if aligned else 0.0, abs=2e-6)
