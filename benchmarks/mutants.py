@@ -53,7 +53,8 @@ class Baseline:
         # What a fixture made is looked at by tests that run no line themselves: all of a file count. What runs at
         # import, or is compiled by Warp and never run by Python, may matter to any test of the folder.
         files = {test.partition("::")[0] for tests in lines.values() for test in tests if test}
-        chosen = [test for test in self.seconds if not files or test.partition("::")[0] in files]
+        anywhere = not files or "@wp." in (ROOT / module).read_text(encoding="utf-8")
+        chosen = [test for test in self.seconds if anywhere or test.partition("::")[0] in files]
         return sorted(chosen, key=lambda test: (test not in near, self.seconds[test]))
 
 

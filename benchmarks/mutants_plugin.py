@@ -5,6 +5,7 @@ The file named by $PAT3D_MUTANT_ORDER says what to do: {"watch": modules, "out":
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import sys
@@ -37,12 +38,14 @@ def _calls(frame: FrameType, event: str, _: object) -> Any:
     if module is None:
         return None
     lines = _RUN[module]
+    # Bodies of modules and classes run at import, whichever test is the first to need them.
+    test = _current if frame.f_code.co_flags & inspect.CO_OPTIMIZED else ""
 
     def line(inner: FrameType, event: str, _: object) -> Any:
-        lines[inner.f_lineno].add(_current)
+        lines[inner.f_lineno].add(test)
         return line
 
-    lines[frame.f_lineno].add(_current)
+    lines[frame.f_lineno].add(test)
     return line
 
 
