@@ -46,9 +46,7 @@ format: setup-dev  ## sort imports and format
 check: setup-dev  ## lint and types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-# In two runs: one of both outgrows the memory that Node.js allows, and takes five times as long.
-	$(BIN)/pyright pat3d
-	$(BIN)/pyright exporters envs policies_eval
+	$(BIN)/pyright
 
 # The type checker has one thread: beside the tests it costs little time.
 test: setup-dev  ## lint, types and the quick tests
