@@ -179,7 +179,7 @@ def _kinds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for colon in (n for n in range(2, len(words)) if words[n] == ":"):
         count, noun = lexicon.NUMBERS.get(words[colon - 2], 0), tokens[colon - 1]
         end = next((n for n in range(colon, len(words)) if tokens[n].mark and words[n] not in (",", ":")), len(words))
-        inside = tokens[colon + 1 : end]
+        inside = list(tokens[colon + 1 : end])
         kinds = [token for token in inside if token.text not in (",", "and")]
         single = next((guess for guess in singulars(noun.text) if nouns.match([guess])), None)
         if not 2 <= count == len(kinds) or single is None or "and" not in words[end - 2 : end]:
