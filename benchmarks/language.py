@@ -177,16 +177,15 @@ def judge(label: Label, plan: ScenePlan) -> tuple[str, list[str]]:
             names = {id(want): want.words for want in label.objects}
             wrong.append(f"adds: {names[child]} {kind} {names[parent]}")
     if label.task is not None:
-        wrong += _task(label, plan)
+        wrong += _task(label.task, plan)
     silent = [each for each in wrong if not _noted(each, notes)]
     if silent:
         return "silently wrong", wrong
     return ("right with notes" if wrong or plan.notes else "right"), wrong
 
 
-def _task(label: Label, plan: ScenePlan) -> list[str]:
-    assert label.task is not None
-    kinds, _, names = label.task.partition(" ")
+def _task(task: str, plan: ScenePlan) -> list[str]:
+    kinds, _, names = task.partition(" ")
     if kinds == "none":
         return [f"task {plan.task}"] if plan.task else []
     if plan.task is None:

@@ -7,7 +7,7 @@ pat3d.scene.arrangements (`ARRANGEMENTS`, `holds`); the numbers stand here.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
@@ -60,7 +60,7 @@ def arrangement_holds(one: Arrangement, bodies: Mapping[str, Placed], touch: flo
     return _every(place_holds(one.kind, body, of[0]) for body in objects)
 
 
-def _every(results) -> tuple[bool, str]:
+def _every(results: Iterable[tuple[bool, str]]) -> tuple[bool, str]:
     """Whether all of `results` hold; of the first that does not, or else of the first, what was measured."""
     found = list(results)
     worst = next((one for one in found if not one[0]), found[0])

@@ -134,10 +134,11 @@ def _is_union(kind: Any) -> bool:
 def _docs(kind: type) -> dict[str, str]:
     """The docstring below every field; none where the source is not there."""
     try:
-        (body,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+        body = ast.parse(textwrap.dedent(inspect.getsource(kind))).body[0]
     except (OSError, SyntaxError):
         return {}
-    assert isinstance(body, ast.ClassDef)
+    if not isinstance(body, ast.ClassDef):
+        return {}
     found = {}
     for one, below in zip(body.body, body.body[1:], strict=False):
         match one, below:
