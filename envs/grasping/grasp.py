@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from pat3d.assets.mesh.regions import height_map
+from pat3d.envs.grasping.height_grid import CELL, HeightGrid, bounds
 from pat3d.envs.robots.robot import Gripper
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.planes import planes
@@ -25,9 +25,6 @@ from pat3d.scene.model import Scene, SceneObject
 from pat3d.scene.physics import GRAVITY
 
 Array = NDArray[np.float64]
-
-CELL = 0.0025
-"""Side of a cell of the height maps [m]."""
 
 CLEARANCE = 0.001
 """Kept between each finger and anything beside it [m]."""
@@ -144,11 +141,11 @@ def search(
     """
     turn = leaning(lean, heading)
     target = _turned(scene[name], turn) if lean else scene[name]
-    low, high = _bounds(target)
+    low, high = bounds(target)
     if float((high - low)[:2].max()) > MAX_SIDE:
         return []
     margin = max(gripper.opening / 2 + gripper.finger_thickness, gripper.hand[0] / 2, wrist[1] / 2 if wrist else 0.0)
-    grid = _Grid.around(low[:2] - margin, high[:2] + margin)
+    grid = HeightGrid.around(low[:2] - margin, high[:2] + margin)
     own = grid.heights([target])
     # What stands on the target or in it comes along and is in the way like anything else.
     others = [obj for obj in scene.objects if obj.name != name and (among is None or obj.name in among)]
@@ -189,7 +186,7 @@ def narrowest(obj: SceneObject) -> float:
 
 def _along(
     angle: float,
-    grid: _Grid,
+    grid: HeightGrid,
     own: Array,
     around: Array,
     gripper: Gripper,
@@ -325,63 +322,6 @@ def _first_moment(values: Array, size: int) -> Array:
     return ndimage.correlate1d(values, offsets, axis=0, mode="constant")
 
 
-@dataclass(frozen=True, eq=False)
-class _Grid:
-    """Square cells around an object, centred on it."""
-
-    middle: Array
-    """[m], shape (2,)."""
-    half: int
-    """Cells on each side of the middle one."""
-
-    @staticmethod
-    def around(low: Array, high: Array) -> _Grid:
-        return _Grid((low + high) / 2, math.ceil(float(np.linalg.norm(high - low)) / 2 / CELL))
-
-    def heights(self, objects: Sequence[SceneObject]) -> Array:
-        """Highest surface of `objects` over every cell [m], -inf where there is none, shape (n, n)."""
-        size = 2 * self.half + 1
-        height = np.full((size, size), -np.inf)
-        for obj in objects:
-            parts = [ConvexPart(vertices=obj.pose.apply(part.vertices), faces=part.faces) for part in obj.asset.parts]
-            low, high = _bounds(obj)
-            if np.any(low[:2] > self.middle + self.half * CELL) or np.any(high[:2] < self.middle - self.half * CELL):
-                continue
-            cells = math.ceil(float((high - low)[:2].max()) / CELL)
-            seen = height_map(parts, max(cells, 8))
-            i = np.rint((seen.x - self.middle[0]) / CELL).astype(int) + self.half
-            j = np.rint((seen.y - self.middle[1]) / CELL).astype(int) + self.half
-            inside_i, inside_j = (i >= 0) & (i < size), (j >= 0) & (j < size)
-            np.maximum.at(height, np.ix_(i[inside_i], j[inside_j]), seen.height[np.ix_(inside_i, inside_j)])
-        return height
-
-    def turned(self, height: Array, angle: float) -> Array:
-        """The map in a frame turned by `angle`: axis 0 runs along it."""
-        offset = np.arange(-self.half, self.half + 1)
-        u, v = np.meshgrid(offset, offset, indexing="ij")
-        i = np.rint(math.cos(angle) * u - math.sin(angle) * v).astype(int) + self.half
-        j = np.rint(math.sin(angle) * u + math.cos(angle) * v).astype(int) + self.half
-        size = 2 * self.half + 1
-        inside = (i >= 0) & (i < size) & (j >= 0) & (j < size)
-        turned = np.full(height.shape, -np.inf)
-        turned[inside] = height[i[inside], j[inside]]
-        return turned
-
-    def world(self, angle: float) -> tuple[Array, Array]:
-        """World positions [m] of the cells of a turned map."""
-        offset = np.arange(-self.half, self.half + 1) * CELL
-        u, v = np.meshgrid(offset, offset, indexing="ij")
-        return (
-            self.middle[0] + math.cos(angle) * u - math.sin(angle) * v,
-            self.middle[1] + math.sin(angle) * u + math.cos(angle) * v,
-        )
-
-
-def _bounds(obj: SceneObject) -> tuple[Array, Array]:
-    points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])
-    return points.min(axis=0), points.max(axis=0)
-
-
 def _shifted(values: Array, cells: int) -> Array:
     """`values` seen from `cells` further along axis 0; beyond the edge there is nothing."""
     out = np.full(values.shape, -np.inf)
@@ -397,7 +337,7 @@ def _odd(length: float) -> int:
 
 
 def apart(grasps: list[Grasp], count: int) -> list[Grasp]:
-    """The best `count` that differ by APART or by a quarter of a right angle."""
+    """The best `count` that differ by APART or by 20 degrees."""
     kept: list[Grasp] = []
     for grasp in grasps:
         near = False

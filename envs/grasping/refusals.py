@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pat3d.envs.grasping.grasp import CELL, CLEARANCE, MIN_BITE, SQUEEZE, TIP_CLEARANCE, find_grasps, narrowest
+from pat3d.envs.grasping.grasp import CLEARANCE, MIN_BITE, SQUEEZE, TIP_CLEARANCE, find_grasps, narrowest
+from pat3d.envs.grasping.height_grid import CELL
 from pat3d.envs.robots.robot import Gripper
 from pat3d.scene.model import GROUND, Scene, SceneObject
 

@@ -95,17 +95,6 @@ class Spot:
     """Whether it was turned by 90 degrees."""
 
 
-OPPOSITE = {
-    "left_of": "right_of",
-    "right_of": "left_of",
-    "in_front_of": "behind",
-    "behind": "in_front_of",
-    "next_to": "next_to",
-    "around": "around",
-}
-"""The relation of the other to the one."""
-
-
 def natural_gap(first: Array, second: Array) -> float:
     """Distance [m] at which a person stands two things of sizes [m], shape (2,), side by side."""
     small = min(float(np.sqrt(first[0] * first[1])), float(np.sqrt(second[0] * second[1])))

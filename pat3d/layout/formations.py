@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
 from pat3d.layout.flat import Item, Lateral
+from pat3d.scene.relations import SIDES
 
 CLOSE = 0.001
 """Gap between members whose offsets are given [m]."""
@@ -24,7 +25,6 @@ ASKEW = 10.0
 FAR = 1.5
 """Gap of things that are far from each other, against the largest of things that are next to each other."""
 _DIRECTIONS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
-_SIDES = {"left_of": (0, -1.0), "right_of": (0, 1.0), "in_front_of": (1, -1.0), "behind": (1, 1.0)}
 
 Gap = Callable[[Item, Item], float]
 
@@ -142,9 +142,9 @@ def _reach(item: Item, way: Array) -> float:
 
 
 def _agrees(lat: Lateral, offsets: Mapping[str, Array]) -> bool:
-    if lat.kind not in _SIDES:
+    if lat.kind not in SIDES:
         return True
-    axis, sign = _SIDES[lat.kind]
+    axis, sign = SIDES[lat.kind]
     return float((offsets[lat.child] - offsets[lat.parent])[axis]) * sign > 0.0
 
 

@@ -13,16 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import OPPOSITE, Lateral, natural_gap
+from pat3d.layout.flat import Lateral, natural_gap
 from pat3d.layout.formations import Formation, Sight, Wishes, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, under_offset
 from pat3d.layout.tops import item_of
 from pat3d.scene.arrangements import Arrangement
-from pat3d.scene.relations import GROUND
+from pat3d.scene.relations import GROUND, SIDES
 
-_WAYS = {"left_of": (1.0, 0.0), "right_of": (-1.0, 0.0), "in_front_of": (0.0, 1.0), "behind": (0.0, -1.0)}
-"""From what stands so to the other."""
 _AHEAD = 17.0
 """Angle [degrees] at which the ends of a row see what all of it faces."""
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
@@ -113,10 +111,10 @@ class Intents:
                 far |= {frozenset(pair) for pair in ([(a, b) for a in objects for b in of] if of else pairs(objects))}
             elif one.kind == "leaning_against":
                 away = leaning_offset(groups[objects[0]], groups[of[0]], self.leaning[objects[0]], gap)
-                formations.append(_pair(objects[0], of[0], away, overlapping=True))
+                formations.append(_pair(objects[0], of[0], away))
             elif one.kind == "under":
                 away = under_offset(groups[objects[0]], groups[of[0]], gap)
-                formations.append(_pair(objects[0], of[0], away, overlapping=True))
+                formations.append(_pair(objects[0], of[0], away))
             elif one.rule.on_it:
                 places |= dict.fromkeys(objects, one.kind)
         for name, carriers in self.spans.items():
@@ -211,8 +209,10 @@ class Intents:
         """From `name` to `other` as a lateral relation has it."""
         own, there = intent.moved((name, other))
         for lat in self.laterals.get(intent.support, ()):
-            if lat.kind in _WAYS and {lat.child, lat.parent} == {own, there}:
-                return _WAYS[lat.kind if lat.child == own else OPPOSITE[lat.kind]]
+            if lat.kind in SIDES and {lat.child, lat.parent} == {own, there}:
+                axis, sign = SIDES[lat.kind]
+                along = -float(sign) if lat.child == own else float(sign)
+                return (along, 0.0) if axis == 0 else (0.0, along)
         return None
 
     def _ring_angle(self, intent: Intent, name: str, centre: str) -> float | None:
@@ -234,5 +234,6 @@ class Intents:
         return list(dict.fromkeys(path[path.index(support) - 1] for path in paths))
 
 
-def _pair(name: str, other: str, away: Array, *, overlapping: bool) -> Formation:
-    return Formation(members=(other, name), fixed={other: np.zeros(2), name: away}, overlapping=overlapping)
+def _pair(name: str, other: str, away: Array) -> Formation:
+    """What leans on, or is under, another thing stands below some of it."""
+    return Formation(members=(other, name), fixed={other: np.zeros(2), name: away}, overlapping=True)

@@ -48,13 +48,12 @@ from pat3d.layout.frames import column_of
 from pat3d.scene.arrangements import Arrangement, Posture
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation
-from pat3d.scene.relations import carriers_of
+from pat3d.scene.relations import SIDES, carriers_of
 
 TOUCH = 1.0e-3
 """Parts at most this far apart [m] touch."""
 _AT_ANCHOR = 0.03
 """Where a thing that hangs may be near its carrier: this far from an anchor [m]."""
-_SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +148,7 @@ class _View:
             holds, detail = self._in(relation.child, relation.parent)
         elif relation.kind == "hangs_from":
             holds, detail = self._hangs(relation.child, relation.parent)
-        elif relation.kind in _SIDES:
+        elif relation.kind in SIDES:
             holds, detail = self._side(relation.child, relation.kind, relation.parent)
         else:
             holds, detail = self._beside(relation)
@@ -245,7 +244,7 @@ class _View:
         return apart <= self.touch and pendant and not touched, detail
 
     def _side(self, child: str, kind: str, parent: str) -> tuple[bool, str]:
-        axis, sign = _SIDES[kind]
+        axis, sign = SIDES[kind]
         a, b = self.bodies[child], self.bodies[parent]
         offset = (a.low + a.high - b.low - b.high) / 2
         along = sign * float(offset[axis])

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import OPPOSITE, Item, Lateral, Spot, Surface, natural_gap
+from pat3d.layout.flat import Item, Lateral, Spot, Surface, natural_gap
 from pat3d.layout.formations import CLOSE, Wishes, far_gap, ring_angles
+from pat3d.scene.relations import OPPOSITE, SIDES
 
 BRANCHES = 4
 """Places tried for each thing before backing up."""
@@ -99,7 +100,7 @@ def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> b
 
 def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:
     """Whether rectangles `low`..`high`, shape (n, 2), stand `kind` of one rectangle, clear of it along that axis."""
-    axis, sign = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}[kind]
+    axis, sign = SIDES[kind]
     clear = (low_p[axis] - high[:, axis]) if sign < 0 else (low[:, axis] - high_p[axis])
     other = 1 - axis
     aside = np.abs((low + high)[:, other] - (low_p + high_p)[other]) / 2

@@ -12,9 +12,8 @@ import torch
 
 from pat3d.geometry.polygons import polygon_gap as overlap_aware_gap
 from pat3d.optimize.outline import Box, outside, polygon_gap
+from pat3d.scene.relations import SIDES
 
-SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}
-"""Axis and sign of the side that every relation names."""
 WIDEST = math.radians(200.0)
 """Largest angle [rad] between neighbours around something."""
 

@@ -20,11 +20,11 @@ import torch
 from pat3d.errors import SpecError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.predicates import TOUCH
-from pat3d.optimize.lateral import SIDES, beside_loss, ring_loss, side_loss
+from pat3d.optimize.lateral import beside_loss, ring_loss, side_loss
 from pat3d.optimize.outline import Box, Outline, moved, outside
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation
-from pat3d.scene.relations import carriers_of
+from pat3d.scene.relations import SIDES, carriers_of
 
 MARGIN = 1.0e-3
 """By which relations must hold for no loss [m]."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS
-from pat3d.scene.relations import GROUND, RELATION_WORDS, Relation, carriers_of
+from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation, carriers_of
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
@@ -138,9 +138,8 @@ class _Teller:
         """Where a row runs: as a relation of its first two has it, else to the right."""
         first, second = row.objects[:2]
         ways = {"in_front_of": ("front", "back"), "behind": ("back", "front"), "right_of": ("right", "left")}
-        turned = {"in_front_of": "behind", "behind": "in_front_of", "left_of": "right_of"}
         relations = {(rel.child, rel.parent): rel.kind for rel in self._plan.relations if not rel.supports}
-        kinds = [relations.get((first, second), ""), turned.get(relations.get((second, first), ""), "")]
+        kinds = [relations.get((first, second), ""), OPPOSITE.get(relations.get((second, first), ""), "")]
         start, end = next((ways[kind] for kind in kinds if kind in ways), ("left", "right"))
         return f"from {start} to {end}"
 

@@ -30,6 +30,19 @@ RELATION_WORDS: dict[str, str] = {
 }  # fmt: skip
 """How a person says each kind, between child and parent."""
 
+SIDES = {"left_of": (0, -1), "right_of": (0, 1), "in_front_of": (1, -1), "behind": (1, 1)}
+"""Horizontal axis along which a relation puts the child on one side of the parent, and the sign of that side."""
+
+OPPOSITE = {
+    "left_of": "right_of",
+    "right_of": "left_of",
+    "in_front_of": "behind",
+    "behind": "in_front_of",
+    "next_to": "next_to",
+    "around": "around",
+}
+"""The relation of the parent to the child."""
+
 MAX_CARRIERS = 8
 
 
@@ -137,10 +150,6 @@ def _check_acyclic(parents: dict[str, list[str]]) -> None:
         raise SpecError(f"the support relations form a cycle: {' -> '.join(cycle)}.")
 
 
-_ORDERS = {"left_of": ("x", 1), "right_of": ("x", -1), "in_front_of": ("y", 1), "behind": ("y", -1)}
-"""Axis along which a relation puts the child before (1) or after (-1) the parent."""
-
-
 def check_sides(relations: tuple[Relation, ...]) -> None:
     """Raise SpecError for the first lateral relation that no arrangement can meet.
 
@@ -151,7 +160,7 @@ def check_sides(relations: tuple[Relation, ...]) -> None:
     for rel in relations:
         if rel.supports and rel.kind != "hangs_from":
             carriers.setdefault(rel.child, set()).add(rel.parent)
-    before: dict[str, dict[str, set[str]]] = {"x": {}, "y": {}}
+    before: tuple[dict[str, set[str]], dict[str, set[str]]] = ({}, {})
     for relation in relations:
         ends = (relation.child, relation.parent)
         if relation.supports or GROUND in ends:
@@ -159,9 +168,9 @@ def check_sides(relations: tuple[Relation, ...]) -> None:
         for one, other in (ends, ends[::-1]):
             if other in _reached(one, carriers):
                 raise SpecError(f'"{relation}" cannot be: "{other}" carries "{one}".')
-        if relation.kind in _ORDERS:
-            axis, sign = _ORDERS[relation.kind]
-            first, second = ends[::sign]
+        if relation.kind in SIDES:
+            axis, sign = SIDES[relation.kind]
+            first, second = ends[::-sign]
             if first in _reached(second, before[axis]):
                 raise SpecError(
                     f'"{relation}" cannot be: other relations put "{second}" on the other side of "{first}".'

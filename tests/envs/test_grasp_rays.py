@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from pat3d.envs.grasping import grasp
-from pat3d.envs.grasping.grasp import CELL, find_grasps
+from pat3d.envs.grasping import grasp, height_grid
+from pat3d.envs.grasping.grasp import find_grasps
+from pat3d.envs.grasping.height_grid import CELL, HeightGrid
 from pat3d.scene.model import Scene
 from tests.envs.test_grasp import GRIPPER, bar
 
@@ -72,19 +73,19 @@ def test_what_is_beside_a_map_is_not_looked_at(monkeypatch):
     far = [bar(f"far {x} {y}", (0.1, 0.1, 0.1), (x, y)) for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
     near = bar("near", (0.1, 0.1, 0.01), (0.12, 0.0))
     scene = Scene(objects=(bar("bar", (0.1, 0.04, 0.05)), near, *far))
-    looked_at, real = [], grasp.height_map
+    looked_at, real = [], height_grid.height_map
 
     def counted(parts, cells):
         looked_at.append(np.concatenate([part.vertices for part in parts])[:, :2].mean(axis=0).round(6).tolist())
         return real(parts, cells)
 
-    monkeypatch.setattr(grasp, "height_map", counted)
+    monkeypatch.setattr(height_grid, "height_map", counted)
     assert find_grasps(scene, "bar", GRIPPER)
     assert looked_at == [[0.0, 0.0], [0.12, 0.0]]
 
 
 def test_a_map_has_the_height_of_what_is_under_each_cell_turned_as_the_fingers_close():
-    grid = grasp._Grid.around(np.array([-0.1, -0.1]), np.array([0.1, 0.1]))
+    grid = HeightGrid.around(np.array([-0.1, -0.1]), np.array([0.1, 0.1]))
     blocks = [bar("low", (0.08, 0.04, 0.02)), bar("high", (0.02, 0.02, 0.06), (0.03, 0.0))]
     for angle in (0.0, math.pi / 2, math.pi, 0.6):
         seen = grid.turned(grid.heights(blocks), angle)
