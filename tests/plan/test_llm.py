@@ -15,6 +15,7 @@ from pat3d.plan.llm.schema import Shape
 from pat3d.plan.llm.settings import ModelSettings, load_settings
 from pat3d.plan.scene_plan import ArrangementKind, PlannedObject, ScenePlan
 from pat3d.plan.telling import tell
+from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES
 from pat3d.scene.relations import Relation
 from tests.plan.llm_server import Reply, fault, said, serving
 
@@ -35,6 +36,10 @@ def plan(*objects, relations=(), missing=(), **more):
         "set_aside": [], "notes": [], "arrangements": [], "postures": [], "task": None,
     }  # fmt: skip
     return {"plan": told | more, "missing": list(missing)}
+
+
+def arranged(kind, objects, of=()):
+    return {"kind": kind, "objects": list(objects), "of": list(of), "arranged": True}
 
 
 MUG = plan(
@@ -164,6 +169,12 @@ def test_what_breaks_the_schema_is_said(text, says):
         (plan(obj("mug", "mug"), task="pick:cup"), "no task"),
         (plan(obj("mug", "mug", scale=1e9)), "scale"),
         (plan(), "no object"),
+        (plan(obj("a", "mug"), obj("b", "can"), arrangements=[arranged("between", ["a"], ["b"])]),
+         'at least 2 in "of"'),
+        (plan(obj("a", "mug"), obj("b", "can"), arrangements=[arranged("above", ["a"], ["b"])]), "must be false"),
+        (plan(obj("a", "mug"), obj("b", "tray"), arrangements=[arranged("at_edge", ["a"], ["b"])]), "say first"),
+        (plan(obj("a", "mug"), postures=[{"object": "a", "kind": "tilted", "said": "tilted", "arranged": True}]),
+         "must be false"),
         ('{"plan": {"objects": [{"name": "mu', "not JSON"),
         ("I would rather write a poem.", "not JSON"),
     ],
@@ -208,6 +219,22 @@ def test_what_the_plan_does_not_bring_about_is_noted(ask):
     with serving(said(plan(obj("mug", "mug"), postures=[posture]))) as server:
         made = LLMPlanner(ask(server).chat).plan("a mug upside down")
     assert 'not arranged: "upside down" of "mug"' in made.notes
+
+
+def test_the_model_is_told_every_kind_that_a_scene_holds_and_its_plan_asks_for_it(ask):
+    mugs = [obj(f"mug {k}", "mug") for k in range(3)]
+    posture = {"object": "mug 0", "kind": "upside_down", "said": "boca abajo", "arranged": True}
+    circle = arranged("circle", [one["name"] for one in mugs], ["vase"])
+    with serving(said(plan(*mugs, obj("vase", "vase"), arrangements=[circle], postures=[posture]))) as server:
+        made = LLMPlanner(ask(server).chat).plan("tres tazas alrededor de un florero, una boca abajo")
+        told = server.requests[0]["messages"][0]["content"]
+    assert [(one.kind, one.of) for one in made.held()] == [("circle", ("vase",))]
+    assert [(one.object, one.kind) for one in made.turned()] == [("mug 0", "upside_down")]
+    assert not made.notes
+    for kind, rule in ARRANGEMENTS.items():
+        assert f'"{kind}"' in told
+        assert rule.holds in told
+    assert all(kind in told for kind in POSTURES)
 
 
 def test_a_refusal_is_told_and_not_repeated(ask):

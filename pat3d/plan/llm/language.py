@@ -5,7 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES, ArrangementRule
 from pat3d.scene.relations import GROUND, LATERAL_KINDS, SUPPORT_KINDS
+
+
+def _counted(counts: tuple[int, int]) -> str:
+    least, most = counts
+    return f"{least}" if least == most else f"{least} or more" if most == MANY else f"{least} to {most}"
+
+
+def _rule(kind: str, rule: ArrangementRule) -> str:
+    carried = "; each object is also `on` it" if rule.on_it else ""
+    counts = f"{_counted(rule.objects)} in `objects`, {_counted(rule.of)} in `of`"
+    return f'- "{kind}": {counts}{carried}. Holds where {rule.holds}.'
+
+
+_KINDS = "\n".join(_rule(kind, rule) for kind, rule in ARRANGEMENTS.items())
 
 _SCENE = f"""You turn a description of a scene, or an instruction to a robot, into a plan of objects and relations.
 
@@ -19,15 +34,19 @@ is usual, 0.7 small, 1.4 large. Furniture that carries things is an object too. 
 object that no noun of the catalogue names; do not replace such an object by another one.
 
 Relations. The viewer stands at -y and looks along +y: left is -x, behind is +y. The support relations
-({", ".join(sorted(SUPPORT_KINDS))}) make a tree: every object is the child of at most one, and what nothing carries
-stands on the {GROUND}, which takes no relation. "on": the child rests on top of the parent; "in": inside a container;
-"hangs_from": hanging from a hook, rod or rack. A stack of three is a chain of two "on". The lateral relations
+({", ".join(sorted(SUPPORT_KINDS))}) make a tree, and what nothing carries stands on the {GROUND}, which takes no
+relation. "on": the child rests on top of the parent; "in": inside a container; "hangs_from": hanging from a hook, rod
+or rack. Every object is the child of at most one, but for what lies across several: it is "on" each of them. A stack
+of three is a chain of two "on". The lateral relations
 ({", ".join(sorted(LATERAL_KINDS))}) hold between two objects with the same support: put objects that stand beside
 something on a table on that table as well. State only what is said; say nothing twice or backwards.
 
-Arrangements and postures record what is said and the relations above do not express. A row of objects also needs
-"left_of" between its neighbours, and "between" a "left_of" and a "right_of"; `arranged` is true only where relations of
-the plan bring the arrangement about, or the object is so anyway.
+Arrangements and postures say what the relations above do not express. With `arranged` true the scene holds them: they
+are laid out and checked. The kinds, with what has to be true:
+{_KINDS}
+A row runs from left to right; "left_of" and the like between its members turn it. The postures that a scene holds are
+{", ".join(POSTURES)}, of the object's usual way to stand. Everything else that is said so ("above", "across", tilted,
+open, ...) is recorded with `arranged` false.
 
 Instructions. "Put the soup in the basket" describes the scene before it: soup and basket stand apart. `task` is then
 one of pick:OBJECT, place:OBJECT:TARGET, stack:OBJECT:TARGET, unload:CONTAINER, sort, with names of the plan; else null.

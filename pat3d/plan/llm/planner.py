@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from pat3d.errors import AnswerError, PromptError
+from pat3d.errors import AnswerError, PromptError, SpecError
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.world import MAX_OBJECTS
 from pat3d.plan.llm.chat import Chat, Message
 from pat3d.plan.llm.language import quoted, scene_language
 from pat3d.plan.llm.schema import Shape
 from pat3d.plan.scene_plan import ScenePlan
+from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES, Arrangement
 from pat3d.scene.relations import GROUND
 
 MAX_CHARACTERS = 4000
@@ -152,6 +153,7 @@ def _checked(answer: Answer) -> Answer:
     for relation in plan.relations:
         if not relation.supports and plan.parent(relation.child) != plan.parent(relation.parent):
             faults.append(f'"{relation}" holds only between two objects with the same support.')
+    faults += _not_held(plan)
     if plan.task is not None:
         found = _TASK.fullmatch(plan.task)
         if found is None or not {found[at] for at in (2, 4, 5) if found[at]} <= names:
@@ -161,6 +163,27 @@ def _checked(answer: Answer) -> Answer:
     if faults:
         raise AnswerError("\n".join(faults))
     return answer
+
+
+def _not_held(plan: ScenePlan) -> list[str]:
+    """What `plan` says that the scene is to hold, and no scene can."""
+    faults = []
+    for each in plan.arrangements:
+        if not each.arranged:
+            continue
+        if each.kind not in ARRANGEMENTS:
+            faults.append(f'no scene holds "{each.kind}": `arranged` must be false.')
+            continue
+        try:
+            Arrangement(kind=each.kind, objects=each.objects, of=each.of)  # type: ignore[arg-type]
+        except SpecError as error:
+            faults.append(str(error))
+    faults += [
+        f'no scene holds that "{each.object}" is {each.kind}: `arranged` must be false.'
+        for each in plan.postures
+        if each.arranged and each.kind not in POSTURES
+    ]
+    return faults
 
 
 def _noted(plan: ScenePlan) -> ScenePlan:
