@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import warp as wp
@@ -49,7 +51,7 @@ class LaunchGraph:
 
     def _record(self) -> Callable[[], None]:
         if self._torch is None or not self._device.is_cuda:
-            with wp.ScopedCapture(self._device, force_module_load=False) as capture:
+            with _nothing_collected(), wp.ScopedCapture(self._device, force_module_load=False) as capture:
                 self._launches()
             graph: Any = capture.graph
             return lambda: wp.capture_launch(graph)
@@ -59,6 +61,7 @@ class LaunchGraph:
         with torch.cuda.stream(stream):
             torch.cuda.synchronize()
             with (
+                _nothing_collected(),
                 torch.cuda.graph(graph, stream=stream, capture_error_mode="thread_local"),
                 wp.ScopedCapture(self._device, force_module_load=False, external=True),
             ):
@@ -69,6 +72,18 @@ class LaunchGraph:
                 graph.replay()
 
         return replay
+
+
+@contextmanager
+def _nothing_collected() -> Iterator[None]:
+    """No cyclic garbage collection: a graph of an earlier run that it destroys would break what is being recorded."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 class Mirror:

@@ -280,7 +280,8 @@ class _Pool:
 
     def _dead(self, worker: _Worker, reason: str) -> Result | None:
         """The result of a policy that took its process with it; None where the policy was not asked."""
-        assert worker.episode is not None
+        if worker.episode is None:
+            raise InfrastructureError(_no_score(None, reason))
         if float(worker.deadline.value) == 0.0:
             self._deaths[worker.episode.index] += 1
             if self._deaths[worker.episode.index] >= DEATHS:
