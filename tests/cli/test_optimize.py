@@ -127,6 +127,7 @@ def test_a_scene_is_mended_in_place_and_foreign_files_stay(broken, tmp_path):
     assert [entry.name for entry in tmp_path.iterdir()] == ["scene"]
 
 
+@pytest.mark.slow
 def test_the_formats_of_a_mended_folder_are_written_anew_and_read_back(broken, tmp_path):
     folder = tmp_path / "scene"
     shutil.copytree(broken, folder)
@@ -218,6 +219,7 @@ def test_generate_optimises_what_no_attempt_solves_and_resumes_without_doing_it_
     assert {name for name in before if before[name] != after[name]} == {"report.json"}
 
 
+@pytest.mark.slow
 def test_generate_steadies_what_stands_but_drifts_in_another_engine(falling_layouts, tmp_path, monkeypatch):
     """With its middle a fifth of a millimetre inside the edge, the plank is in equilibrium, and hardly so.
 

@@ -143,6 +143,7 @@ def test_what_a_hand_holds_creeps_as_if_friction_had_kept_its_stiffness():
     assert crept(fit) < 0.5 * crept(unchanged)
 
 
+@pytest.mark.slow
 def test_observations_are_in_their_spaces_and_seeds_give_the_same_episode(envs):
     first, info = envs.reset(seed=7)
     assert envs.observation_space.contains(first)
@@ -161,6 +162,7 @@ def test_observations_are_in_their_spaces_and_seeds_give_the_same_episode(envs):
         np.testing.assert_allclose(then[name], later[name], rtol=0.0, atol=rounding)
 
 
+@pytest.mark.slow
 def test_an_ended_environment_is_reset_by_the_next_step(envs):
     assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
     start, _ = envs.reset(seed=3)
@@ -177,6 +179,7 @@ def test_an_ended_environment_is_reset_by_the_next_step(envs):
     assert np.abs(fresh["joint_vel"]).max() == 0
 
 
+@pytest.mark.slow
 def test_a_world_that_is_lost_is_truncated_and_the_others_go_on(envs):
     """Not a number in one world: its observation is finite, its verdict the last one, and the next step resets it."""
     envs.reset(seed=5)
@@ -197,6 +200,7 @@ def test_a_world_that_is_lost_is_truncated_and_the_others_go_on(envs):
     assert np.abs(observation["joint_vel"][1]).max() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", DEVICES)
 def test_a_world_moves_as_the_environment_of_one_does(block, device):
     """The hand goes the same way; contacts, which differ, play no part before anything is touched."""
@@ -214,6 +218,7 @@ def test_a_world_moves_as_the_environment_of_one_does(block, device):
     np.testing.assert_allclose(together["objects"][0], alone["objects"], atol=1e-4)
 
 
+@pytest.mark.slow
 def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(block):
     """Poses, the contacts among objects, and that nothing has toppled or fallen."""
     env = TabletopEnv(block, sleep=False, start_noise=0.0)
@@ -235,6 +240,7 @@ def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(bl
     assert other.toppled() == other.fell() == []
 
 
+@pytest.mark.slow
 def test_buffers_that_overflow_are_an_error_that_says_the_size_needed(block):
     """A book on the ground and a block on it have four contacts each."""
     small = BatchedTabletopEnv(1, device="cpu", scene=block, capacity=(2, 60))

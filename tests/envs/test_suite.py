@@ -57,6 +57,7 @@ def copy(made, tmp_path):
     return Path(shutil.copytree(made, tmp_path / "copy"))
 
 
+@pytest.mark.slow
 def test_a_run_killed_and_started_again_makes_the_same_suite_bit_for_bit(made, tmp_path):
     """One worker and SIGKILL in the middle, against two workers of which one was killed: only the log may differ."""
     folder = tmp_path / "one"

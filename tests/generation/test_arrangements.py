@@ -99,7 +99,7 @@ SCENES = {
 }
 
 
-QUICK = ("between three", "places", "postures", "bridge", "pyramid")
+QUICK = ("places", "postures", "bridge")
 
 
 def some(names):
