@@ -105,6 +105,10 @@ def _joined(told: Description) -> Any:
     import mujoco
 
     spec = mujoco.MjSpec.from_file(str(told.mjcf))
+    for thing in (*spec.sensors, *spec.lights):
+        spec.delete(thing)
+    if told.root:
+        _keep(spec, told)
     if told.gripper is not None:
         carrier = spec.site(told.attach)
         if carrier is None:
@@ -112,9 +116,9 @@ def _joined(told: Description) -> Any:
             raise EnvironmentSetupError(f'{told.mjcf}: no site "{told.attach}" to attach a gripper to. Sites: {sites}.')
         gripper = mujoco.MjSpec.from_file(str(told.gripper))
         take_options(gripper, spec)
+        for thing in (*gripper.sensors, *gripper.lights):
+            gripper.delete(thing)
         spec.attach(gripper, prefix="gripper/", site=carrier)
-    for thing in (*spec.sensors, *spec.lights):
-        spec.delete(thing)
     for number, geom in enumerate(spec.geoms):
         geom.name = geom.name or f"pat3d/geom{number}"
         if geom.group == 0 and not (geom.contype or geom.conaffinity):
@@ -124,6 +128,23 @@ def _joined(told: Description) -> Any:
     for body in spec.bodies:
         body.gravcomp = 0.0
     return spec
+
+
+def _keep(spec: Any, told: Description) -> None:
+    """Of several arms in one file, leave the one that begins with `told.root`, at the origin and facing +x."""
+    bodies = list(spec.worldbody.bodies)
+    names = [body.name for body in bodies]
+    if told.root not in names:
+        raise EnvironmentSetupError(f'{told.mjcf}: no body "{told.root}" stands there. There are: {", ".join(names)}.')
+    # A posture of all arms is one of this one only where it comes first.
+    if names[0] != told.root:
+        for key in list(spec.keys):
+            spec.delete(key)
+    for body in bodies:
+        if body.name == told.root:
+            body.pos, body.quat = [0.0, 0.0, body.pos[2]], [1.0, 0.0, 0.0, 0.0]
+        else:
+            spec.delete(body)
 
 
 def take_options(child: Any, parent: Any) -> None:

@@ -6,6 +6,7 @@ names what cannot:
     mjcf: arm.xml               # the file; PATH.xml with PATH.yaml beside it need not say so
     gripper: 2f85               # of the table, or a MJCF file, where arm and gripper are apart
     attach: attachment_site     # the site of the arm that carries the gripper
+    root: left_base             # of a file with several arms, the body with which this one begins
     arm_joints: [j1, j2, j3]    # hinges from the base to the hand
     hand: palm                  # the body that carries the fingers
     gripper_actuators: [grip]
@@ -35,6 +36,7 @@ class Description:
     mjcf: Path
     gripper: Path | None = None
     attach: str = "attachment_site"
+    root: str = ""
     arm_joints: tuple[str, ...] = ()
     hand: str = ""
     gripper_actuators: tuple[str, ...] = ()
@@ -75,5 +77,5 @@ def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
     if file is not None and not file.is_file():
         raise EnvironmentSetupError(f'{told}: no gripper "{gripper}". Grippers: {", ".join(grippers)}, or a MJCF file.')
     lists = {key: tuple(said[key]) for key in ("arm_joints", "gripper_actuators", "torques") if key in said}
-    rest = {key: said[key] for key in ("attach", "hand", "payload", "grip_stiffness") if key in said}
+    rest = {key: said[key] for key in ("attach", "root", "hand", "payload", "grip_stiffness") if key in said}
     return Description(name=str(path), mjcf=mjcf, gripper=file, **lists, **rest)

@@ -32,6 +32,8 @@ class Entry:
     """See Description."""
     hand: str = ""
     """See Description."""
+    root: str = ""
+    """See Description."""
     torques: tuple[float, ...] = ()
     """By the maker's data sheet [N m], where the model does not limit them."""
 
@@ -55,6 +57,12 @@ ARMS = {
     "so101": Entry(model="robotstudio_so101", file="so101", payload=0.5, hand="gripper"),
 }  # fmt: skip
 """Every arm by its short name."""
+
+HALVES = {
+    f"aloha/{side}": Entry(model="aloha", file="aloha", payload=0.75, root=f"{side}/base_link")
+    for side in ("left", "right")
+}
+"""Arms of models that have two, see `pat3d.envs.robots.pairs`."""
 
 _HANDS = {"panda_hand": ("franka_emika_panda", "hand"), "2f85": ("robotiq_2f85", "2f85")}
 
@@ -100,16 +108,17 @@ GRIPPERS = {name: partial(menagerie_file, *where) for name, where in _HANDS.item
 
 
 def menagerie_robot(name: str) -> Robot:
-    """The robot called `name`, one of ARMS."""
+    """The robot called `name`, one of ARMS or HALVES."""
     from pat3d.envs.robots.assembly import assemble
 
-    entry = ARMS[name]
+    entry = (ARMS | HALVES)[name]
     return assemble(
         Description(
             name=name,
             mjcf=menagerie_file(entry.model, entry.file),
             gripper=GRIPPERS[entry.gripper]() if entry.gripper else None,
             attach=entry.attach,
+            root=entry.root,
             torques=entry.torques,
             hand=entry.hand,
             payload=entry.payload,
