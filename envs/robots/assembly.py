@@ -59,12 +59,15 @@ def assemble(told: Description) -> Robot:
         raise EnvironmentSetupError(f"{told.mjcf}: MuJoCo {mujoco.__version__} refuses it: {error}") from error
     model.opt.gravity[:] = 0.0
     parts = find_parts(model, told)
+    if told.grip_armature:
+        _calm(spec, model, parts, told)
     _narrow_jaw(spec, model, parts)
     grip = find_grip(model, parts, told)
     arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
     fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
     _equip(spec, model, parts, grip, torque_limits(model, parts, told))
-    _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
+    if not told.grip_armature:
+        _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
     finished = spec.copy()
     robot = Robot(
         name=told.name,
@@ -161,6 +164,18 @@ def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
         actuator.gainprm[0] *= factor
         actuator.biasprm[1] *= factor
         actuator.biasprm[2] *= np.sqrt(factor)
+
+
+def _calm(spec: Any, model: Any, parts: Parts, told: Description) -> None:
+    """Give the finger joints the armature that is told, and their actuators critical damping; the model as well."""
+    for joint in parts.gripper_joints:
+        spec.joint(model.joint(joint).name).armature = told.grip_armature
+        model.dof_armature[model.jnt_dofadr[joint]] = told.grip_armature
+    for number in parts.gripper_actuators:
+        actuator = spec.actuator(model.actuator(number).name)
+        _stiffen(spec, [actuator.name], told.grip_stiffness)
+        actuator.biasprm[2] = -2.0 * np.sqrt(actuator.gainprm[0] * told.grip_armature)
+        model.actuator_gainprm[number], model.actuator_biasprm[number] = actuator.gainprm, actuator.biasprm
 
 
 def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[float]) -> None:

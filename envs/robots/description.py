@@ -13,6 +13,7 @@ names what cannot:
     torques: [87, 87, 12]       # of the arm's joints [N m], where the MJCF does not limit them
     payload: 3.0                # [kg]
     grip_stiffness: 100         # factor, where the gripper hardly presses
+    grip_armature: 0.01         # of the finger joints [kg m^2], where the gripper trembles
 """
 
 from __future__ import annotations
@@ -44,6 +45,12 @@ class Description:
     payload: float = PAYLOAD
     grip_stiffness: float = 1.0
     """By how much the gripper's actuators are stiffer than their file says: some press with less than 1 N."""
+    grip_armature: float = 0.0
+    """Of the finger joints [kg m^2], with actuators that are critically damped; 0 for what the file says.
+
+    A damped actuator at its largest force is damped no more. Where the fingers are so light that a time step of that
+    force makes them faster than the damping allows, they tremble instead of closing.
+    """
 
 
 def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
@@ -77,5 +84,9 @@ def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
     if file is not None and not file.is_file():
         raise EnvironmentSetupError(f'{told}: no gripper "{gripper}". Grippers: {", ".join(grippers)}, or a MJCF file.')
     lists = {key: tuple(said[key]) for key in ("arm_joints", "gripper_actuators", "torques") if key in said}
-    rest = {key: said[key] for key in ("attach", "root", "hand", "payload", "grip_stiffness") if key in said}
+    rest = {
+        key: said[key]
+        for key in ("attach", "root", "hand", "payload", "grip_stiffness", "grip_armature")
+        if key in said
+    }
     return Description(name=str(path), mjcf=mjcf, gripper=file, **lists, **rest)

@@ -30,6 +30,8 @@ class Entry:
     """The site that carries the gripper."""
     grip_stiffness: float = 1.0
     """See Description."""
+    grip_armature: float = 0.0
+    """See Description."""
     hand: str = ""
     """See Description."""
     root: str = ""
@@ -54,6 +56,10 @@ ARMS = {
     "xarm7": Entry(model="ufactory_xarm7", file="xarm7", payload=3.5),
     "sawyer": Entry(model="rethink_robotics_sawyer", file="sawyer", payload=4.0, gripper="2f85"),
     "vx300s": Entry(model="trossen_vx300s", file="vx300s", payload=0.75),
+    "lite6": Entry(model="ufactory_lite6", file="lite6_gripper_narrow", payload=0.6),
+    "z1": Entry(
+        model="unitree_z1", file="z1_gripper", payload=2.0, hand="link06", grip_stiffness=0.04, grip_armature=0.01
+    ),
     "so101": Entry(model="robotstudio_so101", file="so101", payload=0.5, hand="gripper"),
 }  # fmt: skip
 """Every arm by its short name."""
@@ -123,6 +129,7 @@ def menagerie_robot(name: str) -> Robot:
             hand=entry.hand,
             payload=entry.payload,
             grip_stiffness=entry.grip_stiffness,
+            grip_armature=entry.grip_armature,
         )
     )
 
