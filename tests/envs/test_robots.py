@@ -305,7 +305,7 @@ def test_what_is_missing_can_be_named(tmp_path):
 
 
 def test_fingers_that_tremble_get_an_armature_and_critical_damping(tmp_path):
-    """k = 0.25 * 2000 N/m and m = 0.2 kg are damped critically by 2 sqrt(k m) = 20 N s/m."""
+    """A spring of 0.25 * 2000 N/m and a mass of 0.2 kg: critical is 2 sqrt(k m) = 20 N s/m."""
     (tmp_path / "arm.xml").write_text(own_arm())
     (tmp_path / "arm.yaml").write_text("grip_stiffness: 0.25\ngrip_armature: 0.2")
     name = str(tmp_path / "arm.xml")
