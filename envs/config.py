@@ -8,10 +8,11 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
-from pat3d.envs.physics.world import CAMERAS
+from pat3d.envs.physics.world import cameras_of
 from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.controllers import CONTROLS
+from pat3d.envs.robots.pairs import SIDES, pair_of, robot_name
 from pat3d.envs.tasks.task import Task
 from pat3d.errors import EnvironmentSetupError
 from pat3d.scene.model import Scene
@@ -33,9 +34,10 @@ class EpisodeConfig:
     """"pick:red mug", "place:green apple:blue bowl", "stack:A:B", "sort", "unload:B", "retrieve:A", or a task; None for
     the scene's own task, and where it has none for picking the first object that can be picked. With a suite, a kind of
     task ("pick"); None for all."""
-    robot: str = ""
+    robot: str | Sequence[str] = ""
     """"panda", "fr3", "ur5e", "ur10e", "iiwa14", "gen3", "xarm7", ... of MuJoCo Menagerie, PATH.xml for one's own, or
-    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`."""
+    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`. Two
+    arms are "aloha" or any two names, ["panda", "panda"] or "panda+panda"."""
     suite: str | os.PathLike[str] | None = None
     """A suite folder instead of a scene; every reset draws one of its scenes with that scene's own task."""
     split: str | None = None
@@ -56,11 +58,16 @@ class EpisodeConfig:
     """Standard deviation of the robot's posture at the start [rad]."""
 
     def __post_init__(self) -> None:
-        self._set("robot", self.robot or default_robot())
+        self._set("robot", robot_name(self.robot) or default_robot())
         one_of("reward", self.reward, REWARDS)
         self._set("discount", number("discount", self.discount, 0.0, 1.0, "a step"))
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
         self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))
+
+    @property
+    def arms(self) -> str:
+        """The robot by one name, "panda" or "panda+panda"."""
+        return robot_name(self.robot)
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
@@ -89,14 +96,21 @@ class TabletopConfig(EpisodeConfig):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        one_of("camera", self.render_camera, CAMERAS)
+        sides = () if pair_of(self.arms) is None else SIDES
+        valid = cameras_of(sides)
+        one_of("camera", self.render_camera, valid)
         if self.render_mode is not None:
             one_of("render mode", self.render_mode, RENDER_MODES)
         self._set("image_size", picture_size("image_size", self.image_size))
         if self.max_objects is not None:
             whole("max_objects", self.max_objects, 1)
         self._set("render_size", picture_size("render_size", self.render_size))
-        self._set("cameras", names("camera", self.cameras, CAMERAS))
+        # Of two arms, "wrist" is the camera of either.
+        several = not isinstance(self.cameras, str) and isinstance(self.cameras, Sequence)
+        given = tuple(self.cameras) if several else (self.cameras,)
+        wrists = tuple(f"{side}_wrist" for side in sides) or ("wrist",)
+        cameras = [one for name in given for one in (wrists if name == "wrist" else (name,))]
+        self._set("cameras", names("camera", cameras, valid))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -17,7 +17,7 @@ from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import compose
 from pat3d.envs.rendering.pictures import Pictures
 from pat3d.envs.reward import dense
-from pat3d.envs.robots.arms import make_robot
+from pat3d.envs.robots.arms import make_robot, require_robot
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.manipulate import Pick
 from pat3d.envs.tasks.registry import parse_task
@@ -30,11 +30,12 @@ _KEPT_WORLDS = 4
 
 
 class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
-    """A robot arm in front of a verified scene, with a task.
+    """A robot arm, or two, in front of a verified scene, with a task.
 
-    Actions are in [-1, 1]; see `pat3d.envs.robots.controllers.RobotController`. An episode terminates with success; the
-    time limit of the registration truncates it. The sparse reward is 1 at success and 0 before; the dense one follows
-    the task's progress in [0, 1], see `pat3d.envs.reward` and the judge of each task.
+    Actions are in [-1, 1]; see `pat3d.envs.robots.controllers`. Those of two arms are the left one's and then the right
+    one's. An episode terminates with success; the time limit of the registration truncates it. The sparse reward is 1
+    at success and 0 before; the dense one follows the task's progress in [0, 1], see `pat3d.envs.reward` and the judge
+    of each task.
 
     Args:
         scene: see TabletopConfig, whose fields are the keyword arguments.
@@ -53,10 +54,10 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     def __init__(self, scene: Source = None, *, config: TabletopConfig | None = None, **arguments: Any) -> None:
         given = arguments if scene is None else {"scene": scene, **arguments}
         self.config = config = configured(TabletopConfig, config, given)
-        self.robot, self.control, self.reward = config.robot, config.control, config.reward
+        self.control, self.reward = config.control, config.reward
         self.control_freq, self.render_mode = config.control_freq, config.render_mode
         self.metadata = {**TabletopEnv.metadata, "render_fps": round(config.control_freq)}  # type: ignore[misc]
-        make_robot(config.robot)
+        require_robot(config.arms)
         self._kept: dict[tuple[str, str], tuple[Task, Simulation]] = {}
         self._pictures: Pictures | None = None
         self._chosen = Selection.of(config.suite, config.split, config.index, config.scene, config.task)
@@ -85,6 +86,11 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
         size = self.simulation.controller.size
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
+
+    @property
+    def robot(self) -> str:
+        """Name of the arm that does the task."""
+        return self.placement.robot or self.config.arms
 
     @property
     def scene(self) -> Scene:
@@ -125,7 +131,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         loaded, task = self._wanted(options or {})
         self._enter(loaded, task)
         self._loaded, self._task_given = loaded, task
-        count = len(self.simulation.world.robot.arm_joints)
+        count = self.simulation.joints
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self.config.start_noise
         self.simulation.reset(noise)
@@ -219,8 +225,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         name = task.spec if isinstance(task, Task) else str(task or "")
         key = (loaded.checksum, name)
         if key not in self._kept:
-            chosen, placement = choose(loaded.scene, task, self.robot)
-            world = compose(loaded.scene, loaded.mjcf, make_robot(self.robot), placement)
+            chosen, placement = choose(loaded.scene, task, self.config.arms)
+            world = compose(loaded.scene, loaded.mjcf, make_robot(placement.robot or self.config.arms), placement)
             self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self.config.sleep))
             if len(self._kept) > _KEPT_WORLDS:
                 del self._kept[next(iter(self._kept))]

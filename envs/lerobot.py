@@ -19,11 +19,10 @@ from gymnasium.vector import AutoresetMode
 
 from pat3d.envs.config import TabletopConfig
 from pat3d.envs.env import TabletopEnv
+from pat3d.envs.observations import state_keys
 from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.suites.suite import Suite
 from pat3d.envs.tasks.task import steps_for
-
-_STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
 
 
 def make_env(
@@ -115,8 +114,9 @@ class PixelsAndState(gymnasium.ObservationWrapper[Any, Any, Any]):
         super().__init__(env)
         inner = env.observation_space
         self._cameras = [key for key in inner if key.endswith("_image")]  # type: ignore[attr-defined]
-        low = np.concatenate([inner[key].low for key in _STATE])  # type: ignore[index]
-        high = np.concatenate([inner[key].high for key in _STATE])  # type: ignore[index]
+        self._state = state_keys(list(inner))  # type: ignore[arg-type]
+        low = np.concatenate([inner[key].low for key in self._state])  # type: ignore[index]
+        high = np.concatenate([inner[key].high for key in self._state])  # type: ignore[index]
         self.observation_space = spaces.Dict(
             {
                 "pixels": spaces.Dict({key.removesuffix("_image"): inner[key] for key in self._cameras}),  # type: ignore[index]
@@ -143,5 +143,5 @@ class PixelsAndState(gymnasium.ObservationWrapper[Any, Any, Any]):
         """Under LeRobot's names."""
         return {
             "pixels": {key.removesuffix("_image"): observation[key] for key in self._cameras},
-            "agent_pos": np.concatenate([observation[key] for key in _STATE]),
+            "agent_pos": np.concatenate([observation[key] for key in self._state]),
         }

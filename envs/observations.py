@@ -1,8 +1,12 @@
-"""What a policy sees: dictionaries of float32 arrays with bounds where there are any, and pictures."""
+"""What a policy sees: dictionaries of float32 arrays with bounds where there are any, and pictures.
+
+Of two arms, each has its own "joint_pos", "joint_vel", "gripper_pos", "eef_pos" and "eef_quat", behind "left_" and
+"right_".
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -12,7 +16,8 @@ from numpy.typing import NDArray
 
 from pat3d.envs.compiled import compiled
 from pat3d.envs.physics.state import States
-from pat3d.envs.physics.world import PREFIX, World
+from pat3d.envs.physics.world import Mounted, World
+from pat3d.envs.robots.pairs import SIDES
 from pat3d.envs.tasks.task import Verdicts
 from pat3d.errors import EnvironmentSetupError
 
@@ -32,6 +37,14 @@ FARTHEST = 100.0
 
 FASTEST = 100.0
 """Joint velocities are reported up to this [rad/s]."""
+
+STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
+"""What makes up the state of an arm in one vector, in this order."""
+
+
+def state_keys(names: Collection[str]) -> tuple[str, ...]:
+    """Those of the observations called `names` that make up the state of all arms, in their order."""
+    return tuple(key for side in ("", *(f"{side}_" for side in SIDES)) for one in STATE if (key := side + one) in names)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,17 +66,19 @@ class ObservationSpec:
 
     def space(self, world: World) -> spaces.Dict:
         """The observation space for a robot; it is the same for every scene."""
-        model, robot = world.model, world.robot
-        arm = np.array([model.joint(PREFIX + name).range for name in robot.arm_joints])
-        fingers = np.array([model.joint(PREFIX + name).range for name in robot.gripper_joints])
         unit = np.ones(4, dtype=np.float32)
-        entries: dict[str, spaces.Space[Any]] = {
-            "joint_pos": _box(arm[:, 0] - JOINT_MARGIN, arm[:, 1] + JOINT_MARGIN),
-            "joint_vel": _box(np.full(len(arm), -FASTEST), np.full(len(arm), FASTEST)),
-            "gripper_pos": _box(fingers[:, 0] - JOINT_MARGIN, fingers[:, 1] + JOINT_MARGIN),
-            "eef_pos": _box(np.full(3, -FARTHEST), np.full(3, FARTHEST)),
-            "eef_quat": _box(-unit, unit),
-        }
+        entries: dict[str, spaces.Space[Any]] = {}
+        for mounted in world.arms:
+            robot, key = mounted.robot, mounted.key
+            arm = np.array([world.model.joint(mounted.prefix + name).range for name in robot.arm_joints])
+            fingers = np.array([world.model.joint(mounted.prefix + name).range for name in robot.gripper_joints])
+            entries |= {
+                f"{key}joint_pos": _box(arm[:, 0] - JOINT_MARGIN, arm[:, 1] + JOINT_MARGIN),
+                f"{key}joint_vel": _box(np.full(len(arm), -FASTEST), np.full(len(arm), FASTEST)),
+                f"{key}gripper_pos": _box(fingers[:, 0] - JOINT_MARGIN, fingers[:, 1] + JOINT_MARGIN),
+                f"{key}eef_pos": _box(np.full(3, -FARTHEST), np.full(3, FARTHEST)),
+                f"{key}eef_quat": _box(-unit, unit),
+            }
         if self.kind == "state":
             pose = np.concatenate([np.full(3, FARTHEST), unit])
             rows = np.tile(pose, (self.max_objects, 1))
@@ -81,6 +96,25 @@ class ObservationSpec:
         return spaces.Dict(entries)
 
 
+class _Arm:
+    """Where the parts of one arm are in MuJoCo's arrays, and the names of its observations."""
+
+    def __init__(self, model: Any, mounted: Mounted) -> None:
+        joints = [model.joint(mounted.prefix + name) for name in mounted.robot.arm_joints]
+        fingers = [model.joint(mounted.prefix + name) for name in mounted.robot.gripper_joints]
+        site = model.site(mounted.prefix + mounted.robot.grip_site)
+        self.where = (
+            np.array([int(joint.qposadr[0]) for joint in joints]),
+            np.array([int(joint.dofadr[0]) for joint in joints]),
+            np.array([int(joint.qposadr[0]) for joint in fingers]),
+            int(site.id),
+            int(site.bodyid[0]),
+            _turned_by(*site.quat),
+        )
+        found = ("joint_pos", "joint_vel", "gripper_pos", "eef_pos", "eef_quat")
+        self.names = tuple(mounted.key + name for name in found)
+
+
 class Observer:
     """Reads observations of a world, or of many that are its copies."""
 
@@ -91,13 +125,7 @@ class Observer:
                 f"the scene has {len(world.objects)} moving objects, the observation space {spec.max_objects}; "
                 f"make the environment with max_objects={len(world.objects)} or more."
             )
-        joints = [model.joint(PREFIX + name) for name in world.robot.arm_joints]
-        self._positions = np.array([int(joint.qposadr[0]) for joint in joints])
-        self._velocities = np.array([int(joint.dofadr[0]) for joint in joints])
-        fingers = [model.joint(PREFIX + name) for name in world.robot.gripper_joints]
-        self._fingers = np.array([int(joint.qposadr[0]) for joint in fingers])
-        site = model.site(PREFIX + world.robot.grip_site)
-        self._site, self._hand, self._turn = int(site.id), int(site.bodyid[0]), _turned_by(*site.quat)
+        self._arms = [_Arm(model, mounted) for mounted in world.arms]
         self._bodies = np.array([world.bodies[name] for name in world.objects], dtype=np.int64)
         self._row = np.full(len(world.scene.objects), -1, dtype=np.int64)
         self._row[[not obj.fixed for obj in world.scene.objects]] = np.arange(len(world.objects))
@@ -110,19 +138,9 @@ class Observer:
             verdicts: name the targets and their goals.
         """
         now = states.snapshot
-        joints, speeds, fingers, place, quat = _robot(
-            states.qpos,
-            now.qvel,
-            now.sites,
-            states.xquat,
-            self._positions,
-            self._velocities,
-            self._fingers,
-            self._site,
-            self._hand,
-            self._turn,
-        )
-        seen = {"joint_pos": joints, "joint_vel": speeds, "gripper_pos": fingers, "eef_pos": place, "eef_quat": quat}
+        seen: Observation = {}
+        for arm in self._arms:
+            seen.update(zip(arm.names, _robot(states.qpos, now.qvel, now.sites, states.xquat, *arm.where), strict=True))
         if self._spec.kind == "state":
             seen["objects"], seen["target"] = _objects(
                 now.xpos, states.xquat, self._bodies, self._spec.max_objects, self._row, verdicts.target, verdicts.goal

@@ -19,7 +19,8 @@ from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.world import compose
 from pat3d.envs.registration import ENV_ID, MAX_EPISODE_STEPS
 from pat3d.envs.reward import dense
-from pat3d.envs.robots.arms import make_robot
+from pat3d.envs.robots.arms import default_robot, make_robot
+from pat3d.envs.robots.pairs import pair_of, robot_name
 from pat3d.envs.suites.selection import Selection
 from pat3d.envs.tasks.task import Judge, Verdicts
 from pat3d.errors import EnvironmentSetupError
@@ -73,6 +74,7 @@ def _runs_on_gpu(kwargs: dict[str, Any]) -> bool:
         several
         or set(kwargs) - {field.name for field in fields(BatchConfig)}
         or kwargs.get("control") == "joint_velocity"
+        or pair_of(robot_name(kwargs.get("robot", "")) or default_robot()) is not None
     ):
         return False
     import warp as wp
@@ -110,6 +112,10 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
 
         num_envs = whole("num_envs", num_envs, 1)
         config = configured(BatchConfig, config, arguments)
+        if pair_of(config.arms) is not None:
+            raise EnvironmentSetupError(
+                f'on a GPU a robot is one arm, not two ("{config.arms}"); vectorization_mode="async" runs two on CPUs.'
+            )
         control, control_freq = config.control, config.control_freq
         chosen = Selection.of(config.suite, config.split, config.index, config.scene, config.task)
         if chosen is not None:
@@ -122,8 +128,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         else:
             default = DEFAULT_TASK if config.scene is None and config.task is None else config.task
             loaded, given = load(config.scene), default
-        self.task, placement = choose(loaded.scene, given, config.robot)
-        world = compose(loaded.scene, loaded.mjcf, make_robot(config.robot), placement)
+        self.task, placement = choose(loaded.scene, given, config.arms)
+        world = compose(loaded.scene, loaded.mjcf, make_robot(config.arms), placement)
         if not _present(device):
             raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')
         sizes = capacity_for(world, control, control_freq) if config.capacity is None else Capacity(*config.capacity)

@@ -56,7 +56,7 @@ class ScriptedPick:
         self._rotation = self._servo.nearer(self._grasp)
 
     def action(self) -> NDArray[np.float32]:
-        """The next action, shape (7,)."""
+        """The next action, shape (7,); of two arms the other holds still, and the shape is (14,)."""
         axis = self._gripper.closing_axis
         at, _ = hand_pose(self._grasp, self._gripper.tip, axis)
         before, _ = hand_pose(self._grasp, self._gripper.tip, axis, back=HOVER)
@@ -76,10 +76,15 @@ class ScriptedPick:
 
 
 class Servo:
-    """Brings the hand of an environment with osc control to a pose, one action after the other."""
+    """Brings the hand of an environment with osc control to a pose, one action after the other.
 
-    def __init__(self, env: Any) -> None:
-        self._env = env
+    Args:
+        env: a TabletopEnv.
+        side: "left" or "right" of two arms; None for the one that does the task. The other holds still.
+    """
+
+    def __init__(self, env: Any, side: str | None = None) -> None:
+        self._env, self._side = env, side
         self._axis = measure_gripper(env.robot).closing_axis
 
     def towards(self, position: Array, rotation: Array, fingers: float) -> tuple[NDArray[np.float32], float]:
@@ -90,16 +95,26 @@ class Servo:
             rotation: of the grip site, shape (3, 3).
             fingers: -1 opens them, 1 closes them.
         """
-        state, yaw = self._env.simulation.state, self._env.placement.yaw
+        hand, hand_rotation, yaw = self.hand
         c, s = math.cos(yaw), math.sin(yaw)
         to_base = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-        move = to_base @ (position - state.hand)
-        turn = to_base @ rotation_vector(rotation @ state.hand_rotation.T)
+        move = to_base @ (position - hand)
+        turn = to_base @ rotation_vector(rotation @ hand_rotation.T)
         command = np.concatenate(
             [_limited(POSITION_GAIN * move / POSITION_STEP), _limited(ANGLE_GAIN * turn / ANGLE_STEP), [fingers]]
         )
         error = float(np.linalg.norm(move)) + 0.05 * float(np.linalg.norm(turn))
-        return command.astype(np.float32), error
+        return self._env.simulation.whole(command.astype(np.float32), self._side), error
+
+    @property
+    def hand(self) -> tuple[Array, Array, float]:
+        """Position [m] and rotation of the hand, and the direction in which its arm faces [rad]."""
+        simulation = self._env.simulation
+        if self._side is None:
+            return simulation.state.hand, simulation.state.hand_rotation, self._env.placement.yaw
+        arm = simulation.world.arm(self._side)
+        site = simulation.data.site(arm.prefix + arm.robot.grip_site)
+        return site.xpos.copy(), site.xmat.reshape(3, 3).copy(), arm.yaw
 
     def nearer(self, grasp: Grasp) -> Array:
         """Of the two rotations of the hand that close along one line, that with the shorter turn.

@@ -7,13 +7,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.world import FLOOR, PREFIX, ROBOT, SUPPORT
+from pat3d.envs.physics.world import FLOOR, ROBOT, SUPPORT
 from pat3d.scene.model import GROUND
 
 Array = NDArray[np.float64]
 
 DEPTH = 0.002
 """Overlaps up to this [m] count as none: inverse kinematics is as exact."""
+
+OTHER = -4
+"""Owner of the geoms of an arm that has nothing to do for the task: in the way like anything else."""
 
 NOTICED = 0.008
 """Things further apart than this [m] are clear of one another."""
@@ -38,9 +41,13 @@ class Clearance:
         self._fingers = self._addresses(robot.gripper_joints)
         self._numbers = {obj.name: number for number, obj in enumerate(self._world.scene.objects)}
         self._names = {number: name for name, number in self._numbers.items()} | {SUPPORT: GROUND, FLOOR: GROUND}
+        self._names[OTHER] = "the other arm"
+        self._owner = np.where(self._world.idle, OTHER, self._world.owner)
 
     def _addresses(self, joints: tuple[str, ...]) -> NDArray[np.int64]:
-        return np.array([int(self._model.joint(PREFIX + name).qposadr[0]) for name in joints], dtype=np.int64)
+        return np.array(
+            [int(self._model.joint(self._world.prefix + name).qposadr[0]) for name in joints], dtype=np.int64
+        )
 
     def obstacle(self, joints: Array, fingers: Array, carried: str = "", shift: Array | None = None) -> str:
         """Name of what the robot, or what it carries, would be in; nothing where it is free.
@@ -67,9 +74,11 @@ class Clearance:
     def distance(self, joints: Array, fingers: Array, carried: str = "") -> float:
         """How far the robot would be from all objects but `carried` [m], at most NOTICED; see `obstacle`."""
         self._overlaps(carried, None, joints, fingers)
-        model, data, owner = self._model, self._data, self._world.owner
+        model, data, owner = self._model, self._data, self._owner
         collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-        others = np.flatnonzero(collides & (owner >= 0) & (owner != self._numbers.get(carried, ROBOT)))
+        others = np.flatnonzero(
+            collides & ((owner >= 0) | (owner == OTHER)) & (owner != self._numbers.get(carried, ROBOT))
+        )
         nearest = NOTICED
         for geom in np.flatnonzero(collides & (owner == ROBOT)).tolist():
             reach = model.geom_rbound[geom] + model.geom_rbound[others] + nearest
@@ -91,4 +100,4 @@ class Clearance:
             data.qpos[first : first + 3] += shift
         self._mujoco.mj_kinematics(model, data)
         self._mujoco.mj_collision(model, data)
-        return world.owner[data.contact.geom[data.contact.dist < -DEPTH]]
+        return self._owner[data.contact.geom[data.contact.dist < -DEPTH]]

@@ -44,7 +44,7 @@ class MujocoState(States):
             qvel=data.qvel[None],
             sites=data.site_xpos[None],
             touching=np.zeros((1, count, count), dtype=np.bool_),
-            pinched=np.zeros((1, 2, count), dtype=np.bool_),
+            pinched=np.zeros((1, 2 * len(world.arms), count), dtype=np.bool_),
             **self._about,
         )
         self._wake()
@@ -136,8 +136,9 @@ def _list_contacts(geoms, distances, addresses, nearest, row, finger, touching, 
 
 
 def fingers(world: World) -> NDArray[np.int32]:
-    """Which finger every geom belongs to, -1 for none."""
+    """Which finger every geom belongs to, two for each arm in their order, -1 for none."""
     found = np.full(world.model.ngeom, -1, dtype=np.int32)
-    for side, names in enumerate(world.robot.fingers):
-        found[[world.model.geom(world.prefix + name).id for name in names]] = side
+    for number, arm in enumerate(world.arms):
+        for side, names in enumerate(arm.robot.fingers):
+            found[[world.model.geom(arm.prefix + name).id for name in names]] = 2 * number + side
     return found

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
-from pat3d.envs.physics.world import PREFIX, ROBOT, World
-from pat3d.envs.robots.controllers import make_controller
+from pat3d.envs.physics.world import ROBOT, Mounted, World
+from pat3d.envs.robots.controllers import Controller, SeveralArms, make_controller
 from pat3d.errors import EnvironmentSetupError
 
 Array = NDArray[np.float64]
@@ -43,13 +45,18 @@ class Simulation:
         kinds = self._mujoco.mjtWarning
         wrong = (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)
         self._warnings = [self.data.warning[kind] for kind in wrong]
-        self._arm = np.array([int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.arm_joints])
-        self._fingers = np.array(
-            [int(self.model.joint(PREFIX + name).qposadr[0]) for name in world.robot.gripper_joints]
-        )
+        working = world.arm(world.placement.side)
+        self._arm, self._fingers = self._addresses(working)
+        self._arms = np.concatenate([self._addresses(arm)[0] for arm in world.arms])
         self._signature = int(self._mujoco.mjtState.mjSTATE_INTEGRATION)
         self._home = self._rest()
-        self.controller = make_controller(self.model, self.data, world.robot, PREFIX, control, control_freq)
+        parts = {
+            arm.side: make_controller(self.model, self.data, arm.robot, arm.prefix, control, control_freq)
+            for arm in world.arms
+        }
+        self.controller: Controller = parts[working.side] if len(parts) == 1 else SeveralArms(list(parts.values()))
+        ends = np.cumsum([0, *(part.size for part in parts.values())]).tolist()
+        self._parts = {side: slice(*ends[k : k + 2]) for k, side in enumerate(parts)}
         self.states = MujocoState(world, self.data)
         """As tasks judge them: one world."""
         self.state = SimState(self.states)
@@ -57,32 +64,63 @@ class Simulation:
 
     def _rest(self) -> Array:
         """The state at the start: objects where they were verified to rest, the robot in its start posture."""
-        model, data, robot = self.model, self.data, self.world.robot
+        model, data = self.model, self.data
         self._mujoco.mj_resetData(model, data)
-        data.qpos[self._arm] = self.world.placement.start
-        for joint, value in zip(robot.gripper_joints, robot.gripper_home, strict=True):
-            data.joint(PREFIX + joint).qpos[:] = value
+        for arm in self.world.arms:
+            data.qpos[self._addresses(arm)[0]] = arm.start
+            for joint, value in zip(arm.robot.gripper_joints, arm.robot.gripper_home, strict=True):
+                data.joint(arm.prefix + joint).qpos[:] = value
         self._mujoco.mj_forward(model, data)
         # A robot that starts in contact with the scene would move it.
         owners = self.world.owner[data.contact.geom] if data.ncon else np.zeros((0, 2), dtype=np.int64)
         for first, second in owners[(owners == ROBOT).any(axis=1)].tolist():
             other = second if first == ROBOT else first
             if other >= 0:
-                name = self.world.scene.objects[other].name
+                name, placement = self.world.scene.objects[other].name, self.world.placement
                 raise EnvironmentSetupError(
-                    f'{robot.name} touches "{name}" in its start posture ({self.world.placement.describe()}).'
+                    f'{self.world.robot.name} touches "{name}" in its start posture ({placement.describe()}).'
                 )
+        idle = self.world.idle[data.contact.geom] if data.ncon else np.zeros((0, 2), dtype=np.bool_)
+        if ((owners == ROBOT).all(axis=1) & (idle[:, 0] != idle[:, 1])).any():
+            raise EnvironmentSetupError(
+                f"the two arms touch each other in their start posture ({self.world.placement.describe()})."
+            )
         state = np.zeros(self._mujoco.mj_stateSize(model, self._signature))
         self._mujoco.mj_getState(model, data, state, self._signature)
         return state
 
+    def _addresses(self, arm: Mounted) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Of the joints of an arm and of its gripper in qpos."""
+        arm_joints, fingers = (
+            np.array([int(self.model.joint(arm.prefix + name).qposadr[0]) for name in names])
+            for names in (arm.robot.arm_joints, arm.robot.gripper_joints)
+        )
+        return arm_joints, fingers
+
+    @property
+    def joints(self) -> int:
+        """Number of joints of all arms, without their grippers."""
+        return len(self._arms)
+
+    def whole(self, action: NDArray[Any], side: str | None = None) -> NDArray[Any]:
+        """An action of one arm, by default the one that does the task, as one of all arms; another holds still."""
+        if len(self._parts) == 1:
+            return action
+        together = np.zeros(self.controller.size, dtype=action.dtype)
+        together[self.part(side)] = action
+        return together
+
+    def part(self, side: str | None = None) -> slice:
+        """Which values of an action are of one arm, by default of the one that does the task."""
+        return self._parts[self.world.placement.side if side is None else side]
+
     def reset(self, noise: Array | None = None) -> None:
-        """Return to the start; `noise` [rad], shape (arm joints,), is added to the robot's posture."""
+        """Return to the start; `noise` [rad], shape (joints,), is added to the posture of the arms."""
         model, data = self.model, self.data
         self._mujoco.mj_resetData(model, data)
         self._mujoco.mj_setState(model, data, self._home, self._signature)
         if noise is not None:
-            data.qpos[self._arm] += noise
+            data.qpos[self._arms] += noise
         self.restart()
 
     def restart(self) -> None:
@@ -103,12 +141,16 @@ class Simulation:
 
     @property
     def arm(self) -> Array:
-        """Positions of the arm's joints [rad]."""
+        """Positions of the joints of the arm that does the task [rad]."""
         return self.data.qpos[self._arm]
+
+    def posture(self, side: str) -> Array:
+        """Positions of the joints of the arm on one side [rad]."""
+        return self.data.qpos[self._addresses(self.world.arm(side))[0]]
 
     @property
     def fingers(self) -> Array:
-        """Positions of the gripper's joints [m or rad]."""
+        """Positions of the joints of its gripper [m or rad]."""
         return self.data.qpos[self._fingers]
 
     @property

@@ -39,7 +39,7 @@ class Snapshot(NamedTuple):
     touching: Mask
     """Who touches whom, symmetric, shape (worlds, OWNERS + objects, OWNERS + objects)."""
     pinched: Mask
-    """What either finger touches, shape (worlds, 2, OWNERS + objects)."""
+    """What the fingers touch, two of each arm, shape (worlds, 2 or 4, OWNERS + objects)."""
     start_centre: Array
     """Of mass at the start of the episode [m], shape (worlds, objects, 3)."""
     start_up: Array
@@ -49,7 +49,7 @@ class Snapshot(NamedTuple):
     dofs: Numbers
     """First of every object, -1 where it cannot move."""
     hand: int
-    """Site of the grip."""
+    """Site of the grip, of the arm that does the task where there are two."""
     surface: float
     """Height below which an object is off the work [m]."""
 

@@ -8,14 +8,16 @@ workbench, with a floor below.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.grasping.placement import Placement
+from pat3d.envs.grasping.standing import Placement, Stand
+from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.assembly import take_options
 from pat3d.envs.robots.robot import Robot
 from pat3d.errors import EnvironmentSetupError
@@ -29,6 +31,7 @@ PREFIX = "robot/"
 """Of every name that belongs to the robot."""
 
 CAMERAS = ("agentview", "frontview", "wrist")
+"""Of one arm; of two, `cameras_of` says."""
 
 _HIDDEN_GROUP = 4
 """Sites and collision geoms of the robot are drawn only when asked for."""
@@ -42,15 +45,38 @@ _LEG = 0.03
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Mounted:
+    """An arm where it stands in a world."""
+
+    robot: Robot
+    prefix: str
+    """Before every name that belongs to it."""
+    side: str
+    """"left" or "right"; nothing for a single arm."""
+    yaw: float
+    """Direction in which it faces [rad]."""
+    start: tuple[float, ...]
+    """Joint positions at the start [rad]."""
+
+    @property
+    def key(self) -> str:
+        """Before the names of its observations and of its camera."""
+        return f"{self.side}_" if self.side else ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class World:
     """A compiled world and where its parts are."""
 
     model: Any
     scene: Scene
     robot: Robot
+    """The arm that does the task."""
     placement: Placement
     prefix: str
-    """Before every name that belongs to the robot."""
+    """Before every name that belongs to that arm."""
+    arms: tuple[Mounted, ...]
+    """All arms, the left one of two first."""
     objects: tuple[str, ...]
     """Objects that can move, in the order of the scene."""
     bodies: dict[str, int]
@@ -61,6 +87,12 @@ class World:
     """First entry in qvel of every moving object, shape (objects,)."""
     owner: NDArray[np.int64]
     """Whose every geom is: index into the scene's objects, or one of ROBOT, SUPPORT, FLOOR; shape (geoms,)."""
+    idle: NDArray[np.bool_]
+    """Which geoms are of an arm that has nothing to do for the task, shape (geoms,)."""
+
+    def arm(self, side: str) -> Mounted:
+        """The arm on one side."""
+        return next(one for one in self.arms if one.side == side)
 
 
 ROBOT, SUPPORT, FLOOR = -1, -2, -3
@@ -68,7 +100,7 @@ ROBOT, SUPPORT, FLOOR = -1, -2, -3
 
 
 def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> World:
-    """Attach `robot` to the scene in the file `mjcf`.
+    """Attach `robot`, which does the task, and the other arm of two to the scene in the file `mjcf`.
 
     Raises:
         EnvironmentSetupError: MuJoCo refuses the scene or the combination; the message is MuJoCo's.
@@ -77,13 +109,33 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
 
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
-        _attach(mujoco, spec, robot, placement)
+        for one, where in _mounts(robot, placement):
+            _attach(mujoco, spec, one.robot, where, one.prefix)
         furnish(spec, placement)
-        spec.camera(PREFIX + robot.wrist_camera).name = "wrist"
+        for one, _ in _mounts(robot, placement):
+            spec.camera(one.prefix + one.robot.wrist_camera).name = f"{one.key}wrist"
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
     return index(model, scene, robot, placement)
+
+
+def cameras_of(sides: Sequence[str]) -> tuple[str, ...]:
+    """Names of the cameras in a world with arms on these sides."""
+    return CAMERAS if len(sides) < 2 else (*CAMERAS[:-1], *(f"{side}_{CAMERAS[-1]}" for side in sides))
+
+
+def _mounts(robot: Robot, placement: Placement) -> list[tuple[Mounted, Placement | Stand]]:
+    """The arms of a placement and where they are bolted, the left one of two first."""
+    arms: list[tuple[Mounted, Placement | Stand]] = []
+    both = [
+        (robot, placement),
+        *([] if placement.other is None else [(make_robot(placement.other.robot), placement.other)]),
+    ]
+    for one, where in sorted(both, key=lambda pair: pair[1].side):
+        prefix = f"{PREFIX}{where.side}/" if where.side else PREFIX
+        arms.append((Mounted(robot=one, prefix=prefix, side=where.side, yaw=where.yaw, start=where.start), where))
+    return arms
 
 
 def furnish(spec: Any, placement: Placement) -> None:
@@ -92,13 +144,15 @@ def furnish(spec: Any, placement: Placement) -> None:
 
     if placement.bench is not None:
         _bench(mujoco, spec, placement)
-    _pedestal(mujoco, spec, placement)
+    _pedestal(mujoco, spec, placement, placement.base_position, "pedestal")
+    if placement.other is not None:
+        _pedestal(mujoco, spec, placement, placement.other.base_position, "pedestal/other")
     _cameras(spec, placement)
     # Shadows reach as far as the robot does, not only around the objects.
     spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
 
 
-def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
+def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement | Stand, prefix: str = PREFIX) -> None:
     child = robot.new_spec()
     for geom in child.geoms:
         if geom.group == 0:
@@ -110,9 +164,9 @@ def _attach(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
         pos=placement.base_position, quat=[math.cos(placement.yaw / 2), 0.0, 0.0, math.sin(placement.yaw / 2)]
     )
     take_options(child, spec)
-    spec.attach(child, prefix=PREFIX, frame=frame)
+    spec.attach(child, prefix=prefix, frame=frame)
     # Some arms' first link turns inside the flange that stands on the pedestal, and would rub on that.
-    first = spec.joint(PREFIX + robot.arm_joints[0]).parent.name
+    first = spec.joint(prefix + robot.arm_joints[0]).parent.name
     spec.add_exclude(bodyname1="world", bodyname2=first)
 
 
@@ -162,13 +216,13 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
     )
 
 
-def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
-    height = placement.base_position[2] - placement.floor
+def _pedestal(mujoco: Any, spec: Any, placement: Placement, base: tuple[float, float, float], name: str) -> None:
+    x, y, top = base
+    height = top - placement.floor
     if height < 1e-3:
         return
-    x, y = placement.base_position[:2]
     spec.worldbody.add_geom(
-        name="pedestal",
+        name=name,
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
         pos=[x, y, placement.floor + height / 2],
         size=[placement.pedestal_radius, height / 2, 0],
@@ -180,7 +234,8 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement) -> None:
 def _cameras(spec: Any, placement: Placement) -> None:
     """Views: agentview looks across the work at the robot, frontview from further back."""
     centre = np.array(placement.focus)
-    towards = np.array([math.cos(placement.yaw), math.sin(placement.yaw), 0.0])
+    view = placement.yaw if placement.view is None else placement.view
+    towards = np.array([math.cos(view), math.sin(view), 0.0])
     reach = placement.focus_radius
     views = {
         "agentview": (
@@ -213,11 +268,17 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
     Args:
         model: MuJoCo's.
         scene: whose MJCF is in it.
-        robot: that is in it.
+        robot: that is in it and does the task.
         placement: of the robot.
         prefix: before every name of the robot; robosuite's own worlds have none.
     """
     starts = prefix or robot.owned
+    arms = tuple(one for one, _ in _mounts(robot, placement))
+    if prefix != PREFIX:
+        arms = (replace(arms[0], prefix=prefix),)
+    working = next(one for one in arms if one.side == placement.side)
+    other = next((one.prefix for one in arms if one is not working), None)
+    idle = np.zeros(model.ngeom, dtype=np.bool_)
     names = body_names(scene)
     bodies = {obj.name: int(model.body(names[obj.name]).id) for obj in scene.objects}
     moving = tuple(obj.name for obj in scene.objects if not obj.fixed)
@@ -228,8 +289,9 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
         body, name = int(model.geom_bodyid[geom]), model.geom(geom).name
         if body in order:
             owner[geom] = order[body]
-        elif model.body(body).name.startswith(starts) or name == "pedestal":
+        elif model.body(body).name.startswith(starts) or name.startswith("pedestal"):
             owner[geom] = ROBOT
+            idle[geom] = other is not None and (model.body(body).name.startswith(other) or name == "pedestal/other")
         elif name == "floor" or (name == "ground" and placement.host is not None):
             owner[geom] = FLOOR
     return World(
@@ -237,10 +299,12 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
         scene=scene,
         robot=robot,
         placement=placement,
-        prefix=prefix,
+        prefix=working.prefix,
+        arms=arms,
         objects=moving,
         bodies=bodies,
         positions=np.array([int(joint.qposadr[0]) for joint in joints], dtype=np.int64),
         velocities=np.array([int(joint.dofadr[0]) for joint in joints], dtype=np.int64),
         owner=owner,
+        idle=idle,
     )

@@ -8,7 +8,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from pat3d.envs.robots.kinematics import ArmKinematics
-from pat3d.envs.robots.menagerie import ARMS, described_file, menagerie_robot
+from pat3d.envs.robots.menagerie import ARMS, HALVES, described_file, menagerie_robot
+from pat3d.envs.robots.pairs import PAIRS, arms_of, pair_of
 from pat3d.envs.robots.robosuite_arms import ROBOTS as ROBOSUITE
 from pat3d.envs.robots.robosuite_arms import measure_robosuite_gripper, robosuite_robot
 from pat3d.envs.robots.robot import Gripper, Robot
@@ -36,14 +37,22 @@ def make_robot(name: str) -> Robot:
     given = name.removeprefix("robosuite:")
     if given in ROBOSUITE:
         return robosuite_robot(given)
-    if name in ARMS:
+    if name in ARMS or name in HALVES:
         return menagerie_robot(name)
+    if pair_of(name) is not None:
+        raise EnvironmentSetupError(f'"{name}" is two arms, and here is room for one: {", ".join(arms_of(name))}.')
     if name.endswith((".xml", ".yaml", ".yml")):
         return described_file(name)
     raise EnvironmentSetupError(
-        f'no robot "{name}". Robots: {", ".join(ARMS)}; PATH.xml for your own; with robosuite installed '
-        f"{', '.join(ROBOSUITE)}."
+        f'no robot "{name}". Robots: {", ".join(ARMS)}; with two arms {", ".join(PAIRS)}, or two names as '
+        f'"panda+panda"; PATH.xml for your own; with robosuite installed {", ".join(ROBOSUITE)}.'
     )
+
+
+def require_robot(name: str) -> None:
+    """Raise EnvironmentSetupError where `name` is neither one arm nor two that can be had; says what is wrong."""
+    for arm in arms_of(name):
+        make_robot(arm)
 
 
 @functools.lru_cache(maxsize=KEPT)

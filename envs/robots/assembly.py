@@ -59,12 +59,15 @@ def assemble(told: Description) -> Robot:
         raise EnvironmentSetupError(f"{told.mjcf}: MuJoCo {mujoco.__version__} refuses it: {error}") from error
     model.opt.gravity[:] = 0.0
     parts = find_parts(model, told)
+    if told.grip_armature:
+        _calm(spec, model, parts, told)
     _narrow_jaw(spec, model, parts)
     grip = find_grip(model, parts, told)
     arm_joints = tuple(model.joint(joint).name for joint in parts.arm_joints)
     fingers = tuple(tuple(model.geom(geom).name for geom in side) for side in grip.fingers)
     _equip(spec, model, parts, grip, torque_limits(model, parts, told))
-    _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
+    if not told.grip_armature:
+        _stiffen(spec, [model.actuator(number).name for number in parts.gripper_actuators], told.grip_stiffness)
     finished = spec.copy()
     robot = Robot(
         name=told.name,
@@ -105,6 +108,10 @@ def _joined(told: Description) -> Any:
     import mujoco
 
     spec = mujoco.MjSpec.from_file(str(told.mjcf))
+    for thing in (*spec.sensors, *spec.lights):
+        spec.delete(thing)
+    if told.root:
+        _keep(spec, told)
     if told.gripper is not None:
         carrier = spec.site(told.attach)
         if carrier is None:
@@ -112,9 +119,9 @@ def _joined(told: Description) -> Any:
             raise EnvironmentSetupError(f'{told.mjcf}: no site "{told.attach}" to attach a gripper to. Sites: {sites}.')
         gripper = mujoco.MjSpec.from_file(str(told.gripper))
         take_options(gripper, spec)
+        for thing in (*gripper.sensors, *gripper.lights):
+            gripper.delete(thing)
         spec.attach(gripper, prefix="gripper/", site=carrier)
-    for thing in (*spec.sensors, *spec.lights):
-        spec.delete(thing)
     for number, geom in enumerate(spec.geoms):
         geom.name = geom.name or f"pat3d/geom{number}"
         if geom.group == 0 and not (geom.contype or geom.conaffinity):
@@ -124,6 +131,23 @@ def _joined(told: Description) -> Any:
     for body in spec.bodies:
         body.gravcomp = 0.0
     return spec
+
+
+def _keep(spec: Any, told: Description) -> None:
+    """Of several arms in one file, leave the one that begins with `told.root`, at the origin and facing +x."""
+    bodies = list(spec.worldbody.bodies)
+    names = [body.name for body in bodies]
+    if told.root not in names:
+        raise EnvironmentSetupError(f'{told.mjcf}: no body "{told.root}" stands there. There are: {", ".join(names)}.')
+    # A posture of all arms is one of this one only where it comes first.
+    if names[0] != told.root:
+        for key in list(spec.keys):
+            spec.delete(key)
+    for body in bodies:
+        if body.name == told.root:
+            body.pos, body.quat = [0.0, 0.0, body.pos[2]], [1.0, 0.0, 0.0, 0.0]
+        else:
+            spec.delete(body)
 
 
 def take_options(child: Any, parent: Any) -> None:
@@ -140,6 +164,18 @@ def _stiffen(spec: Any, actuators: list[str], factor: float) -> None:
         actuator.gainprm[0] *= factor
         actuator.biasprm[1] *= factor
         actuator.biasprm[2] *= np.sqrt(factor)
+
+
+def _calm(spec: Any, model: Any, parts: Parts, told: Description) -> None:
+    """Give the finger joints the armature that is told, and their actuators critical damping; the model as well."""
+    for joint in parts.gripper_joints:
+        spec.joint(model.joint(joint).name).armature = told.grip_armature
+        model.dof_armature[model.jnt_dofadr[joint]] = told.grip_armature
+    for number in parts.gripper_actuators:
+        actuator = spec.actuator(model.actuator(number).name)
+        _stiffen(spec, [actuator.name], told.grip_stiffness)
+        actuator.biasprm[2] = -2.0 * np.sqrt(actuator.gainprm[0] * told.grip_armature)
+        model.actuator_gainprm[number], model.actuator_biasprm[number] = actuator.gainprm, actuator.biasprm
 
 
 def _equip(spec: Any, model: Any, parts: Parts, grip: GripFrame, torques: list[float]) -> None:

@@ -11,6 +11,7 @@ themselves, see `pat3d.envs.robots.assembly`. M has the armature of the joints.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -160,6 +161,34 @@ class TorqueController:
 
     def _write(self, torques: Array) -> None:
         self._data.ctrl[self._actuators] = np.minimum(np.maximum(torques, self._limits[0]), self._limits[1])
+
+
+class SeveralArms:
+    """Several arms of one world; an action is theirs one after the other."""
+
+    def __init__(self, arms: Sequence[Controller]) -> None:
+        self._arms = tuple(arms)
+        self._ends = np.cumsum([0, *(arm.size for arm in arms)]).tolist()
+
+    @property
+    def size(self) -> int:
+        """Number of values of an action."""
+        return int(self._ends[-1])
+
+    def reset(self) -> None:
+        """See Controller."""
+        for arm in self._arms:
+            arm.reset()
+
+    def set_action(self, action: Array) -> None:
+        """See Controller."""
+        for number, arm in enumerate(self._arms):
+            arm.set_action(action[self._ends[number] : self._ends[number + 1]])
+
+    def control(self) -> None:
+        """See Controller."""
+        for arm in self._arms:
+            arm.control()
 
 
 def rotation_by(turn: Array) -> Array:

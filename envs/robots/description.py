@@ -6,12 +6,14 @@ names what cannot:
     mjcf: arm.xml               # the file; PATH.xml with PATH.yaml beside it need not say so
     gripper: 2f85               # of the table, or a MJCF file, where arm and gripper are apart
     attach: attachment_site     # the site of the arm that carries the gripper
+    root: left_base             # of a file with several arms, the body with which this one begins
     arm_joints: [j1, j2, j3]    # hinges from the base to the hand
     hand: palm                  # the body that carries the fingers
     gripper_actuators: [grip]
     torques: [87, 87, 12]       # of the arm's joints [N m], where the MJCF does not limit them
     payload: 3.0                # [kg]
     grip_stiffness: 100         # factor, where the gripper hardly presses
+    grip_armature: 0.01         # of the finger joints [kg m^2], where the gripper trembles
 """
 
 from __future__ import annotations
@@ -35,6 +37,7 @@ class Description:
     mjcf: Path
     gripper: Path | None = None
     attach: str = "attachment_site"
+    root: str = ""
     arm_joints: tuple[str, ...] = ()
     hand: str = ""
     gripper_actuators: tuple[str, ...] = ()
@@ -42,6 +45,12 @@ class Description:
     payload: float = PAYLOAD
     grip_stiffness: float = 1.0
     """By how much the gripper's actuators are stiffer than their file says: some press with less than 1 N."""
+    grip_armature: float = 0.0
+    """Of the finger joints [kg m^2], with actuators that are critically damped; 0 for what the file says.
+
+    A damped actuator at its largest force is damped no more. Where the fingers are so light that a time step of that
+    force makes them faster than the damping allows, they tremble instead of closing.
+    """
 
 
 def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
@@ -75,5 +84,9 @@ def read_description(path: Path, grippers: Mapping[str, Any]) -> Description:
     if file is not None and not file.is_file():
         raise EnvironmentSetupError(f'{told}: no gripper "{gripper}". Grippers: {", ".join(grippers)}, or a MJCF file.')
     lists = {key: tuple(said[key]) for key in ("arm_joints", "gripper_actuators", "torques") if key in said}
-    rest = {key: said[key] for key in ("attach", "hand", "payload", "grip_stiffness") if key in said}
+    rest = {
+        key: said[key]
+        for key in ("attach", "root", "hand", "payload", "grip_stiffness", "grip_armature")
+        if key in said
+    }
     return Description(name=str(path), mjcf=mjcf, gripper=file, **lists, **rest)

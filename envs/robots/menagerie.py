@@ -30,7 +30,11 @@ class Entry:
     """The site that carries the gripper."""
     grip_stiffness: float = 1.0
     """See Description."""
+    grip_armature: float = 0.0
+    """See Description."""
     hand: str = ""
+    """See Description."""
+    root: str = ""
     """See Description."""
     torques: tuple[float, ...] = ()
     """By the maker's data sheet [N m], where the model does not limit them."""
@@ -52,9 +56,19 @@ ARMS = {
     "xarm7": Entry(model="ufactory_xarm7", file="xarm7", payload=3.5),
     "sawyer": Entry(model="rethink_robotics_sawyer", file="sawyer", payload=4.0, gripper="2f85"),
     "vx300s": Entry(model="trossen_vx300s", file="vx300s", payload=0.75),
+    "lite6": Entry(model="ufactory_lite6", file="lite6_gripper_narrow", payload=0.6),
+    "z1": Entry(
+        model="unitree_z1", file="z1_gripper", payload=2.0, hand="link06", grip_stiffness=0.04, grip_armature=0.01
+    ),
     "so101": Entry(model="robotstudio_so101", file="so101", payload=0.5, hand="gripper"),
 }  # fmt: skip
 """Every arm by its short name."""
+
+HALVES = {
+    f"aloha/{side}": Entry(model="aloha", file="aloha", payload=0.75, root=f"{side}/base_link")
+    for side in ("left", "right")
+}
+"""Arms of models that have two, see `pat3d.envs.robots.pairs`."""
 
 _HANDS = {"panda_hand": ("franka_emika_panda", "hand"), "2f85": ("robotiq_2f85", "2f85")}
 
@@ -100,20 +114,22 @@ GRIPPERS = {name: partial(menagerie_file, *where) for name, where in _HANDS.item
 
 
 def menagerie_robot(name: str) -> Robot:
-    """The robot called `name`, one of ARMS."""
+    """The robot called `name`, one of ARMS or HALVES."""
     from pat3d.envs.robots.assembly import assemble
 
-    entry = ARMS[name]
+    entry = (ARMS | HALVES)[name]
     return assemble(
         Description(
             name=name,
             mjcf=menagerie_file(entry.model, entry.file),
             gripper=GRIPPERS[entry.gripper]() if entry.gripper else None,
             attach=entry.attach,
+            root=entry.root,
             torques=entry.torques,
             hand=entry.hand,
             payload=entry.payload,
             grip_stiffness=entry.grip_stiffness,
+            grip_armature=entry.grip_armature,
         )
     )
 

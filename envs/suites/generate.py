@@ -98,10 +98,10 @@ def generate(
         EnvironmentSetupError: there is no such robot, or robosuite is not installed.
         SpecError: there is no GPU here, where the request asks for one.
     """
-    from pat3d.envs.robots.arms import make_robot
+    from pat3d.envs.robots.arms import require_robot
     from pat3d.sim.compilation import device_name
 
-    make_robot(request.robot)
+    require_robot(request.robot)
     device_name(request.device)
     if block is not None and block < 1:
         raise SuiteError(f"a block has at least one unit, not {block}.")

@@ -51,12 +51,12 @@ def _made(
 
 def prepare_for(request: Request) -> None:
     """Everything that is slow the first time."""
-    from pat3d.envs.robots.arms import make_robot
+    from pat3d.envs.robots.arms import require_robot
     from pat3d.envs.suites.threads import keep_to_one_thread
     from pat3d.sim.compilation import prepare
 
     keep_to_one_thread()
-    make_robot(request.robot)
+    require_robot(request.robot)
     prepare(request.device)
 
 

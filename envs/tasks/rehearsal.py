@@ -47,6 +47,7 @@ def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
         TaskError: something is out of reach, too wide, too heavy, or in the way, or has no room where it should go.
     """
     placement = place(scene, robot, task.needs(scene))
+    robot = placement.robot or robot
     try:
         simulation = Simulation(compose(scene, mjcf, make_robot(robot), placement), "osc", 20.0, sleep=False)
     except EnvironmentSetupError as error:

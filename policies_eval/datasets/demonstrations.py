@@ -53,7 +53,10 @@ class Demonstrator:
         self._policy.reset(episode)
         self._random = np.random.default_rng([episode.seed, 0x64656D6F])
         self._strength = self._noise if self._random.uniform() < SHARE_NOISY else 0.0
-        self._push = np.zeros(episode.action_size - 1)
+        # Of the arm that does the task; its last value is the gripper's, and another arm holds still.
+        moves = range(*episode.env.simulation.part().indices(episode.action_size))
+        self._moves = np.array(moves[:-1])
+        self._push = np.zeros(len(self._moves))
         self.seen, self.answers = [], []
 
     def act(self, observation: Mapping[str, Any]) -> NDArray[np.float32]:
@@ -63,7 +66,7 @@ class Demonstrator:
         self.answers.append(answer)
         self._push = 0.8 * self._push + 0.6 * self._strength * self._random.standard_normal(len(self._push))
         done = answer.copy()
-        done[:-1] = np.clip(done[:-1] + self._push, -1.0, 1.0)
+        done[self._moves] = np.clip(done[self._moves] + self._push, -1.0, 1.0)
         return done
 
 

@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.observations import state_keys
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets.demonstrations import Demonstration
-from pat3d.policies_eval.policies.lerobot import IMAGES, STATE
+from pat3d.policies_eval.policies.lerobot import IMAGES
 from pat3d.policies_eval.run.records import arrow
 from pat3d.policies_eval.run.settings import RolloutSettings
 from pat3d.policies_eval.video import FilmWriter
@@ -266,7 +267,9 @@ def _values_of(one: Demonstration) -> tuple[Values, Values]:
     """Numbers and pictures of a demonstration under LeRobot's names."""
     seen, steps = one.observations, len(one.actions)
     ends = np.arange(steps) == steps - 1
-    values: Values = {"observation.state": np.concatenate([seen[name] for name in STATE], axis=1).astype(np.float32)}
+    values: Values = {
+        "observation.state": np.concatenate([seen[name] for name in state_keys(seen)], axis=1).astype(np.float32)
+    }
     if "target" in seen:
         values["observation.environment_state"] = seen["target"].astype(np.float32)
     values |= {

@@ -31,9 +31,11 @@ def features(observation: Mapping[str, Any]) -> NDArray[np.float32]:
     """What the network sees of a state observation, shape (FEATURES,).
 
     Raises:
-        EvaluationError: not a state observation.
+        EvaluationError: not a state observation, or one of two arms.
     """
     missing = {"eef_pos", "eef_quat", "gripper_pos", "target"} - observation.keys()
+    if "left_eef_pos" in observation:
+        raise EvaluationError("a cloned policy moves one arm; here are two.")
     if missing:
         raise EvaluationError(f'a cloned policy needs obs="state"; {", ".join(sorted(missing))} are missing.')
     target = np.asarray(observation["target"], dtype=np.float64)

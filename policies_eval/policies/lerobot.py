@@ -14,14 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.observations import state_keys
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.policies.policy import EpisodeStart
 
 LEROBOT = "lerobot:"
 """Before the folder of a checkpoint."""
-
-STATE = ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
-"""Observations that make up "observation.state", in this order, as in the environments of suites for LeRobot."""
 
 IMAGES = "observation.images."
 """Before the name of every camera."""
@@ -107,7 +105,7 @@ class LeRobotPolicy:
     def _input(self, name: str, observation: Mapping[str, Any]) -> NDArray[np.float32]:
         """What the checkpoint calls `name`: a vector, or a picture with values in [0, 1], shape (3, height, width)."""
         if name == "observation.state":
-            return np.concatenate([observation[key] for key in STATE]).astype(np.float32)
+            return np.concatenate([observation[key] for key in state_keys(observation)]).astype(np.float32)
         if name == "observation.environment_state" and "target" in observation:
             return np.asarray(observation["target"], dtype=np.float32)
         key = f"{name.removeprefix(IMAGES)}_image"

@@ -88,7 +88,7 @@ class ScriptedPolicy:
         self._begin()
 
     def act(self, observation: Any) -> NDArray[np.float32]:
-        """The next action, shape (7,)."""
+        """The next action, shape (7,); of two arms the other holds still, and the shape is (14,)."""
         while True:
             action = getattr(self, f"_{self._phase}")()
             if action is not None:

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.world import CAMERAS
+from pat3d.envs.physics.world import cameras_of
+from pat3d.envs.robots.pairs import SIDES, pair_of
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.run.manifest import engine
 from pat3d.policies_eval.run.records import Evaluation
@@ -43,6 +44,7 @@ class Replayer:
             raise EvaluationError(f"{evaluation.folder}: settings that are none: {error}") from error
         self._runner = Runner(settings)
         self._rate = settings.control_freq
+        self._cameras = cameras_of(() if pair_of(settings.robot) is None else SIDES)
 
     def same(self, result: Result) -> bool:
         """Whether the episode goes as it was recorded, bit for bit."""
@@ -56,8 +58,7 @@ class Replayer:
         progress: Progress = silent,
     ) -> tuple[bool, list[NDArray[np.uint8]]]:
         """The same, with pictures at FILM_RATE, shape (height, width, 3)."""
-        if camera not in CAMERAS:
-            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(CAMERAS)}.')
+        self._require(camera)
         every = max(1, round(self._rate / FILM_RATE))
         frames: list[NDArray[np.uint8]] = []
         step = 0
@@ -76,8 +77,7 @@ class Replayer:
         self, result: Result, steps: Sequence[int], camera: str = "agentview", size: tuple[int, int] = (240, 180)
     ) -> list[NDArray[np.uint8]]:
         """Pictures after chosen steps."""
-        if camera not in CAMERAS:
-            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(CAMERAS)}.')
+        self._require(camera)
         frames: list[NDArray[np.uint8]] = []
         step = 0
 
@@ -89,6 +89,10 @@ class Replayer:
 
         self._runner.replay(result.episode, result.actions, watch)
         return frames
+
+    def _require(self, camera: str) -> None:
+        if camera not in self._cameras:
+            raise EvaluationError(f'no camera "{camera}". Cameras: {", ".join(self._cameras)}.')
 
     def close(self) -> None:
         """Free the environment."""

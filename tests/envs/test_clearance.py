@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from pat3d.envs.physics.clearance import DEPTH, NOTICED, Clearance
-from pat3d.envs.physics.world import FLOOR, ROBOT, SUPPORT
+from pat3d.envs.physics.world import FLOOR, PREFIX, ROBOT, SUPPORT
 
 RADIUS = 0.05
 BALLS = """
@@ -42,6 +42,8 @@ def balls(mug: str = "", bowl: str = "") -> Clearance:
         robot=SimpleNamespace(arm_joints=("x", "y"), gripper_joints=("finger",)),
         scene=SimpleNamespace(objects=[SimpleNamespace(name="mug"), SimpleNamespace(name="bowl")]),
         owner=owner,
+        idle=np.zeros(model.ngeom, dtype=bool),
+        prefix=PREFIX,
         objects=("mug", "bowl"),
         positions=np.array([3, 10]),
     )

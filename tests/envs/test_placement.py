@@ -11,7 +11,8 @@ import pytest
 
 from pat3d.envs.grasping import placement
 from pat3d.envs.grasping.grasp import Grasp
-from pat3d.envs.grasping.placement import BASE_RADIUS, BENCH_HEIGHT, BENCH_RIM, HOVER, RISER, Needs, place
+from pat3d.envs.grasping.placement import HOVER, RISER, Needs, place
+from pat3d.envs.grasping.site import BASE_RADIUS, BENCH_HEIGHT, BENCH_RIM, Site
 from pat3d.errors import TaskError
 from pat3d.geometry.hulls import convex_part
 from pat3d.scene.model import Scene, SceneObject
@@ -205,6 +206,6 @@ def test_the_hand_starts_eight_centimetres_above_what_is_near_it(stand, toward, 
 )
 def test_on_a_workbench_goes_what_fits_there_and_stands_low(low, high, bench):
     """At most 1.6 m by 1.2 m and 1 m high; what is to be taken stands less than 40 cm above the ground."""
-    site = placement._Site.of(Scene(objects=(block("cube", low, high),)), Needs(grasp=("cube",)))
+    site = Site.of(Scene(objects=(block("cube", low, high),)), Needs(grasp=("cube",)))
     assert site.bench == bench
     assert site.surface == (0.0 if bench else low[2])

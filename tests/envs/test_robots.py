@@ -304,6 +304,18 @@ def test_what_is_missing_can_be_named(tmp_path):
     assert [float(model.actuator(name).ctrlrange[1]) for name in robot.arm_actuators] == 7 * [80.0]
 
 
+def test_fingers_that_tremble_get_an_armature_and_critical_damping(tmp_path):
+    """A spring of 0.25 * 2000 N/m and a mass of 0.2 kg: critical is 2 sqrt(k m) = 20 N s/m."""
+    (tmp_path / "arm.xml").write_text(own_arm())
+    (tmp_path / "arm.yaml").write_text("grip_stiffness: 0.25\ngrip_armature: 0.2")
+    name = str(tmp_path / "arm.xml")
+    model = make_robot(name).new_spec().compile()
+    assert [float(model.dof_armature[int(model.joint(one).dofadr[0])]) for one in ("left", "right")] == [0.2, 0.2]
+    np.testing.assert_allclose(model.actuator("grip").gainprm[0], 500.0)
+    np.testing.assert_allclose(model.actuator("grip").biasprm[:3], [0.0, -500.0, -20.0])
+    assert measure_gripper(name).opening == pytest.approx(0.08, abs=2e-3)
+
+
 def test_no_such_robot_or_file_is_answered_with_what_there_is(tmp_path):
     with pytest.raises(EnvironmentSetupError, match=r"Robots: panda, fr3, .*PATH\.xml for your own"):
         make_robot("Marvin")

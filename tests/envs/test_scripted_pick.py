@@ -29,7 +29,8 @@ def env_of(control: str = "osc", **state):
         robot="arm",
         placement=SimpleNamespace(grasps=GRASPS, yaw=state.pop("yaw", 0.0)),
         simulation=SimpleNamespace(
-            state=SimpleNamespace(hand=np.zeros(3), hand_rotation=np.diag([1.0, -1.0, -1.0]), **state)
+            whole=lambda action, side: action,
+            state=SimpleNamespace(hand=np.zeros(3), hand_rotation=np.diag([1.0, -1.0, -1.0]), **state),
         ),
     )
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
 from pat3d.envs.physics.simulation import Simulation
-from pat3d.envs.physics.world import PREFIX, ROBOT, SUPPORT, _attach
+from pat3d.envs.physics.world import PREFIX, ROBOT, SUPPORT, Mounted, _attach
 from pat3d.errors import EnvironmentSetupError
 
 ARM = """<mujoco><compiler angle="radian"/><option timestep="0.004" gravity="0 0 -3"/><worldbody><body name="flange">
@@ -66,9 +67,12 @@ def at_start(start: float, *, before: str, after: str, height: float = 0.3):
     """The state at the start of a robot of one link, which points along +x at zero."""
     model = mujoco.MjModel.from_xml_string(ARMED.format(before=before, after=after, height=height))
     owners = {"ground": SUPPORT, "link": ROBOT, "mug": 0, "bowl": 1}
+    robot: Any = SimpleNamespace(name="arm", arm_joints=("turn",), gripper_joints=(), gripper_home=())
     world = SimpleNamespace(
-        robot=SimpleNamespace(name="arm", gripper_joints=(), gripper_home=()),
-        placement=SimpleNamespace(start=[start], describe=lambda: "on the ground"),
+        robot=robot,
+        arms=(Mounted(robot=robot, prefix=PREFIX, side="", yaw=0.0, start=(start,)),),
+        idle=np.zeros(model.ngeom, dtype=bool),
+        placement=SimpleNamespace(describe=lambda: "on the ground"),
         owner=np.array([owners[model.geom(geom).name] for geom in range(model.ngeom)]),
         scene=SimpleNamespace(objects=[SimpleNamespace(name="red mug"), SimpleNamespace(name="blue bowl")]),
     )

@@ -1,0 +1,86 @@
+"""What a task asks of a robot, and where the robot stands for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from pat3d.envs.grasping.grasp import Grasp
+
+
+@dataclass(frozen=True, kw_only=True)
+class Needs:
+    """What a task asks of the robot's hand."""
+
+    grasp: tuple[str, ...] = ()
+    """Objects to take."""
+    visit: tuple[tuple[float, float, float], ...] = ()
+    """Points [m] that the fingertips have to get to, pointing down."""
+    cleared: bool = False
+    """Whether the objects are taken one after the other, so that what was taken is no longer in the way."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stand:
+    """Where an arm is bolted down that has nothing to do for the task."""
+
+    robot: str
+    """Name of the arm."""
+    side: str
+    """"left" or "right"."""
+    base_position: tuple[float, float, float]
+    """[m]"""
+    yaw: float
+    """Direction in which it faces [rad], about z from +x."""
+    start: tuple[float, ...]
+    """Joint positions at the start [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Placement:
+    """Where a scene stands and where its robot is bolted; of two arms the one that does the task, and the other."""
+
+    base_position: tuple[float, float, float]
+    """Of the robot's base [m]."""
+    yaw: float
+    """Direction in which the robot faces [rad], about z from +x."""
+    bench: tuple[tuple[float, float], tuple[float, float]] | None
+    """Lower and upper corner of the workbench's top [m], whose surface is z = 0; None for a scene on the floor."""
+    host: str | None
+    """The object that carries the work, where it is not the ground itself."""
+    surface: float
+    """Height of the surface that the work stands on [m]."""
+    floor: float
+    """Height of the floor [m]."""
+    focus: tuple[float, float, float]
+    """Middle of the work [m], where the cameras look."""
+    focus_radius: float
+    """Half of the largest horizontal extent of the work [m]."""
+    start: tuple[float, ...]
+    """Joint positions of the arm at the start [rad]."""
+    grasps: Mapping[str, tuple[Grasp, ...]] = field(default_factory=dict)
+    """Grasps of every object of the task that are within reach, best first; objects in the order of taking them."""
+    reach: Mapping[str, float] = field(default_factory=dict)
+    """Horizontal distance of every object of the task from the base [m]."""
+    pedestal_radius: float = 0.1
+    """[m]"""
+    robot: str = ""
+    """Name of the arm that does the task, where there are two."""
+    side: str = ""
+    """"left" or "right", where there are two arms."""
+    other: Stand | None = None
+    """The other arm."""
+    view: float | None = None
+    """Where the cameras are as seen from the work [rad], about z from +x; None for where the robot faces."""
+
+    def describe(self) -> str:
+        """One sentence on where the robot stands and why."""
+        x, y, z = self.base_position
+        where = "on a workbench" if self.bench is not None else f'beside "{self.host}"' if self.host else "on the floor"
+        reached = ", ".join(f'"{name}" at {distance:.2f} m' for name, distance in self.reach.items())
+        which = f"the {self.side} of two arms does it, its " if self.side else ""
+        return (
+            f"{which}base {where} at ({x:.2f}, {y:.2f}, {z:.2f}) m, facing {math.degrees(self.yaw):.0f} degrees; "
+            f"reaches {reached or 'the work area'}"
+        )
