@@ -126,6 +126,7 @@ FORMS: dict[str, Callable[[], tuple[Scene, float | None]]] = {
     "slab": slab,
     "overhang 0.90": lambda: overhang(0.90),
     "overhang 0.95": lambda: overhang(0.95),
+    "overhang 0.98": lambda: overhang(0.98),
     "overhang 0.99": lambda: overhang(0.99),
     "overhang 0.995": lambda: overhang(0.995),
     "domino 45": lambda: domino(45.0),
