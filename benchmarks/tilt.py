@@ -2,10 +2,12 @@
 
 python benchmarks/tilt.py forms [NAME ...]      closed forms: boxes, pencil, overhang, domino, balls
 python benchmarks/tilt.py scenes FOLDER [...]   scene folders, as `pat3d generate` writes them
+python benchmarks/tilt.py forms --engines mujoco,newton,drake
 
 A row for each: the tilt that the certificate claims (whichever way), the least of what was stood towards eight sides,
 their ratio, and where a form has one the closed form of the ideal shapes. A scene goes when an object's centre has
-strayed 5 mm or it has turned 4 degrees.
+strayed 5 mm or it has turned 4 degrees. With --engines a row for each engine instead: gravity goes around every two
+seconds and leans more and more, up to 1.5 claims. What a scene stands should be 0.9 to 1.2 of its claim.
 """
 
 from __future__ import annotations
@@ -19,11 +21,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.certificate import MAX_TILT, certify
+from pat3d.check.engines.protocol import Engine, EngineRun
+from pat3d.check.engines.registry import chosen
+from pat3d.errors import CheckError
+from pat3d.exporters.common.objects import body_names
+from pat3d.exporters.formats import export
 from pat3d.exporters.mjcf.writer import write_mjcf
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Material
@@ -37,6 +45,12 @@ SECONDS = 12.0
 FURTHEST = 1.6
 """Tilt at which a run ends, in claims."""
 MM, DEGREES = 5.0, 4.0
+FURTHER = 1.5
+"""Tilt at which a run in another engine ends, in claims."""
+SPIRAL = 20.0
+"""In which gravity leans by that and goes around ten times [s]."""
+SHARES = (0.9, 1.2)
+"""Of a claim, that a scene should stand and should not."""
 GRAVITY = 9.81
 
 
@@ -112,7 +126,11 @@ FORMS: dict[str, Callable[[], tuple[Scene, float | None]]] = {
     "slab": slab,
     "overhang 0.90": lambda: overhang(0.90),
     "overhang 0.95": lambda: overhang(0.95),
+    "overhang 0.98": lambda: overhang(0.98),
+    "overhang 0.99": lambda: overhang(0.99),
+    "overhang 0.995": lambda: overhang(0.995),
     "domino 45": lambda: domino(45.0),
+    "domino 52": lambda: domino(52.0),
     "domino 60": lambda: domino(60.0),
     "ball on ball": balls,
 }
@@ -164,19 +182,61 @@ def row(name: str, scene: Scene, ideal: float | None, seconds: float) -> str:
     return f"{name:24} claims {claim:5.2f}{capped}  {stands}{form}{verdict}"
 
 
+def strays(scene: Scene, run: EngineRun) -> NDArray[np.float64]:
+    """How far objects are from where they were at the start, 1 where they are gone, shape (records,)."""
+    slugs = {slug: scene[name] for name, slug in body_names(scene).items()}
+    worst = np.zeros(len(run.times))
+    for column, name in enumerate(run.names):
+        obj = slugs[name.removeprefix("_")] if name.removeprefix("_") in slugs else scene[name]
+        turns = Rotation.from_quat(run.poses[:, column, 3:], scalar_first=True)
+        centres = run.poses[:, column, :3] + turns.apply(obj.asset.mass_properties.centre_of_mass)
+        moved = 1e3 * np.linalg.norm(centres - centres[0], axis=1)
+        turned = np.degrees((turns[0].inv() * turns).magnitude())
+        worst = np.maximum(worst, np.maximum(moved / MM, turned / DEGREES))
+    return worst
+
+
+def rows(name: str, scene: Scene, engines: tuple[Engine, ...], seconds: float) -> None:
+    """A line for each engine, printed as they end."""
+    certificate = certify(scene, margin=True)
+    claim = certificate.largest_tilt or 0.0
+    print(f"{name:24} claims {claim:5.2f}  {'passed' if certificate.passed else 'refused'}", flush=True)
+    if claim < 0.05:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        export(scene, sorted({engine.format for engine in engines}), folder)
+        for engine in engines:
+            try:
+                run = engine.run(Path(folder) / engine.format, seconds, timeout=900.0, lean=FURTHER * claim)
+            except CheckError as error:
+                print(f"    {engine.title:22} {error}", flush=True)
+                continue
+            gone = np.flatnonzero(strays(scene, run) > 1.0)
+            stood = float(run.leans[gone[0]] if len(gone) else run.leans[-1])
+            ratio = stood / claim
+            words = "" if SHARES[0] <= ratio <= SHARES[1] else "  TOO MUCH" if ratio < SHARES[0] else "  more"
+            print(f"    {engine.title:22} stands {stood:5.2f}  ratio {ratio:4.2f}{words}", flush=True)
+
+
 def main() -> None:
     """Print a table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("forms", "scenes"))
     parser.add_argument("which", nargs="*", help="forms or folders")
     parser.add_argument("--seconds", type=float, default=SECONDS, help="to lean by the claim [s]")
+    parser.add_argument("--engines", help="run these instead, as in: pat3d check --engines")
+    parser.add_argument("--spiral", type=float, default=SPIRAL, help="in which gravity goes around there [s]")
     given = parser.parse_args()
-    if given.what == "forms":
-        for name in given.which or FORMS:
-            print(row(name, *FORMS[name](), given.seconds), flush=True)
-    else:
-        for folder in given.which:
-            print(row(Path(folder).name, load_scene(folder), None, given.seconds), flush=True)
+    cases: list[tuple[str, Callable[[], tuple[Scene, float | None]]]] = (
+        [(name, FORMS[name]) for name in given.which or FORMS]
+        if given.what == "forms"
+        else [(Path(folder).name, lambda folder=folder: (load_scene(folder), None)) for folder in given.which]
+    )
+    for name, make in cases:
+        if given.engines:
+            rows(name, make()[0], chosen([given.engines]), given.spiral)
+        else:
+            print(row(name, *make(), given.seconds), flush=True)
 
 
 if __name__ == "__main__":

@@ -31,8 +31,12 @@ it is within reach, and what leans on a rim meets it at an angle that its fricti
 What comes faster than this in a step is found ahead of time, by speculative contacts.
 """
 
-CONTACT_GAP = 0.002
-"""Newton looks for contacts between surfaces closer than this [m]."""
+CONTACT_GAP = 0.0
+"""Newton looks for contacts between surfaces closer than this [m].
+
+Its MuJoCo solver lets points that are open by less take the place of points that carry: of a face it keeps four. With
+2 mm a tower fell at three quarters of the tilt that its outline stands, a pencil with a hundredth of a millimetre.
+"""
 
 MAX_DEPENETRATION_VELOCITY = 0.1
 """[m/s], at which PhysX pushes overlapping bodies apart."""

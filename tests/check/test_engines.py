@@ -1,9 +1,11 @@
 """Engines behind scripts: the MuJoCo driver for real, and drivers that misbehave in every way a script can."""
 
 import json
+import math
 import sys
 import time
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +51,7 @@ def _run(**changes):
         times=np.array(document["times"], dtype=float),
         names=tuple(document["names"]),
         poses=np.array(document["poses"], dtype=float),
+        leans=np.zeros(len(document["times"])),
     )
 
 
@@ -84,6 +87,31 @@ def test_the_mujoco_driver_finds_the_drift_that_mujoco_in_this_process_finds(tmp
     assert report.settings["timestep"] == 0.002
     assert report.version == here.version
     json.dumps(report.as_dict(), allow_nan=False)
+
+
+def test_gravity_that_leans_upsets_a_box_at_its_tilt_and_ends_the_run(tmp_path):
+    """A box twice as high as it is wide stands atan(1 / 2) on its outline, and no further."""
+    scene = scene_of(placed("box", asset_of(box(0.05, 0.05, 0.1)), (0, 0, GAP)))
+    write_mjcf(scene, tmp_path / "mjcf")
+    stands = MUJOCO.run(tmp_path / "mjcf", 4.0, timeout=100.0, lean=20.0)
+    assert stands.leans[-1] == pytest.approx(20.0)
+    assert drifts(scene, stands, 4.0).objects[0].centre_mm < 5.0
+    falls = MUJOCO.run(tmp_path / "mjcf", 8.0, timeout=100.0, lean=45.0)
+    assert falls.times[-1] < 7.9
+    assert math.degrees(math.atan(0.5)) < falls.leans[-1] < 36.0
+
+
+def test_gravity_leans_to_the_end_and_goes_around_while_it_does(monkeypatch):
+    monkeypatch.syspath_prepend(str(DRIVERS))
+    recording = import_module("recording")
+    lean = recording.Lean(10.0, 20.0)
+    assert lean.tilt(0.0) == 0.0
+    assert lean.tilt(2.0) == pytest.approx(5.0)
+    assert lean.tilt(20.0) == pytest.approx(10.0)
+    x, y, z = lean.down(20.0)
+    assert math.degrees(math.acos(-z)) == pytest.approx(10.0)
+    assert math.degrees(math.atan2(y, x)) == pytest.approx(0.0, abs=1e-6)
+    assert math.degrees(math.atan2(*lean.down(19.5)[1::-1])) == pytest.approx(-90.0)
 
 
 def test_the_mujoco_driver_takes_the_file_for_mujoco_3_3_there_and_the_scene_elsewhere():

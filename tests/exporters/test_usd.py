@@ -405,7 +405,7 @@ def test_settings_of_single_engines_are_on_the_prims_they_read(tmp_path):
         (stage.GetPrimAtPath("/World/can"), "PhysxRigidBodyAPI", "physxRigidBody:enableSpeculativeCCD", True),
         (part, "PhysxCollisionAPI", "physxCollision:restOffset", 0.0),
         (part, "PhysxConvexHullCollisionAPI", "physxConvexHullCollision:minThickness", 1e-5),
-        (part, "NewtonCollisionAPI", "newton:contactGap", 0.002),
+        (part, "NewtonCollisionAPI", "newton:contactGap", 0.0),
         (part, "MjcCollisionAPI", "mjc:condim", 4),
         (part, "MjcCollisionAPI", "mjc:margin", 1.2 * GAP),
     ):

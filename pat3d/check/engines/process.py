@@ -54,13 +54,14 @@ class ScriptEngine:
         state = "is not made" if not interpreter(self.environment).exists() else "is of another version of PAT3D"
         return f"{engines_root() / self.environment} {state}: {how_to_get(self.environment)}"
 
-    def run(self, export: Path, seconds: float, *, timeout: float) -> EngineRun:
+    def run(self, export: Path, seconds: float, *, timeout: float, lean: float = 0.0) -> EngineRun:
         """Run the driver; see `Engine`."""
         python = Path(sys.executable) if self.environment is None else interpreter(self.environment)
         with tempfile.TemporaryDirectory(prefix="pat3d-engine-") as scratch:
             out = Path(scratch) / "run.json"
             command = [str(python), "-s", str(self.driver), str(Path(export).resolve()), "--seconds", repr(seconds)]
             command += ["--out", str(out), "--variant", self.variant]
+            command += ["--lean", repr(lean)] if lean else []
             code, tail = _execute(command, Path(scratch), timeout)
             if code is None:
                 raise CheckError(f"{self.title}: no result within {timeout:g} s of wall time.")
@@ -146,6 +147,9 @@ def _checked(document: Any) -> EngineRun:
         raise ValueError(f"names repeats, or holds more than {MAX_BODIES}")
     times = np.array(document["times"], dtype=np.float64)
     poses = np.array(document["poses"], dtype=np.float64).reshape(len(times), len(names), 7)
+    leans = np.array(document.get("leans", np.zeros(len(times))), dtype=np.float64)
+    if leans.shape != times.shape or not np.isfinite(leans).all():
+        raise ValueError("leans is not a number for every record")
     if times.ndim != 1 or not len(times) or not np.isfinite(times).all():
         raise ValueError("times is not a list of numbers")
     settings, warnings = document["settings"], document["warnings"]
@@ -163,6 +167,7 @@ def _checked(document: Any) -> EngineRun:
         times=times,
         names=tuple(names),
         poses=poses,
+        leans=leans,
     )
 
 

@@ -30,6 +30,8 @@ class EngineRun:
     """Of the moving bodies: slugs, or the objects' own names."""
     poses: NDArray[np.float64]
     """Position [m] and quaternion wxyz of every body frame, NaN after a blow-up, shape (records, bodies, 7)."""
+    leans: NDArray[np.float64]
+    """Of gravity at every record [degrees], shape (records,)."""
 
 
 class Engine(Protocol):
@@ -54,13 +56,15 @@ class Engine(Protocol):
         """Why the engine cannot run here and how to get it; None where it can."""
         ...
 
-    def run(self, export: Path, seconds: float, *, timeout: float) -> EngineRun:
+    def run(self, export: Path, seconds: float, *, timeout: float, lean: float = 0.0) -> EngineRun:
         """Load the export in the folder `export` and simulate it untouched.
 
         Args:
             export: the folder of the engine's format.
             seconds: simulated time [s].
             timeout: wall time after which the run is given up [s].
+            lean: of gravity in the end [degrees], as on ground that is tilted further and further, towards one side
+                after the other; such a run ends when something has fallen.
 
         Raises:
             CheckError: the engine refuses the export, crashes, takes too long, or answers nonsense.

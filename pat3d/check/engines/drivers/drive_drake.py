@@ -8,8 +8,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import recording
-from pydrake.multibody.plant import AddMultibodyPlant
+from pydrake.multibody.math import SpatialForce
+from pydrake.multibody.plant import AddMultibodyPlant, ExternallyAppliedSpatialForce_
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
@@ -23,7 +25,7 @@ class _Messages(logging.Handler):
         self.texts.append(record.getMessage())
 
 
-def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
+def drive(export: Path, seconds: float, _: str, lean: float) -> dict[str, Any]:
     """Load scene.dmd.yaml with the loader that lies beside it and run it."""
     sys.path.insert(0, str(export))
     from load_drake import load_drake, plant_config
@@ -54,7 +56,21 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         steps += count
         simulator.AdvanceTo(steps * config.time_step)
 
-    found = recording.run(step, poses, config.time_step, seconds)
+    gravity = np.array(plant.gravity_field().gravity_vector())
+
+    def pull(down: tuple[float, float, float]) -> None:
+        # Gravity is part of a plant that is finished, so what it lacks pulls at the centres of mass.
+        more = np.linalg.norm(gravity) * np.array(down) - gravity
+        forces = []
+        for body in moving.values():
+            force: Any = ExternallyAppliedSpatialForce_[float]()
+            force.body_index = body.index()
+            force.p_BoBq_B = body.CalcCenterOfMassInBodyFrame(context)
+            force.F_Bq_W = SpatialForce(np.zeros(3), body.get_mass(context) * more)
+            forces.append(force)
+        plant.get_applied_spatial_force_input_port().FixValue(context, forces)
+
+    found = recording.run(step, poses, config.time_step, seconds, pull, lean)
     settings = {
         "timestep": config.time_step,
         "contact model": config.contact_model,

@@ -15,7 +15,7 @@ def file_for(version: str) -> str:
     return "scene_mujoco_3.3.xml" if version.startswith("3.3.") else "scene.xml"
 
 
-def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
+def drive(export: Path, seconds: float, _: str, lean: float) -> dict[str, Any]:
     """Load the scene's file as it is and run it."""
     messages: list[str] = []
     mujoco.set_mju_user_warning(messages.append)
@@ -30,7 +30,15 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         mujoco.mj_kinematics(model, data)
         return {name: [*data.xpos[body], *data.xquat[body]] for body, name in names.items()}
 
-    found = recording.run(lambda count: mujoco.mj_step(model, data, nstep=count), poses, model.opt.timestep, seconds)
+    strength = float(np.linalg.norm(model.opt.gravity))
+
+    def pull(down: tuple[float, float, float]) -> None:
+        model.opt.gravity[:] = strength * np.array(down)
+
+    def step(count: int) -> None:
+        mujoco.mj_step(model, data, nstep=count)
+
+    found = recording.run(step, poses, model.opt.timestep, seconds, pull, lean)
     for kind, stat in zip(mujoco.mjtWarning.__members__, data.warning, strict=False):
         if stat.number:
             messages.append(f"{kind.removeprefix('mjWARN_').lower()}: {stat.number} times")

@@ -40,7 +40,7 @@ def _shrink(margins: wp.array(dtype=wp.float32), by: wp.float32):  # pyright: ig
     margins[wp.tid()] = margins[wp.tid()] - by
 
 
-def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
+def drive(export: Path, seconds: float, variant: str, lean: float) -> dict[str, Any]:
     """Load scene.usdc and run it with the solver "mujoco" or "xpbd"."""
     wp.config.quiet = True
     builder = newton.ModelBuilder()
@@ -50,13 +50,18 @@ def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
     state = model.state()
     newton.eval_fk(model, model.joint_q, model.joint_qd, state)
     names = {label.split("/")[-1]: number for number, label in enumerate(builder.body_label)}
-    step_seconds, step = _with_mujoco(model, state) if variant == "mujoco" else _with_xpbd(model, state)
+    solver, step_seconds, step = _with_mujoco(model, state) if variant == "mujoco" else _with_xpbd(model, state)
+    strength = float(np.linalg.norm(model.gravity.numpy()[0]))
 
     def poses() -> dict[str, list[float]]:
         placed = state.body_q.numpy().astype(np.float64)
         return {name: [*placed[k, :3], placed[k, 6], *placed[k, 3:6]] for name, k in names.items()}
 
-    found = recording.run(step, poses, step_seconds, seconds)
+    def pull(down: tuple[float, float, float]) -> None:
+        model.set_gravity(strength * np.array(down))
+        solver.notify_model_changed(newton.ModelFlags.MODEL_PROPERTIES)
+
+    found = recording.run(step, poses, step_seconds, seconds, pull, lean)
     settings: dict[str, Any] = {"timestep": step_seconds, "solver": variant}
     if variant != "mujoco":
         settings |= {
@@ -74,8 +79,8 @@ def drive(export: Path, seconds: float, variant: str) -> dict[str, Any]:
     }
 
 
-def _with_mujoco(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
-    """The time step [s], and what advances `state` by a number of them."""
+def _with_mujoco(model: Any, state: Any) -> tuple[Any, float, Callable[[int], None]]:
+    """The solver, its time step [s], and what advances `state` by a number of them."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         solver: Any = newton.solvers.SolverMuJoCo(model, use_mujoco_cpu=True)
@@ -87,11 +92,11 @@ def _with_mujoco(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
             solver.step(state, after, control, None, MUJOCO_STEP)
             state.assign(after)
 
-    return MUJOCO_STEP, step
+    return solver, MUJOCO_STEP, step
 
 
-def _with_xpbd(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
-    """The time step [s], and what advances `state` by a number of them."""
+def _with_xpbd(model: Any, state: Any) -> tuple[Any, float, Callable[[int], None]]:
+    """The solver, its time step [s], and what advances `state` by a number of them."""
     solver = newton.solvers.SolverXPBD(model, iterations=XPBD_ITERATIONS, rigid_contact_relaxation=XPBD_RELAXATION)
     pipeline = newton.CollisionPipeline(model, contact_matching=XPBD_CONTACTS)
     after, control, contacts = model.state(), model.control(), pipeline.contacts()
@@ -117,7 +122,7 @@ def _with_xpbd(model: Any, state: Any) -> tuple[float, Callable[[int], None]]:
                 advance()
             graph = capture.graph
 
-    return XPBD_STEP, step
+    return solver, XPBD_STEP, step
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ STEP = 0.001
 """[s], the step that the file asks for."""
 
 
-def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
+def drive(export: Path, seconds: float, _: str, lean: float) -> dict[str, Any]:
     """Load scene.usdc as it is and run it."""
     roots = [*map(str, physx_schema_paths()), str(ovphysx.newton_schema_root())]
     ovstage.population.register_usd_schemas(roots)
@@ -44,7 +44,7 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         for _ in range(count):
             physx.step_sync(STEP)
 
-    found = recording.run(step, poses, STEP, seconds)
+    found = recording.run(step, poses, STEP, seconds, None, lean)
     physx.wait_task(physx.detach_ovstage())
     return {
         "engine": "PhysX",

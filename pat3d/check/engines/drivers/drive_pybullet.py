@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from importlib import metadata
 from pathlib import Path
@@ -11,7 +12,7 @@ import pybullet
 import recording
 
 
-def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
+def drive(export: Path, seconds: float, _: str, lean: float) -> dict[str, Any]:
     """Load manifest.json with the loader that lies beside it, as its documentation says, and run it."""
     sys.path.insert(0, str(export))
     from load_pybullet import load_pybullet
@@ -37,9 +38,13 @@ def drive(export: Path, seconds: float, _: str) -> dict[str, Any]:
         for _ in range(count):
             pybullet.stepSimulation(client)
 
+    def pull(down: tuple[float, float, float]) -> None:
+        pybullet.setGravity(*(strength * share for share in down), physicsClientId=client)
+
     parameters = pybullet.getPhysicsEngineParameters(client)
     time_step = parameters["fixedTimeStep"]
-    found = recording.run(step, poses, time_step, seconds)
+    strength = math.hypot(*(parameters[f"gravityAcceleration{axis}"] for axis in "XYZ"))
+    found = recording.run(step, poses, time_step, seconds, pull, lean)
     settings = {
         "timestep": time_step,
         "solver iterations": parameters["numSolverIterations"],
