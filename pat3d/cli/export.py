@@ -38,6 +38,18 @@ _MESH_OPTIONS = (
         shown="y for glTF, else z",
     ),
     option("--parts", "convex parts by coacd, hull or box", metavar="HOW", group=_MESHES, shown="coacd"),
+    option(
+        "--threshold", "concavity that coacd may leave, 0.01 to 1", type=float, group=_MESHES, shown="0.05 or finer"
+    ),
+    option("--max-hulls", "most convex parts by coacd", type=int, metavar="N", group=_MESHES, shown="80"),
+    option(
+        "--decomposition-limit",
+        "processor time for coacd, each mesh",
+        type=float,
+        metavar="SECONDS",
+        group=_MESHES,
+        shown="120",
+    ),
     option("--thickness", "of the walls of an open shell", type=float, metavar="M", group=_MESHES),
 )
 """Arguments of `import_mesh`, which knows their defaults."""
@@ -60,6 +72,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
+    pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
     pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
     """,
 )
@@ -68,11 +81,13 @@ def export(options: argparse.Namespace) -> int:
     source, out = Path(options.source).expanduser(), Path(options.out).expanduser()
     formats, notes = _formats(options.formats)
     usd = {"text": options.usda, "package": options.usdz}
-    names = (one.name.removeprefix("--") for one in _MESH_OPTIONS)
+    names = (one.name.removeprefix("--").replace("-", "_") for one in _MESH_OPTIONS)
     mesh = {name: value for name in names if (value := getattr(options, name)) is not None}
     if (source / "scene.json").is_file() or source.name == "scene.json":
         if mesh:
-            raise SpecError(f"--{next(iter(mesh))} is for meshes; {source} is a scene, whose objects are weighed.")
+            raise SpecError(
+                f"--{next(iter(mesh)).replace('_', '-')} is for meshes; {source} is a scene, whose objects are weighed."
+            )
         code = _scene(source if source.is_dir() else source.parent, out, formats, usd)
     else:
         code = _meshes(source, out, formats, usd, mesh)

@@ -59,7 +59,7 @@ PLANTED = [
     ("mjcf", "scene.xml", r'<body name="red_mug_1" pos="(\S+) ', "stands elsewhere"),
     ("mjcf", "scene.xml", r'<body name="pencil_co".*?diaginertia="(\S+) ', "inertia"),
     ("mjcf", "scene.xml", r'<body name="red_mug_2".*?<inertial pos="\S+ \S+ (\S+)"', "centre of mass"),
-    ("mjcf", "scene.xml", r'name="red_mug_2/part_000" friction="(\S+) ', "friction"),
+    ("mjcf", "scene.xml", r'name="red_mug_2_part_000" friction="(\S+) ', "friction"),
     ("mjcf", "meshes/red_mug_1/part_000.obj", r"v (\S+) ", "volume of hulls"),
     ("urdf", MUG, r'<mass value="(\S+)"', "weighs"),
     ("urdf", PENCIL, r'izz="(\S+)"', "inertia"),
