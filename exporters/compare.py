@@ -20,6 +20,8 @@ from pat3d.errors import ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.common.xml_files import convex_volume
+from pat3d.geometry.hulls import slivers
+from pat3d.geometry.normals import triangle_areas
 from pat3d.scene.model import Scene, SceneObject
 
 TOLERANCE = 1e-6
@@ -210,6 +212,7 @@ def _reading(scene: Scene, found: Sequence[BodyReadback], reader: _Reader, name:
             failures.append(f'"{obj.name}" is {then} in the scene but {now} in {path}.')
         if id(obj.asset) not in volumes:
             volumes[id(obj.asset)] = sum(convex_volume(part.vertices) for part in obj.asset.parts)
+            failures += _narrow_faces(obj)
         errors = _errors(obj, body, volumes[id(obj.asset)], reader.silent)
         bodies.append(errors)
         failures += _lines(obj, body, errors, path)
@@ -217,6 +220,16 @@ def _reading(scene: Scene, found: Sequence[BodyReadback], reader: _Reader, name:
         loose = [body.name for body in there.values() if not body.fixed]
         failures += [f'the body "{body}" of {path} is not in the scene.' for body in loose]
     return Reading(reader=name, bodies=tuple(bodies), failures=tuple(failures))
+
+
+def _narrow_faces(obj: SceneObject) -> list[str]:
+    """Convex parts that some engine refuses for a face without a normal, a line each."""
+    lines = []
+    for number, part in enumerate(obj.asset.parts):
+        if len(bad := slivers(part.vertices, part.faces)):
+            area = 1e6 * float(triangle_areas(part.vertices[part.faces[bad[:1]]])[0])
+            lines.append(f'"{obj.name}": convex part {number} has a face of {area:.2g} mm^2, which is a sliver.')
+    return lines
 
 
 def _errors(obj: SceneObject, body: BodyReadback, volume: float, silent: frozenset[str]) -> BodyParity:

@@ -10,9 +10,10 @@ import numpy as np
 
 from pat3d.errors import CheckError
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import Volumes, beside, common, convex_volume, in_body_axes
+from pat3d.exporters.common.xml_files import Volumes, common, convex_volume, in_body_axes
 from pat3d.exporters.urdf.load_drake import load_drake, plant_config
 from pat3d.exporters.urdf.load_pybullet import load_pybullet
+from pat3d.exporters.urdf.mesh_paths import mesh_file
 from pat3d.exporters.urdf.reader import read_manifest
 from pat3d.geometry.pose import Pose
 
@@ -49,7 +50,7 @@ def _link(link: Any, transform: np.ndarray, folder: Path, volumes: Volumes) -> B
         inertia=in_body_axes(link.inertial.inertia, origin[:3, :3]),
         friction=math.nan,
         hull_volume=sum(
-            float(np.prod(shape.box.size)) if shape.box else volumes.of(beside(shape.mesh.filename, folder, folder))
+            float(np.prod(shape.box.size)) if shape.box else volumes.of(mesh_file(shape.mesh.filename, folder, folder))
             for shape in shapes
         ),
         pose=Pose.from_matrix(transform[:3, :3], transform[:3, 3]),

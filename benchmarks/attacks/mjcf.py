@@ -44,7 +44,7 @@ def unfree(root: ET.Element) -> None:
 
 def other_mesh(root: ET.Element) -> Any:
     """An object that looks like another."""
-    files = [mesh for mesh in root.iterfind("asset/mesh") if mesh.attrib["name"].endswith("/visual")]
+    files = [mesh for mesh in root.iterfind("asset/mesh") if mesh.attrib["name"].endswith("_visual")]
     if len(files) < 2:
         return False
     files[0].attrib["file"] = files[1].attrib["file"]

@@ -149,7 +149,7 @@ USD: dict[str, Deed] = {
     ),
     "asset: mass": usd(weight, "usd/assets/*/*.usdc"),
     "asset: layer swapped": swap("usd/assets/*/*.usdc"),
-    "asset: texture swapped": swap("usd/assets/*/texture.png"),
+    "asset: texture swapped": swap("usd/assets/*/*.png"),
     "asset: missing": remove("usd/assets/*/*.usdc"),
     "a second scene beside it": more("usd/scene.usda", "#usda 1.0\n"),
 }

@@ -178,7 +178,7 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
     ground = spec.geom("ground")
     ground.pos, ground.size = [*centre, ground.pos[2]], [*half, ground.size[2]]
     ground.rgba = [0, 0, 0, 0]
-    drawn = spec.geom("ground/visual")
+    drawn = spec.geom("ground_visual")
     drawn.pos = [0, 0, placement.floor]
     wood = spec.add_material(name="bench", rgba=[0.80, 0.77, 0.72, 1.0], specular=0.15, shininess=0.2)
     steel = spec.add_material(name="bench/legs", rgba=[0.33, 0.34, 0.36, 1.0], specular=0.3, shininess=0.4)

@@ -9,6 +9,7 @@ other packages what they understand.
 from __future__ import annotations
 
 import filecmp
+import shutil
 import tempfile
 import zipfile
 from collections.abc import Iterator
@@ -24,7 +25,9 @@ from pat3d.exporters.contents.texts import json_differences, obj_differences, pn
 from pat3d.exporters.contents.values import FOREIGN
 from pat3d.exporters.contents.xml_trees import xml_differences
 from pat3d.exporters.formats import export
+from pat3d.exporters.urdf.mesh_paths import MESH_PATHS, check_mesh_paths, mesh_paths_of, set_mesh_paths
 from pat3d.scene.checksums import BYPRODUCTS, MANIFEST
+from pat3d.scene.folder import read_json
 from pat3d.scene.model import Scene
 
 MAX_LINES = 6
@@ -77,6 +80,9 @@ def contents(scene: Scene, path: str | Path, *, anew: Path | None = None) -> Con
             package = (folder / "scene.usdz").is_file()
             usd: dict[str, Any] = {"text": main.suffix == ".usda", "package": package} if kind == "usd" else {}
             anew = export(scene, (kind,), scratch, **usd)[kind].parent
+        if kind == "urdf" and (how := mesh_paths_of(read_json(folder / "manifest.json"))) != MESH_PATHS[0]:
+            anew = Path(shutil.copytree(anew, Path(scratch) / "paths"))
+            set_mesh_paths(anew, check_mesh_paths(how), home=folder)
         lines = tuple(f"{folder / name}: {line}." for name, line in _folders(folder, anew))
         same = (filecmp.cmp(folder / name, anew / name, shallow=False) for name in _names(anew))
         identical = not lines and all(same)

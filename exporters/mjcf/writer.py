@@ -2,8 +2,10 @@
 
     scene.xml             the scene, with the keyframe "home"
     scene_mujoco_3.3.xml  the same for MuJoCo 3.3
+    scene_mjx.xml         the same for MJX, which knows no contact margins
     objects/<name>.xml    one object by itself, to load alone or to `<attach>` to a scene of one's own
-    meshes/ textures/     what both draw from
+    robosuite/<name>.xml  the same for robosuite's MujocoXMLObject, and without a joint for dm_control's attach
+    meshes/ textures/     what all draw from
 
 What it takes, as measured with MuJoCo 3.9:
 
@@ -40,40 +42,34 @@ from pat3d.exporters.common.folder import export_folder
 from pat3d.exporters.common.frames import text
 from pat3d.exporters.common.margins import contact_margins, flush_boxes, largest_margins
 from pat3d.exporters.common.objects import CONTACT_GAP, GROUND_HALF_THICKNESS, body_names, ground_size
+from pat3d.exporters.mjcf.elements import (
+    ROLLING_FRICTION,
+    SOLIMP,
+    SOLREF,
+    TORSIONAL_FRICTION,
+    add_defaults,
+    add_geoms,
+    declare_files,
+    empty_model,
+    inertial,
+    save_xml,
+)
+from pat3d.exporters.mjcf.objects import object_model, robosuite_model
 from pat3d.geometry.contacts import find_contacts
-from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.pose import Pose
-from pat3d.geometry.rotations import principal_frame
-from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import hull_obj, part_file, visual_obj, write_texture
 from pat3d.scene.physics import ground_friction
 
 SCENE = "scene.xml"
 FOR_MUJOCO_3_3 = "scene_mujoco_3.3.xml"
+FOR_MJX = "scene_mjx.xml"
 
 TIMESTEP = 0.002
 """[s]"""
 
-TORSIONAL_FRICTION = 0.002
-"""[m], spin about the contact normal; the radius of a small contact patch."""
-
-ROLLING_FRICTION = 0.0001
-"""[m]"""
-
 CCD_TOLERANCE = 1e-11
 """Accuracy of the distance between convex meshes [m]."""
-
-CONDIM = "4"
-"""Contact forces along the normal, the two tangents, and a torque about the normal."""
-
-SOLREF = "0.004 1"
-"""Two time steps [s], critically damped."""
-
-SOLIMP = "0.99 0.999 0.0001"
-
-HULL_MESH = {"inertia": "convex", "smoothnormal": "false"}
-VISUAL_MESH = {"inertia": "shell"}
 
 
 def write_mjcf(scene: Scene, folder: str | Path) -> Path:
@@ -88,18 +84,15 @@ def write_mjcf(scene: Scene, folder: str | Path) -> Path:
     folder = Path(folder)
     with export_folder(folder, marker=SCENE, what="MJCF") as fresh:
         (fresh / "objects").mkdir()
+        (fresh / "robosuite").mkdir()
         contacts = find_contacts(scene.objects, CONTACT_GAP)
         stored = _write_assets(scene, fresh)
         margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
-        _save(_document(scene, stored, margins, flush), fresh / SCENE)
-        _save(_document(scene, stored, largest_margins(scene, contacts), set(stored)), fresh / FOR_MUJOCO_3_3)
+        save_xml(_document(scene, stored, margins, flush), fresh / SCENE)
+        save_xml(_document(scene, stored, largest_margins(scene, contacts), set(stored)), fresh / FOR_MUJOCO_3_3)
+        save_xml(_document(scene, stored, [None] * len(margins), flush), fresh / FOR_MJX)
     forget_cached_meshes()
     return folder / SCENE
-
-
-def _save(root: ET.Element, path: Path) -> None:
-    ET.indent(root)
-    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=False)
 
 
 def forget_cached_meshes() -> None:
@@ -113,16 +106,18 @@ def forget_cached_meshes() -> None:
         mujoco.mj_clearCache(mujoco.mj_getCache())
 
 
-def _document(scene: Scene, stored: Mapping[int, str], margins: Sequence[float], as_mesh: Set[int]) -> ET.Element:
+def _document(
+    scene: Scene, stored: Mapping[int, str], margins: Sequence[float | None], as_mesh: Set[int]
+) -> ET.Element:
     """The whole MJCF.
 
     Args:
         scene: what stands where.
         stored: the name under which each asset's files lie, by the asset's identity.
-        margins: contact margin of every object [m].
+        margins: contact margin of every object [m], None for none.
         as_mesh: identities of the assets whose boxes are meshes.
     """
-    root = _root("pat3d scene")
+    root = empty_model("pat3d scene")
     option = ET.SubElement(
         root,
         "option",
@@ -135,7 +130,7 @@ def _document(scene: Scene, stored: Mapping[int, str], margins: Sequence[float],
     # On by default only since MuJoCo 3.9; without it a hull rests on a single point and falls over.
     ET.SubElement(option, "flag", multiccd="enable")
     _look(root, scene)
-    _defaults(root)
+    add_defaults(root)
     names = body_names(scene)
     custom = ET.SubElement(root, "custom")
     assets = ET.SubElement(root, "asset")
@@ -148,46 +143,16 @@ def _document(scene: Scene, stored: Mapping[int, str], margins: Sequence[float],
         ET.SubElement(custom, "text", name=name, data=obj.name)
         if asset not in declared:
             declared.add(asset)
-            _declare(obj.asset, stored[asset], assets, as_mesh=asset in as_mesh)
+            declare_files(obj.asset, stored[asset], assets, as_mesh=asset in as_mesh)
         body = ET.SubElement(world, "body", {"name": name, **_placement(obj.pose)})
-        ET.SubElement(body, "inertial", _inertial(obj.asset.mass_properties))
+        ET.SubElement(body, "inertial", inertial(obj.asset.mass_properties))
         if not obj.fixed:
             ET.SubElement(body, "freejoint", name=name)
             state += [*obj.pose.position, *obj.pose.quat_wxyz]
-        _geoms(body, name, obj.asset, stored[asset], margin=margin, as_mesh=asset in as_mesh)
+        add_geoms(body, name, obj.asset, stored[asset], margin=margin, as_mesh=asset in as_mesh)
     _attachments(root, names, scene)
     if state:
         ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="home", qpos=text(*state))
-    return root
-
-
-def _object(asset: Asset, name: str) -> ET.Element:
-    """One object by itself, at the origin; its files are those of the scene.
-
-    No margin and no options: those of the model that it is attached to hold.
-    """
-    root = _root(name, "../")
-    _defaults(root)
-    _declare(asset, name, ET.SubElement(root, "asset"), as_mesh=False)
-    body = ET.SubElement(ET.SubElement(root, "worldbody"), "body", name=name)
-    ET.SubElement(body, "inertial", _inertial(asset.mass_properties))
-    ET.SubElement(body, "freejoint", name=name)
-    _geoms(body, name, asset, name, margin=0.0, as_mesh=False)
-    return root
-
-
-def _root(model: str, above: str = "") -> ET.Element:
-    """An empty model whose meshes and textures lie in the folder `above`."""
-    root = ET.Element("mujoco", model=model)
-    ET.SubElement(
-        root,
-        "compiler",
-        angle="radian",
-        meshdir=f"{above}meshes",
-        texturedir=f"{above}textures",
-        inertiafromgeom="false",
-        autolimits="true",
-    )
     return root
 
 
@@ -201,16 +166,6 @@ def _look(root: ET.Element, scene: Scene) -> None:
     ET.SubElement(visual, "headlight", ambient="0.35 0.35 0.35", diffuse="0.35 0.35 0.35", specular="0.1 0.1 0.1")
     ET.SubElement(visual, "quality", shadowsize="4096")
     ET.SubElement(visual, "map", znear="0.01", zfar="100")
-
-
-def _defaults(root: ET.Element) -> None:
-    default = ET.SubElement(root, "default")
-    visual = ET.SubElement(default, "default", {"class": "visual"})
-    ET.SubElement(visual, "geom", type="mesh", group="2", contype="0", conaffinity="0", mass="0")
-    collision = ET.SubElement(default, "default", {"class": "collision"})
-    ET.SubElement(
-        collision, "geom", group="3", condim=CONDIM, solref=SOLREF, solimp=SOLIMP, mass="0", rgba="0.4 0.6 0.9 0.5"
-    )
 
 
 def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> None:
@@ -253,7 +208,7 @@ def _ground_and_lights(assets: ET.Element, world: ET.Element, scene: Scene) -> N
         world,
         "geom",
         {"class": "visual"},
-        name="ground/visual",
+        name="ground_visual",
         type="plane",
         size="0 0 0.05",
         group="0",
@@ -305,7 +260,7 @@ def _attachments(root: ET.Element, names: dict[str, str], scene: Scene) -> None:
             ET.SubElement(
                 equality,
                 "connect",
-                name=f"{child}/anchor_{number:02d}",
+                name=f"{child}_anchor_{number:02d}",
                 body1=child,
                 body2=parent,
                 anchor=text(*point),
@@ -328,59 +283,9 @@ def _write_assets(scene: Scene, folder: Path) -> dict[int, str]:
         write_texture(asset.visual.texture, folder / "textures" / f"{name}.png")
         for number, part in enumerate(asset.parts):
             (meshes / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
-        _save(_object(asset, name), folder / "objects" / f"{name}.xml")
+        save_xml(object_model(asset, name), folder / "objects" / f"{name}.xml")
+        save_xml(robosuite_model(asset, name), folder / "robosuite" / f"{name}.xml")
     return stored
-
-
-def _declare(asset: Asset, name: str, assets: ET.Element, *, as_mesh: bool) -> None:
-    """Declare the files of one asset; those of its boxes where they are meshes."""
-    ET.SubElement(assets, "texture", name=name, type="2d", file=f"{name}.png")
-    ET.SubElement(assets, "material", name=name, texture=name, specular="0.2", shininess="0.3")
-    ET.SubElement(assets, "mesh", VISUAL_MESH, name=f"{name}/visual", file=f"{name}/visual.obj")
-    for number, part in enumerate(asset.parts):
-        if part.box is None or as_mesh:
-            file = f"{name}/{part_file(number)}"
-            ET.SubElement(assets, "mesh", HULL_MESH, name=f"{name}/part_{number:03d}", file=file)
-
-
-def _geoms(body: ET.Element, name: str, asset: Asset, stored: str, *, margin: float, as_mesh: bool) -> None:
-    """The geoms of one body, drawn from the files of asset `stored`."""
-    ET.SubElement(body, "geom", {"class": "visual"}, name=f"{name}/visual", mesh=f"{stored}/visual", material=stored)
-    friction = text(asset.material.friction, TORSIONAL_FRICTION, ROLLING_FRICTION)
-    for number, part in enumerate(asset.parts):
-        geom = ET.SubElement(
-            body,
-            "geom",
-            {"class": "collision"},
-            name=f"{name}/part_{number:03d}",
-            friction=friction,
-            margin=text(margin),
-        )
-        if part.box is None or as_mesh:
-            geom.set("type", "mesh")
-            geom.set("mesh", f"{stored}/part_{number:03d}")
-        else:
-            centre, half, quat = part.box
-            geom.set("type", "box")
-            geom.set("pos", text(*centre))
-            geom.set("size", text(*half))
-            if quat != (1.0, 0.0, 0.0, 0.0):
-                geom.set("quat", text(*quat))
-
-
-def _inertial(properties: MassProperties) -> dict[str, str]:
-    """Mass, centre and principal inertia.
-
-    MuJoCo's own diagonalisation of fullinertia stops at 1e-12 kg m^2 off the diagonal, a tenth of a per cent
-    of a pencil; numpy's is exact to rounding.
-    """
-    moments, quat = principal_frame(np.array(properties.inertia))
-    return {
-        "pos": text(*properties.centre_of_mass),
-        "quat": text(*quat),
-        "mass": text(properties.mass),
-        "diaginertia": text(*moments),
-    }
 
 
 def _placement(pose: Pose) -> dict[str, str]:

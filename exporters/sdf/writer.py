@@ -31,8 +31,10 @@ from pat3d.scene.model import Attachment, Scene
 from pat3d.scene.obj_files import part_file
 from pat3d.scene.physics import ground_friction
 
-VERSION = "1.11"
-"""Of the SDF specification; the first in which a mesh can be declared convex."""
+VERSION = "1.9"
+"""Of the SDF specification: what Gazebo Fortress reads, and everything newer converts.
+
+That a mesh is convex can be said from 1.11 on; what is older ignores the attribute and refuses the version."""
 
 LINK = "link"
 """Name of the one link of every model; its frame is the asset's."""

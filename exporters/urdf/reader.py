@@ -15,7 +15,8 @@ from pat3d.errors import ExportError, SpecError
 from pat3d.exporters.common.frames import rotation_of
 from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
-from pat3d.exporters.urdf.writer import FORMAT, PACKAGE, VERSION
+from pat3d.exporters.urdf.mesh_paths import PACKAGE, mesh_file
+from pat3d.exporters.urdf.writer import FORMAT, VERSION
 from pat3d.geometry.pose import Pose
 from pat3d.scene.folder import read_json
 
@@ -117,7 +118,7 @@ def _volume(collision: ET.Element, path: Path, root: Path, volumes: Volumes, whe
         return float(np.prod(numbers(box.get("size"), 3, where)))
     mesh = only(geometry, "mesh", where)
     scale = numbers(mesh.get("scale", "1 1 1"), 3, where)
-    return volumes.of(beside(mesh.get("filename"), path.parent, root)) * float(np.prod(scale))
+    return volumes.of(mesh_file(mesh.get("filename"), path.parent, root)) * float(np.prod(scale))
 
 
 def _words(values: Any) -> str:

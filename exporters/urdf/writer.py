@@ -29,6 +29,7 @@ import numpy as np
 from pat3d.exporters.common.folder import export_folder
 from pat3d.exporters.common.frames import principal_axes, rpy_of, text
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
+from pat3d.exporters.urdf.mesh_paths import MESH_PATHS, PACKAGE
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 from pat3d.scene.folder import write_json
@@ -38,9 +39,6 @@ from pat3d.scene.physics import GRAVITY, ground_friction
 
 FORMAT = "pat3d-urdf"
 VERSION = 1
-
-PACKAGE = "pat3d_scene"
-"""Package name that the paths in scene.dmd.yaml start with."""
 
 HYDROELASTIC_MODULUS = 1e11
 """[Pa] in Drake. At 1e8 what leans on an edge sinks by 0.3 mm and slides; on a rigid ground stacks walk.
@@ -212,6 +210,7 @@ def _manifest(scene: Scene, bodies: dict[str, str], stored: dict[int, str]) -> d
         "format": FORMAT,
         "version": VERSION,
         "units": "metres, kilograms, z up; poses of the link frames in the world",
+        "mesh_paths": MESH_PATHS[0],
         "gravity": [0.0, 0.0, -GRAVITY],
         "ground": {"file": "ground.urdf", "link": "ground", "friction": ground_friction(scene.settling_friction)},
         "objects": objects,

@@ -76,8 +76,9 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False) -
     _mass(root, asset.mass_properties)
     extend_body(root)
     materials = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("materials")).GetPath()
-    write_texture(asset.visual.texture, path.parent / "texture.png")
-    look = textured_material(stage, materials.AppendChild("visual"), "./texture.png")
+    # Named by the asset: importers that keep pictures by their file name would give all objects the same.
+    write_texture(asset.visual.texture, path.parent / f"{name}.png")
+    look = textured_material(stage, materials.AppendChild("visual"), f"./{name}.png")
     visual = _visual(stage, root.GetPath().AppendChild("visual"), asset.visual)
     UsdShade.MaterialBindingAPI.Apply(visual).Bind(look)
     friction = physics_material(stage, materials.AppendChild("physics"), asset.material.friction)

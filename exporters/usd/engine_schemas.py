@@ -9,15 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from pat3d.exporters.mjcf.writer import (
-    CCD_TOLERANCE,
-    CONDIM,
-    ROLLING_FRICTION,
-    SOLIMP,
-    SOLREF,
-    TIMESTEP,
-    TORSIONAL_FRICTION,
-)
+from pat3d.exporters.mjcf.elements import CONDIM, ROLLING_FRICTION, SOLIMP, SOLREF, TORSIONAL_FRICTION
+from pat3d.exporters.mjcf.writer import CCD_TOLERANCE, TIMESTEP
 from pat3d.exporters.usd.openusd import Prim, Sdf
 
 STEPS_PER_SECOND = 1000

@@ -37,6 +37,9 @@ from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Attachment, Scene
 from pat3d.scene.physics import GRAVITY, ground_friction
 
+LIGHTING = {"physical": (0.4, 1.5), "omniverse": (400.0, 1500.0)}
+"""Luminance of the sky [nit] and irradiance of the sun [lux] in either choice, the first the default."""
+
 _SAME_POINT = 1e-6
 """Anchors closer than this [m], or closer to one line, are one point, or one line."""
 
@@ -115,12 +118,7 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
     floor = define_mesh(stage, Sdf.Path("/World/Ground/visual"), corners, np.array([[0, 1, 2, 3]], np.int32), normals)
     UsdShade.MaterialBindingAPI.Apply(floor.GetPrim()).Bind(look)
 
-    UsdGeom.Scope.Define(stage, "/World/Lights")
-    UsdLux.DomeLight.Define(stage, "/World/Lights/Sky").CreateIntensityAttr(400.0)
-    sun = UsdLux.DistantLight.Define(stage, "/World/Lights/Sun")
-    sun.CreateIntensityAttr(1500.0)
-    sun.CreateAngleAttr(3.0)
-    sun.AddRotateXYZOp().Set(Gf.Vec3f(35.0, -25.0, 0.0))
+    _lights(stage)
     camera = UsdGeom.Camera.Define(stage, "/World/Camera")
     eye = centre + 1.5 * reach * np.array([0.0, -1.0, 0.5])
     tilt = float(np.degrees(np.arctan2(1.0, 0.5)))
@@ -128,6 +126,29 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
     camera.AddRotateXOp().Set(tilt)
     camera.CreateClippingRangeAttr(Gf.Vec2f(0.01, 1000.0))
     camera.CreateFocalLengthAttr(25.0)
+
+
+def _lights(stage: Stage) -> None:
+    """A sky and a sun, as bright as the choice of the variant set "lighting" says.
+
+    In UsdLux's own units a white diffuse ground comes out just below white; Blender, Storm and other readers of the
+    units take them so. Omniverse's camera has the exposure of a photographer's, for which that is night.
+    """
+    lights = UsdGeom.Scope.Define(stage, "/World/Lights").GetPrim()
+    sky = UsdLux.DomeLight.Define(stage, "/World/Lights/Sky")
+    sun = UsdLux.DistantLight.Define(stage, "/World/Lights/Sun")
+    sun.CreateAngleAttr(3.0)
+    # Irradiance, whatever the angle.
+    sun.CreateNormalizeAttr(True)
+    sun.AddRotateXYZOp().Set(Gf.Vec3f(35.0, -25.0, 0.0))
+    lighting = lights.GetVariantSets().AddVariantSet("lighting")
+    for name, (diffuse, direct) in LIGHTING.items():
+        lighting.AddVariant(name)
+        lighting.SetVariantSelection(name)
+        with lighting.GetVariantEditContext():
+            sky.CreateIntensityAttr(diffuse)
+            sun.CreateIntensityAttr(direct)
+    lighting.SetVariantSelection(next(iter(LIGHTING)))
 
 
 def _joints(stage: Stage, scene: Scene, names: dict[str, str], one: Attachment) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from pat3d.errors import ExportError
 from pat3d.exporters.common.folder import export_folder
@@ -40,7 +41,10 @@ def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: 
     with _replaced(Path(folder), "scene") as fresh:
         path = write_scene(scene, fresh, suffix="usda" if text else "usdc")
         if package:
-            _package(path)
+            with TemporaryDirectory(prefix="pat3d-usdz-") as scratch:
+                # Layers in a package are binary, whatever lies beside it.
+                layers = path if not text else write_scene(scene, Path(scratch), suffix="usdc")
+                _package(layers, path.with_suffix(".usdz"))
     return Path(folder) / path.name
 
 
@@ -69,12 +73,12 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
     return Path(folder) / file
 
 
-def _package(path: Path) -> None:
-    """Write everything that the layer at `path` needs as one .usdz beside it."""
+def _package(path: Path, package: Path) -> None:
+    """Write everything that the layer at `path` needs as the .usdz file `package`."""
     from pat3d.exporters.usd.openusd import Sdf, UsdUtils
 
-    if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(path)), str(path.with_suffix(".usdz"))):
-        raise ExportError(f"{path.with_suffix('.usdz').name}: usd-core could not package {path.name}.")
+    if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(path)), str(package)):
+        raise ExportError(f"{package.name}: usd-core could not package {path.name}.")
 
 
 def _replaced(folder: Path, stem: str) -> AbstractContextManager[Path]:

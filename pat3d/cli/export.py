@@ -14,6 +14,7 @@ from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
 from pat3d.exporters.formats import FORMATS, chosen, has_usd
 from pat3d.exporters.formats import export as write_formats
+from pat3d.exporters.urdf.mesh_paths import MESH_PATHS, check_mesh_paths, set_mesh_paths
 from pat3d.progress import Event
 from pat3d.scene.checksums import record_checksums
 
@@ -38,6 +39,18 @@ _MESH_OPTIONS = (
         shown="y for glTF, else z",
     ),
     option("--parts", "convex parts by coacd, hull or box", metavar="HOW", group=_MESHES, shown="coacd"),
+    option(
+        "--threshold", "concavity that coacd may leave, 0.01 to 1", type=float, group=_MESHES, shown="0.05 or finer"
+    ),
+    option("--max-hulls", "most convex parts by coacd", type=int, metavar="N", group=_MESHES, shown="80"),
+    option(
+        "--decomposition-limit",
+        "processor time for coacd, each mesh",
+        type=float,
+        metavar="SECONDS",
+        group=_MESHES,
+        shown="120",
+    ),
     option("--thickness", "of the walls of an open shell", type=float, metavar="M", group=_MESHES),
 )
 """Arguments of `import_mesh`, which knows their defaults."""
@@ -55,11 +68,19 @@ _MESH_OPTIONS = (
     ),
     option("--usda", "USD as text, scene.usda", action="store_true"),
     option("--usdz", "USD also in one file, scene.usdz", action="store_true"),
+    option(
+        "--mesh-paths",
+        f"how URDF files name their meshes: {', '.join(MESH_PATHS)}",
+        metavar="HOW",
+        shown=MESH_PATHS[0],
+    ),
     *_MESH_OPTIONS,
     examples="""
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
+    pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
+    pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
     pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
     """,
 )
@@ -68,14 +89,17 @@ def export(options: argparse.Namespace) -> int:
     source, out = Path(options.source).expanduser(), Path(options.out).expanduser()
     formats, notes = _formats(options.formats)
     usd = {"text": options.usda, "package": options.usdz}
-    names = (one.name.removeprefix("--") for one in _MESH_OPTIONS)
+    mesh_paths = check_mesh_paths(options.mesh_paths or MESH_PATHS[0])
+    names = (one.name.removeprefix("--").replace("-", "_") for one in _MESH_OPTIONS)
     mesh = {name: value for name in names if (value := getattr(options, name)) is not None}
     if (source / "scene.json").is_file() or source.name == "scene.json":
         if mesh:
-            raise SpecError(f"--{next(iter(mesh))} is for meshes; {source} is a scene, whose objects are weighed.")
-        code = _scene(source if source.is_dir() else source.parent, out, formats, usd)
+            raise SpecError(
+                f"--{next(iter(mesh)).replace('_', '-')} is for meshes; {source} is a scene, whose objects are weighed."
+            )
+        code = _scene(source if source.is_dir() else source.parent, out, formats, usd, mesh_paths)
     else:
-        code = _meshes(source, out, formats, usd, mesh)
+        code = _meshes(source, out, formats, usd, mesh_paths, mesh)
     for note in notes:
         console().print(f"note  {note}", markup=False)
     return code
@@ -92,7 +116,7 @@ def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:
     ]
 
 
-def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any]) -> int:
+def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str) -> int:
     from pat3d.scene.io import load_scene
 
     with watch(console(stderr=True)) as progress:
@@ -100,6 +124,8 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
         start = time.perf_counter()
         paths = write_formats(scene, formats, out, progress=progress, **usd)
         seconds = time.perf_counter() - start
+        if "urdf" in paths and mesh_paths != MESH_PATHS[0]:
+            set_mesh_paths(paths["urdf"].parent, mesh_paths)
         record_checksums(out, formats)
         reports = {name: parity(scene, path) for name, path in paths.items()}
     target = console()
@@ -110,7 +136,9 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
     return verdict(tuple(line for report in reports.values() for line in report.failures))
 
 
-def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh: dict[str, Any]) -> int:
+def _meshes(
+    source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str, mesh: dict[str, Any]
+) -> int:
     from pat3d.generation.asset_export import export_asset, mesh_files
 
     files = mesh_files(source)
@@ -124,6 +152,9 @@ def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, An
             try:
                 folder = out / name if several else out
                 made.append(export_asset(path, folder, formats, progress=progress, usd=usd, name=name, **mesh))
+                if "urdf" in formats and mesh_paths != MESH_PATHS[0]:
+                    set_mesh_paths(folder / "urdf", mesh_paths)
+                    record_checksums(folder)
             except Pat3dError as error:
                 if not several:
                     raise

@@ -29,7 +29,7 @@ LIGHTEST, HEAVIEST = 1e-5, 1e5
 """Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
 held to, heavier ones sink through what carries them."""
 
-MESH_KEYS = ("units", "up", "parts", "thickness")
+MESH_KEYS = ("units", "up", "parts", "threshold", "max_hulls", "decomposition_limit", "thickness")
 NOUN_KEYS = ("colour", "colours")
 
 
@@ -122,7 +122,7 @@ class Spec:
         from pat3d.assets.mesh.importing import import_mesh
 
         path = self._mesh(obj)
-        keys = ("units", "scale", "size", "up", "density", "mass", "friction", "parts", "thickness", "material")
+        keys = ("scale", "size", "density", "mass", "friction", "material", *MESH_KEYS)
         # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
         home = self.source.path.parent.resolve()
         root = home if path.resolve().is_relative_to(home) else None

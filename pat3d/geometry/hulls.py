@@ -9,8 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import AssetError
-from pat3d.geometry.normals import area_vectors
+from pat3d.geometry.normals import area_vectors, triangle_areas
 from pat3d.geometry.rotations import quat_of
+
+SLIVER_ASPECT = 1e-5
+"""A face whose height is less than this share of its longest edge is a sliver; catalogue hulls have 5e-4 at least."""
+
+SLIVER_AREA = 1e-12
+"""So is a face of less than this [m^2]: Drake refuses a scene for a triangle without a normal."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -31,12 +37,48 @@ class ConvexPart:
 
 
 def convex_part(points: NDArray[np.float64]) -> ConvexPart:
-    """The convex hull of `points` [m], shape (n, 3), with outward faces; exact boxes are recognised.
+    """The convex hull of `points` [m], shape (n, 3), with outward faces, none a sliver; exact boxes are recognised.
+
+    A corner that makes a sliver is left out, which takes less than SLIVER_ASPECT of an edge, or about the root of
+    SLIVER_AREA, off the hull.
 
     Raises:
         AssetError: the points are flat or fewer than four.
     """
     points = np.asarray(points, dtype=np.float64)
+    vertices, faces = _hull(points)
+    while len(narrow := slivers(vertices, faces)):
+        if len(vertices) == 4:
+            raise AssetError(f"{len(points)} points span a sliver, not a volume, so they have no convex hull.")
+        corners = faces[narrow[0]]
+        vertices, faces = _hull(np.delete(vertices, _superfluous(vertices[corners], corners), axis=0))
+    return ConvexPart(vertices=vertices, faces=faces, box=_as_box(vertices))
+
+
+def slivers(vertices: NDArray[np.float64], faces: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
+    """Indices of the triangles that engines cannot find a normal of, the narrowest first.
+
+    Args:
+        vertices: [m], shape (vertices, 3).
+        faces: shape (faces, 3).
+    """
+    corners = vertices[faces]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    area = triangle_areas(corners)
+    aspect = 2.0 * area / np.maximum(longest, 1e-300) ** 2
+    bad = np.flatnonzero((aspect < SLIVER_ASPECT) | (area < SLIVER_AREA))
+    return bad[np.argsort(aspect[bad], kind="stable")]
+
+
+def _superfluous(triangle: NDArray[np.float64], corners: NDArray[np.integer[Any]]) -> int:
+    """The corner of a sliver that the hull loses least without: an end of its shortest edge, or the obtuse one."""
+    lengths = np.linalg.norm(np.roll(triangle, -1, axis=0) - np.roll(triangle, -2, axis=0), axis=1)
+    # The corner opposite the longest edge is obtuse, or an end of the shortest edge.
+    return int(corners[np.argmax(lengths)])
+
+
+def _hull(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Extreme points and outward triangles of the convex hull."""
     # Imported where it is used: reading a prompt needs the scene's types and no hulls.
     from scipy.spatial import ConvexHull, QhullError
 
@@ -51,7 +93,7 @@ def convex_part(points: NDArray[np.float64]) -> ConvexPart:
     faces = renumber[hull.simplices]
     inward = np.einsum("fi,fi->f", area_vectors(vertices[faces]), hull.equations[:, :3]) < 0
     faces[inward] = faces[inward][:, ::-1]
-    return ConvexPart(vertices=vertices, faces=faces, box=_as_box(vertices))
+    return vertices, faces
 
 
 def _as_box(vertices: NDArray[np.float64]) -> Any:

@@ -41,30 +41,31 @@ def test_patches_of_small_faces_are_the_faces():
 
 def test_points_alone_leave_a_bar_that_crosses_a_slit_outside():
     vertices, _ = _bar()
-    parts, before, after = cover([LEFT, RIGHT], vertices)
-    assert before == after == 0.0
-    assert outside(np.array([[0.1, 0.05, 0.05]]), parts)[0][0] == pytest.approx(0.01)
+    done = cover([LEFT, RIGHT], vertices)
+    assert done.before == done.after == 0.0
+    assert outside(np.array([[0.1, 0.05, 0.05]]), done.parts)[0][0] == pytest.approx(0.01)
 
 
 def test_a_triangle_whose_corners_are_in_different_parts_is_given_to_one():
     vertices, faces = _bar()
-    parts, _, _ = cover([LEFT, RIGHT], vertices, faces)
+    parts = cover([LEFT, RIGHT], vertices, faces).parts
     dense = trimesh.sample.sample_surface(trimesh.Trimesh(vertices, faces, process=False), 5000, seed=0)[0]
     assert outside(dense, parts)[0].max() <= TOLERANCE
 
 
 def test_points_outside_all_parts_are_contained_at_the_end():
     far = np.array([[0.3, 0.05, 0.05], [-0.02, 0.0, 0.0]])
-    parts, before, after = cover([LEFT, RIGHT], far)
-    assert before == pytest.approx(0.1)
-    assert after <= TOLERANCE
-    assert outside(far, parts)[0].max() <= TOLERANCE
+    done = cover([LEFT, RIGHT], far)
+    assert done.before == pytest.approx(0.1)
+    assert done.after <= TOLERANCE
+    assert outside(far, done.parts)[0].max() <= TOLERANCE
 
 
 def test_the_part_that_is_nearest_grows_and_the_other_stays():
     stray = np.array([[0.215, 0.05, 0.05]])
-    parts, before, after = cover([LEFT, RIGHT], stray)
-    assert before == pytest.approx(0.015, abs=1e-6)
-    assert after <= TOLERANCE
+    done = cover([LEFT, RIGHT], stray)
+    assert done.before == pytest.approx(0.015, abs=1e-6)
+    assert done.after <= TOLERANCE
+    parts = done.parts
     assert parts[0].bounds.tolist() == [LEFT.min(axis=0).tolist(), LEFT.max(axis=0).tolist()]
     assert parts[1].bounds[1, 0] == pytest.approx(0.215, abs=TOLERANCE)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box
@@ -17,6 +18,7 @@ from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.compare import QUANTITIES
 from pat3d.exporters.compare import _errors as errors_of
 from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Scene
 from tests.exporters.things import mixed_scene
 from tests.scenes import asset_of, placed
 
@@ -57,7 +59,7 @@ PLANTED = [
     ("mjcf", "scene.xml", r'<body name="red_mug_1" pos="(\S+) ', "stands elsewhere"),
     ("mjcf", "scene.xml", r'<body name="pencil_co".*?diaginertia="(\S+) ', "inertia"),
     ("mjcf", "scene.xml", r'<body name="red_mug_2".*?<inertial pos="\S+ \S+ (\S+)"', "centre of mass"),
-    ("mjcf", "scene.xml", r'name="red_mug_2/part_000" friction="(\S+) ', "friction"),
+    ("mjcf", "scene.xml", r'name="red_mug_2_part_000" friction="(\S+) ', "friction"),
     ("mjcf", "meshes/red_mug_1/part_000.obj", r"v (\S+) ", "volume of hulls"),
     ("urdf", MUG, r'<mass value="(\S+)"', "weighs"),
     ("urdf", PENCIL, r'izz="(\S+)"', "inertia"),
@@ -193,3 +195,20 @@ def test_the_error_of_inertia_is_the_larger_of_the_tensor_s_and_of_its_moments()
     thicker[smallest, smallest] *= 1.01
     assert _wrong(inertia=thicker)["inertia"] == pytest.approx(0.01)
     assert math.isnan(_wrong(inertia=np.full((3, 3), np.nan))["inertia"])
+
+
+def test_a_face_without_a_normal_convicts_the_export_in_every_format(tmp_path):
+    """A face of 1e-11 mm^2 makes Drake refuse a whole scene; the readers at hand do not notice it."""
+    whole = asset_of(box(0.1, 0.1, 0.1))
+    points = np.vstack([whole.parts[0].vertices, [[0.0, -0.05 - 1e-9, 1e-9]]])
+    hull = ConvexHull(points)
+    faces = hull.simplices.astype(np.int32)
+    normals = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
+    inward = np.einsum("fi,fi->f", normals, hull.equations[:, :3]) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    bad = replace(whole.parts[0], vertices=points, faces=faces, box=None)
+    scene = Scene(objects=(placed("drill", replace(whole, parts=(bad,)), (0, 0, 0.1)),))
+    for path in export(scene, FORMATS, tmp_path).values():
+        report = parity(scene, path)
+        assert not report.passed
+        assert any("convex part 0 has a face" in line for line in report.failures), report.failures

@@ -12,7 +12,7 @@ from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import ExportError
 from pat3d.exporters.compare import parity
-from pat3d.exporters.mjcf.writer import FOR_MUJOCO_3_3, body_names, write_mjcf
+from pat3d.exporters.mjcf.writer import FOR_MJX, FOR_MUJOCO_3_3, body_names, write_mjcf
 from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
 
@@ -45,7 +45,7 @@ def test_hull_vertices_are_in_the_world_where_the_scene_has_them(scene, model):
     for obj in scene.objects:
         name = body_names(scene)[obj.name]
         for number, part in enumerate(obj.asset.parts):
-            geom = model.geom(f"{name}/part_{number:03d}")
+            geom = model.geom(f"{name}_part_{number:03d}")
             expected = obj.pose.apply(part.vertices)
             rotation = data.geom_xmat[geom.id].reshape(3, 3)
             if geom.type[0] == mujoco.mjtGeom.mjGEOM_BOX:
@@ -66,15 +66,15 @@ def test_hull_vertices_are_in_the_world_where_the_scene_has_them(scene, model):
 
 
 def test_boxes_are_box_primitives_and_the_rest_are_meshes(scene, model):
-    assert model.geom("wooden_table/part_000").type[0] == mujoco.mjtGeom.mjGEOM_BOX
-    assert model.geom("red_mug_1/part_000").type[0] == mujoco.mjtGeom.mjGEOM_MESH
+    assert model.geom("wooden_table_part_000").type[0] == mujoco.mjtGeom.mjGEOM_BOX
+    assert model.geom("red_mug_1_part_000").type[0] == mujoco.mjtGeom.mjGEOM_MESH
 
 
 def test_only_collision_geoms_collide_and_only_they_are_in_group_3(scene, model):
     for geom in map(model.geom, range(model.ngeom)):
-        visual = geom.name.endswith("/visual")
+        visual = geom.name.endswith("_visual")
         assert bool(geom.contype[0]) == bool(geom.conaffinity[0]) == (not visual)
-        assert geom.group[0] == (3 if not visual else 0 if geom.name == "ground/visual" else 2)
+        assert geom.group[0] == (3 if not visual else 0 if geom.name == "ground_visual" else 2)
 
 
 def test_keyframe_and_body_poses_agree(scene, model):
@@ -99,7 +99,7 @@ def test_contact_settings_are_the_measured_ones(model):
     assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     assert (model.opt.impratio, model.opt.timestep) == (10, 0.002)
     assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_MULTICCD
-    geom = model.geom("red_mug_1/part_000")
+    geom = model.geom("red_mug_1_part_000")
     np.testing.assert_allclose(geom.solref, (0.004, 1))
     np.testing.assert_allclose(geom.solimp[:3], (0.99, 0.999, 0.0001))
     assert geom.friction[0] == 0.5
@@ -167,11 +167,11 @@ def test_it_loads_from_any_working_directory_after_being_moved(scene, tmp_path, 
 def test_shared_assets_are_written_once(scene, tmp_path):
     path = write_mjcf(scene, tmp_path / "m")
     assert sorted(os.listdir(path.parent / "meshes")) == ["ball", "pencil_co", "red_mug_1", "wooden_table"]
-    assert ET.parse(path).find(".//body[@name='red_mug_2']/geom").get("mesh") == "red_mug_1/visual"  # type: ignore[union-attr]
+    assert ET.parse(path).find(".//body[@name='red_mug_2']/geom").get("mesh") == "red_mug_1_visual"  # type: ignore[union-attr]
 
 
 def test_texture_and_normals_reach_mujoco(model):
-    mesh = model.mesh("red_mug_1/visual")
+    mesh = model.mesh("red_mug_1_visual")
     assert model.mesh_texcoordadr[mesh.id] >= 0
     assert model.mat_texid[model.material("red_mug_1").id].max() >= 0
 
@@ -204,7 +204,7 @@ def test_a_mesh_written_again_within_the_second_is_not_taken_for_the_old_one(tmp
     for sides in (8, 12):
         scene = scene_of(placed("can", asset_of(cylinder(0.03, 0.08, sides)), (0, 0, GAP)))
         model = mujoco.MjModel.from_xml_path(str(write_mjcf(scene, tmp_path / "m")))
-        counts.append(int(model.mesh_vertnum[model.mesh("can/part_000").id]))
+        counts.append(int(model.mesh_vertnum[model.mesh("can_part_000").id]))
     assert counts == [16, 24]
 
 
@@ -310,3 +310,43 @@ def test_lights_and_camera_are_outside_of_the_scene_and_look_at_its_middle(side,
     np.testing.assert_allclose((key - middle) / reach, 2.0 * np.array([-1.0, -1.2, 2.0]), atol=1e-5)
     assert eye[0] == pytest.approx(middle[0])
     assert bool(model.light("key").castshadow[0]) > bool(model.light("fill").castshadow[0])
+
+
+def test_no_name_holds_a_slash(tmp_path):
+    """dm_control refuses names with one, since it builds scopes of attached models from it."""
+    write_mjcf(mixed_scene(), tmp_path / "m")
+    for path in (tmp_path / "m").rglob("*.xml"):
+        names = [element.get("name", "") for element in ET.parse(path).iter()]
+        assert not [name for name in names if "/" in name], path
+
+
+def test_the_file_for_mjx_is_the_scene_without_margins(tmp_path):
+    scene = mixed_scene()
+    path = write_mjcf(scene, tmp_path / "m").with_name(FOR_MJX)
+    model = mujoco.MjModel.from_xml_path(str(path))
+    assert not model.geom_margin.any()
+    assert not model.geom_gap.any()
+    assert parity(scene, path).passed
+
+
+def test_objects_load_in_robosuite(tmp_path):
+    """Its own class finds the body and the sites, gives it a free joint, and the model compiles and weighs the same."""
+    objects = pytest.importorskip("robosuite.models.objects")
+    base = pytest.importorskip("robosuite.models.base")
+    scene = mixed_scene()
+    folder = write_mjcf(scene, tmp_path / "m").parent / "robosuite"
+    for path in sorted(folder.glob("*.xml")):
+        asset = next(obj.asset for obj in scene.objects if body_names(scene)[obj.name] == path.stem)
+        loaded = objects.MujocoXMLObject(str(path), name="thing")
+        assert loaded.bottom_offset[2] == pytest.approx(asset.bounds[0, 2], abs=1e-9)
+        assert loaded.top_offset[2] == pytest.approx(asset.bounds[1, 2], abs=1e-9)
+        assert loaded.horizontal_radius >= np.linalg.norm(asset.visual.vertices[:, :2], axis=1).max() - 1e-6
+        arena = tmp_path / "arena.xml"
+        arena.write_text("<mujoco><worldbody/></mujoco>")
+        world = base.MujocoXML(str(arena))
+        world.merge_assets(loaded)
+        world.worldbody.append(loaded.get_obj())
+        model = world.get_model()
+        assert model.body_mass.sum() == pytest.approx(asset.mass_properties.mass, rel=1e-9)
+        assert model.njnt == 1
+        assert model.ngeom >= len(asset.parts) + 1

@@ -7,15 +7,19 @@ import sys
 import types
 import xml.etree.ElementTree as ET
 from itertools import count
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box
-from pat3d.errors import ExportError
+from pat3d.errors import ExportError, SpecError
 from pat3d.exporters.common.objects import ground_size
+from pat3d.exporters.compare import parity
+from pat3d.exporters.contents.compare import contents
 from pat3d.exporters.urdf.load_pybullet import load_pybullet
+from pat3d.exporters.urdf.mesh_paths import mesh_file, set_mesh_paths
 from pat3d.exporters.urdf.reader import read_directives, read_urdf
 from pat3d.exporters.urdf.writer import write_urdf
 from pat3d.scene.physics import ground_friction
@@ -185,3 +189,32 @@ def test_directives_of_16_mib_are_read_and_longer_ones_are_not(folder, more, sai
         file.truncate(16 * 2**20 + more)
     with pytest.raises(ExportError, match=said):
         read_directives(folder)
+
+
+@pytest.mark.parametrize("how", ["package", "absolute", "relative"])
+def test_meshes_are_named_in_every_way_and_read_back_the_same(tmp_path, monkeypatch, how):
+    scene = mixed_scene()
+    folder = write_urdf(scene, tmp_path / "u").parent
+    set_mesh_paths(folder, how)
+    names = [mesh.get("filename", "") for path in folder.rglob("*.urdf") for mesh in ET.parse(path).iter("mesh")]
+    start = {"package": "package://pat3d_scene/objects/", "absolute": str(folder.resolve()), "relative": ""}[how]
+    assert names
+    assert all(name.startswith(start) for name in names)
+    if how == "absolute":
+        # From anywhere, without being told anything.
+        monkeypatch.chdir("/")
+        assert all(Path(name).is_file() for name in names)
+    assert parity(scene, folder).passed
+    report = contents(scene, folder)
+    assert report.passed, report.failures
+    set_mesh_paths(folder, "relative")
+    assert contents(scene, folder).passed
+
+
+def test_a_mesh_path_out_of_the_export_is_refused(tmp_path):
+    folder = write_urdf(mixed_scene(), tmp_path / "u").parent
+    for name in ("../../../x.obj", "/etc/x.obj", "package://pat3d_scene/../../x.obj", ""):
+        with pytest.raises(ExportError, match="no file inside"):
+            mesh_file(name, folder / "objects" / "ball", folder)
+    with pytest.raises(SpecError, match="Valid: relative, package, absolute"):
+        set_mesh_paths(folder, "file")

@@ -1,6 +1,7 @@
 import os
 import zipfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,11 +9,12 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 pytest.importorskip("pxr")
-from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
+from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, UsdValidation
 
 from pat3d.assets.catalogue import make
 from pat3d.assets.shapes import box, cylinder, join, vessel
 from pat3d.errors import ExportError
+from pat3d.exporters.compare import parity
 from pat3d.exporters.mjcf.writer import body_names
 from pat3d.exporters.usd.reader import read_usd
 from pat3d.exporters.usd.writer import write_usd, write_usd_asset
@@ -232,7 +234,7 @@ def test_the_texture_reaches_the_surface_from_any_place(scene, tmp_path, monkeyp
     surface, _, _ = material.ComputeSurfaceSource()
     source = surface.GetInput("diffuseColor").GetConnectedSources()[0][0].source
     file = UsdShade.Shader(source.GetPrim()).GetInput("file").Get()
-    assert file.resolvedPath == str(tmp_path / "there" / "assets" / "red_mug_1" / "texture.png")
+    assert file.resolvedPath == str(tmp_path / "there" / "assets" / "red_mug_1" / "red_mug_1.png")
     coordinates = UsdGeom.PrimvarsAPI(visual).GetPrimvar("st")
     expected = scene["red mug 2"].asset.visual.uv.reshape(-1, 2)
     np.testing.assert_allclose(np.array(coordinates.ComputeFlattened()), expected, atol=1e-6)
@@ -420,7 +422,41 @@ def test_settings_of_single_engines_are_on_the_prims_they_read(tmp_path):
 
 def test_an_asset_alone_is_a_rigid_body_by_its_noun(tmp_path):
     path = write_usd_asset(make("mug"), tmp_path / "mug")
-    assert sorted(os.listdir(path.parent)) == ["mug.usdc", "texture.png"]
+    assert sorted(os.listdir(path.parent)) == ["mug.png", "mug.usdc"]
     (body,) = read_usd(path)
     assert (body.name, body.fixed) == ("mug", False)
     assert body.mass == pytest.approx(make("mug").mass_properties.mass, rel=1e-6)
+
+
+def test_no_two_textures_of_a_package_share_a_name(scene, tmp_path):
+    path = write_usd(scene, tmp_path / "u", package=True).with_suffix(".usdz")
+    with zipfile.ZipFile(path) as archive:
+        pictures = [Path(name).name for name in archive.namelist() if name.endswith(".png")]
+    assert len(pictures) == len({id(obj.asset) for obj in scene.objects})
+    assert len(set(pictures)) == len(pictures)
+
+
+def test_a_package_beside_text_layers_holds_binary_ones(scene, tmp_path):
+    path = write_usd(scene, tmp_path / "u", text=True, package=True)
+    assert path.suffix == ".usda"
+    assert parity(scene, path).passed
+    package = path.with_suffix(".usdz")
+    with zipfile.ZipFile(package) as archive:
+        layers = [name for name in archive.namelist() if ".usd" in name]
+        assert layers
+        assert all(archive.read(name).startswith(b"PXR-USDC") for name in layers)
+    assert parity(scene, package).passed
+
+
+def test_lights_are_in_physical_units_and_have_a_choice_for_omniverse(scene, tmp_path):
+    """A white ground under a sky of 0.4 nit and a sun of 1.5 lux at 41 degrees is lit to 0.4 + 1.5 cos / pi < 1."""
+    stage = Usd.Stage.Open(str(write_usd(scene, tmp_path / "u")))
+    sky, sun = (stage.GetPrimAtPath(f"/World/Lights/{name}") for name in ("Sky", "Sun"))
+
+    def lit():
+        return UsdLux.LightAPI(sky).GetIntensityAttr().Get() + UsdLux.LightAPI(sun).GetIntensityAttr().Get() / np.pi
+
+    assert UsdLux.LightAPI(sun).GetNormalizeAttr().Get()
+    assert 0.5 < lit() < 1.0
+    stage.GetPrimAtPath("/World/Lights").GetVariantSets().GetVariantSet("lighting").SetVariantSelection("omniverse")
+    assert lit() > 500.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -74,12 +76,27 @@ def surface_patches(vertices: NDArray[np.float64], faces: Indices) -> tuple[NDAr
     return np.concatenate(points), np.concatenate(triangles)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Cover:
+    """Parts whose union contains what it should."""
+
+    hulls: list[NDArray[np.float64]]
+    """Points that each part was made of, those it was grown by among them [m], each of shape (n, 3)."""
+    parts: list[ConvexPart]
+    before: float
+    """How far points stuck out of the parts at first [m]."""
+    after: float
+    """How far they do at the end [m]."""
+
+
 def cover(
     hulls: list[NDArray[np.float64]],
     points: NDArray[np.float64],
     triangles: NDArray[np.int64] | None = None,
+    *,
+    parts: list[ConvexPart] | None = None,
     rounds: int = 6,
-) -> tuple[list[ConvexPart], float, float]:
+) -> Cover:
     """Reduced parts of point sets `hulls`, grown until they contain `points`, and each triangle as a whole.
 
     A triangle whose corners are in different parts may stick out between them, so one part gets all three: that which
@@ -89,12 +106,11 @@ def cover(
         hulls: points of each part [m], each of shape (n, 3).
         points: to be contained [m], shape (n, 3).
         triangles: of the points, to be contained, shape (m, 3); none where None.
+        parts: the reduced hulls, where they are known.
         rounds: most times that parts are grown.
-
-    Returns:
-        The parts, how far points stuck out at first and how far they do at the end [m].
     """
-    hulls, parts = list(hulls), [reduce_hull(hull) for hull in hulls]
+    hulls = list(hulls)
+    parts = [reduce_hull(hull) for hull in hulls] if parts is None else list(parts)
     alone = np.repeat(np.arange(len(points))[:, None], 3, axis=1)
     wanted = alone if triangles is None else np.concatenate([alone, triangles])
     depth = np.stack([_depth(points, part) for part in parts])
@@ -111,7 +127,7 @@ def cover(
             hulls[index] = np.concatenate([hulls[index], points[given]])
             parts[index] = reduce_hull(hulls[index])
             depth[index] = _depth(points, parts[index])
-    return parts, before, after
+    return Cover(hulls=hulls, parts=parts, before=before, after=after)
 
 
 def _depth(points: NDArray[np.float64], part: ConvexPart) -> NDArray[np.float32]:

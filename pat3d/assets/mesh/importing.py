@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.load import LoadedMesh, files_beside, load_mesh
-from pat3d.assets.mesh.parts import PartsMethod, make_parts
+from pat3d.assets.mesh.parts import DECOMPOSITION_SECONDS, MAX_HULLS, Decomposing, PartsMethod, make_parts
 from pat3d.assets.mesh.regions import find_regions
 from pat3d.assets.mesh.repair import repair
 from pat3d.errors import AssetError
@@ -42,10 +42,6 @@ TO_Z_UP: dict[str, tuple[tuple[int, int, int], ...]] = {
 }
 """Rotations that turn each axis up; from y up, +z (glTF's front) becomes -y (ours)."""
 
-PATIENCE = 20.0
-"""Where there is a limit of processor time it decides, on a busy machine too: the clock only ends what has hung, after
-so many times the limit."""
-
 MOST_IMPORTED = 16
 
 _imported: dict[tuple[str, ...], Asset] = {}
@@ -65,10 +61,12 @@ def import_mesh(
     material: str = "plastic",
     friction: float | None = None,
     parts: PartsMethod = "coacd",
+    threshold: float | None = None,
+    max_hulls: int = MAX_HULLS,
+    decomposition_limit: float = DECOMPOSITION_SECONDS,
     thickness: float | None = None,
     texture_root: str | os.PathLike[str] | None = None,
     cache_dir: str | os.PathLike[str] | None = None,
-    timeout: float = 120.0,
     cpu_limit: float | None = None,
 ) -> Asset:
     """Read, repair, weigh and decompose a mesh file.
@@ -86,27 +84,30 @@ def import_mesh(
         material: name of a material, for density and friction.
         friction: Coulomb coefficient [-]; the material's where None.
         parts: how to make convex parts: decomposition, one convex hull, or the bounding box.
+        threshold: concavity that a decomposition may leave [-], from 0.01 (fine) to 1; where None 0.05, and for an
+            object with a cavity 0.03 or finer until the cavity stays open.
+        max_hulls: most convex parts of a decomposition; where a finer one would have more, the coarser one is kept.
+        decomposition_limit: processor time for the decomposition [s], however busy the machine is.
         thickness: wall thickness [m] for open shells; see `repair`.
         texture_root: folder that material files may refer into; the mesh's own where None.
         cache_dir: where decompositions are kept; see `cache_root`.
-        timeout: [s] for the convex decomposition of all pieces.
         cpu_limit: [s] of the processor for all of it; None for any.
 
     Raises:
         AssetError: the file, the mesh or an argument is unusable; the message says why and what would do.
     """
     path = Path(path)
-    _check_arguments(units, scale, size, up, density, mass, friction, parts, thickness)
+    _check_arguments(units, scale, size, up, density, mass, friction, thickness)
+    how = Decomposing(method=parts, threshold=threshold, max_hulls=max_hulls, seconds=decomposition_limit)
     found = find_material(material)
     key = (
         *files_beside(path, texture_root),
-        *map(str, (name, units, scale, size, up, density, mass, material, friction, parts, thickness, cache_dir)),
+        *map(str, (name, units, scale, size, up, density, mass, material, friction, how, thickness, cache_dir)),
     )
     if key in _imported:
         # A copy, since objects that share an asset share its files.
         return replace(_imported[key])
     budget = CpuBudget(cpu_limit)
-    timeout = timeout if cpu_limit is None else max(timeout, PATIENCE * cpu_limit)
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
@@ -116,7 +117,7 @@ def import_mesh(
         properties = mass_properties(
             fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass
         )
-        made = make_parts(fixed, parts, cache_dir, timeout, budget)
+        made = make_parts(fixed, how, cache_dir, budget)
     except AssetError as error:
         raise AssetError(f'"{path}": {error}') from error
     # Parts may reach below the mesh by their inflation; what is simulated stands on z = 0.
@@ -211,14 +212,12 @@ def _factors(size: float | Sequence[float | None], extents: NDArray[np.float64])
     return np.array([ratios.get(k, rest) for k in range(3)])
 
 
-def _check_arguments(units, scale, size, up, density, mass, friction, parts, thickness) -> None:
+def _check_arguments(units, scale, size, up, density, mass, friction, thickness) -> None:
     """Refuse argument values before any file is read."""
     if units is not None and units not in METRES:
         raise AssetError(f'unknown units "{units}". Valid: {", ".join(METRES)}.')
     if up is not None and up not in TO_Z_UP:
         raise AssetError(f'unknown up axis "{up}". Valid: {", ".join(TO_Z_UP)}.')
-    if parts not in ("coacd", "hull", "box"):
-        raise AssetError(f'unknown method "{parts}" for convex parts. Valid: coacd, hull, box.')
     if size is not None and (units is not None or scale is not None):
         raise AssetError("give a target size, or units and scale, not both.")
     if density is not None and mass is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from pat3d.assets.mesh.cavity import cavity_loss
-from pat3d.assets.mesh.cover import cover, surface_patches, surface_points
+from pat3d.assets.mesh.cover import Cover, cover, surface_patches, surface_points
 from pat3d.assets.mesh.decompose import DEFAULT_OPTIONS, decompose
 from pat3d.assets.mesh.reduce import inflation
 from pat3d.assets.mesh.regions import cavity, mesh_height_map
 from pat3d.assets.mesh.repair import Repaired, Solid, manifold_of, solid_of
-from pat3d.assets.mesh.split import allowed, fitted
+from pat3d.assets.mesh.split import Fitted, allowed, fitted
 from pat3d.assets.mesh.topology import signed_volume
+from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.planes import planes
 from pat3d.progress import CpuBudget
@@ -51,7 +52,46 @@ MAX_DENT = 0.11
 LEAST_SECONDS = 1.0
 """[s]; what a decomposition gets at least, so that one that is known is still found."""
 
-_VERSION = 4
+MAX_HULLS = 80
+"""Convex parts of one object, unless its pieces are more."""
+
+ROOM = 7 / 8
+"""Share of them that the decomposition may use; the rest is for cutting those that few faces do not fit."""
+
+MAX_HULL_CUTS = 16
+"""Convex parts that a mesh may have that is to be one hull: 64 faces do not fit a large round one."""
+
+DECOMPOSITION_SECONDS = 120.0
+"""Processor time for the decomposition of one mesh [s]."""
+
+PATIENCE = 20.0
+"""The clock only ends what has hung, after so many times the processor time: a busy machine refuses nothing more."""
+
+_VERSION = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decomposing:
+    """How a mesh is cut into convex parts."""
+
+    method: PartsMethod = "coacd"
+    threshold: float | None = None
+    """CoACD's concavity [-]; None for 0.05, and 0.03 or finer until a cavity stays open."""
+    max_hulls: int = MAX_HULLS
+    seconds: float = DECOMPOSITION_SECONDS
+    """Processor time [s]."""
+
+    def __post_init__(self) -> None:
+        if self.method not in ("coacd", "hull", "box"):
+            raise AssetError(f'unknown method "{self.method}" for convex parts. Valid: coacd, hull, box.')
+        if self.threshold is not None and not 0.01 <= self.threshold <= 1.0:
+            raise AssetError(f"the threshold of a decomposition must be from 0.01 to 1, got {self.threshold:g}.")
+        if not 1 <= self.max_hulls <= 1000:
+            raise AssetError(f"the most convex parts must be from 1 to 1000, got {self.max_hulls}.")
+        if not self.seconds > 0:
+            raise AssetError(f"the limit of a decomposition must be more than 0 s, got {self.seconds:g}.")
+        if self.method != "coacd" and (self.threshold is not None or self.max_hulls != MAX_HULLS):
+            raise AssetError(f'a threshold and a limit of hulls are for parts "coacd", not "{self.method}".')
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,21 +103,14 @@ class Parts:
     """How they were made, for the provenance."""
 
 
-def make_parts(
-    fixed: Repaired,
-    method: PartsMethod,
-    cache_dir: str | os.PathLike[str] | None,
-    timeout: float,
-    budget: CpuBudget,
-) -> Parts:
+def make_parts(fixed: Repaired, how: Decomposing, cache_dir: str | os.PathLike[str] | None, budget: CpuBudget) -> Parts:
     """The parts of a mesh, those that an earlier run made read from the cache.
 
     Args:
         fixed: the mesh, repaired, in metres.
-        method: "coacd", "hull" or "box".
+        how: method and limits.
         cache_dir: see `cache_root`.
-        timeout: [s] of the clock for all pieces at all thresholds.
-        budget: of the processor.
+        budget: of the processor, for everything.
 
     Raises:
         AssetError: time is up, or CoACD fails.
@@ -86,41 +119,76 @@ def make_parts(
     patches, triangles = surface_patches(fixed.vertices, fixed.faces)
     points = np.concatenate([patches, fixed.solid.vertices])
     low, high = points.min(axis=0), points.max(axis=0)
-    if method == "box":
+    if how.method == "box":
         box = convex_part(
             np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         )
         return Parts(parts=[box], record={})
-    if method == "hull":
-        parts, _, after = cover([points], points)
-        return Parts(parts=parts, record=_record(parts, [points], after, start))
+    limit = allowed(float(np.ptp(points, axis=0).max()))
+    if how.method == "hull":
+        whole = convex_part(points).vertices
+        made = _contained([whole], points, None, limit, MAX_HULL_CUTS)
+        return Parts(parts=made.parts, record=_record(made, limit, start))
+    thresholds: tuple[float, ...] = (THRESHOLD,) if how.threshold is None else (how.threshold,)
+    pit = cavity(mesh_height_map(fixed.solid.vertices, fixed.solid.faces))
+    if pit is not None and how.threshold is None:
+        thresholds = CAVITY_THRESHOLDS
     key = content_key(
         {"vertices": fixed.vertices, "faces": fixed.faces, "solid": fixed.solid.vertices},
-        {**DEFAULT_OPTIONS, "thresholds": [THRESHOLD, *CAVITY_THRESHOLDS], "format": _VERSION},
+        {**DEFAULT_OPTIONS, "thresholds": list(thresholds), "hulls": how.max_hulls, "format": _VERSION},
     )
     path = cache_root(cache_dir) / "parts" / f"{key}.npz"
     stored = load_points(path)
     if stored is not None:
         return Parts(parts=[convex_part(hull) for hull in stored], record={**load_record(path), "cached": True})
     # A budget for all pieces at all thresholds: a soup of triangles has dozens, and each could take all of it.
-    ends = start + timeout
-    limit = allowed(float(np.ptp(points, axis=0).max()))
-    pit = cavity(mesh_height_map(fixed.solid.vertices, fixed.solid.faces))
-    parts: list[ConvexPart] = []
-    record: dict[str, Any] = {}
-    for threshold in CAVITY_THRESHOLDS if pit else (THRESHOLD,):
-        pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, ends, budget)
-        hulls = [half for piece in pieces for half in fitted(piece, limit)] if len(pieces) <= MAX_PIECES else pieces
-        parts, before, after = cover(hulls, points, triangles)
-        record = {"options": options, "stuck_out": before, **_record(parts, hulls, after, start)}
-        if pit is None or len(parts) > 150:
+    own = CpuBudget(how.seconds)
+    best: Parts | None = None
+    for threshold in thresholds:
+        pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, (own, budget), how)
+        if best is not None and len(pieces) > how.max_hulls:
             break
-        loss = float(np.median(cavity_loss(fixed.solid.vertices, fixed.solid.faces, parts, pit)))
-        record["cavity_loss"] = loss
+        made = _contained(pieces, points, triangles, limit, how.max_hulls)
+        record = {"options": options, "stuck_out": made.before, **_record(made, limit, start)}
+        if pit is None:
+            best = Parts(parts=made.parts, record=record)
+            break
+        loss = float(np.median(cavity_loss(fixed.solid.vertices, fixed.solid.faces, made.parts, pit)))
+        if best is None or (len(made.parts) <= how.max_hulls and loss < best.record["cavity_loss"]):
+            best = Parts(parts=made.parts, record={**record, "cavity_loss": loss})
         if loss <= MAX_CAVITY_LOSS or not options:
             break
-    store_points(path, [part.vertices for part in parts], record)
-    return Parts(parts=parts, record=record)
+    if best is None:
+        raise AssetError("no convex parts were found.")
+    store_points(path, [part.vertices for part in best.parts], best.record)
+    return best
+
+
+def _contained(
+    pieces: list[NDArray[np.float64]],
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int64] | None,
+    limit: float,
+    most: int,
+) -> Cover:
+    """Parts of the pieces that contain `points`, each at most `limit` [m] beyond what it stands for while they are few.
+
+    Where parts had to grow, few faces may not fit them any more; these are cut once again.
+    """
+    done = fitted(pieces, limit, most)
+    made = cover([one.points for one in done], points, triangles, parts=[one.part for one in done])
+    apart = [Fitted(points=hull, part=part).excess > limit for hull, part in zip(made.hulls, made.parts, strict=True)]
+    if not any(apart) or len(made.parts) >= most:
+        return made
+    kept = [k for k, wide in enumerate(apart) if not wide]
+    again = fitted([made.hulls[k] for k, wide in enumerate(apart) if wide], limit, most - len(kept))
+    last = cover(
+        [made.hulls[k] for k in kept] + [one.points for one in again],
+        points,
+        triangles,
+        parts=[made.parts[k] for k in kept] + [one.part for one in again],
+    )
+    return replace(last, before=made.before)
 
 
 def _decomposed(
@@ -128,30 +196,36 @@ def _decomposed(
     threshold: float,
     hollow: bool,
     cache_dir: str | os.PathLike[str] | None,
-    ends: float,
-    budget: CpuBudget,
+    budgets: tuple[CpuBudget, CpuBudget],
+    how: Decomposing,
 ) -> tuple[list[NDArray[np.float64]], dict[str, Any]]:
-    """Convex hulls of all pieces by time `ends` [s] of the clock, and CoACD's options where it was needed."""
+    """Convex hulls of all pieces within the processor time of both budgets, and CoACD's options where it was needed."""
     pieces = fixed.pieces if len(fixed.pieces) <= MAX_PIECES else (fixed.solid,)
     whole = float(np.ptp(fixed.solid.vertices, axis=0).max())
     hulls: list[NDArray[np.float64]] = []
     options: dict[str, Any] = {}
     dent, limit = (0.02, MAX_CAVITY_FACES) if hollow else (MAX_DENT, MAX_SOLID_FACES)
+    dented = []
     for piece in pieces:
         hull = convex_part(piece.vertices)
         if _nearly_convex(piece, hull, dent * whole):
             hulls.append(hull.vertices)
-            continue
+        else:
+            dented.append(piece)
+    most = max(1, int(ROOM * how.max_hulls - len(hulls)) // max(len(dented), 1))
+    for piece in dented:
         piece = _simplified(piece, limit)
         # CoACD measures concavity relative to each piece; the same tolerance in metres holds for all.
         relative = min(0.5, threshold * whole / float(np.ptp(piece.vertices, axis=0).max()))
+        left = min(left for left in (one.left for one in budgets) if left is not None)
         done = decompose(
             piece.vertices,
             piece.faces.astype(np.int32),
-            timeout=max(ends - time.monotonic(), LEAST_SECONDS),
-            cpu_limit=budget.left,
+            timeout=max(PATIENCE * left, LEAST_SECONDS),
+            cpu_limit=max(left, LEAST_SECONDS),
             cache_dir=cache_dir,
             threshold=round(relative, 6),
+            max_convex_hull=most,
         )
         options = {**done.options, "threshold": threshold}
         hulls += [_snapped(part, piece, fixed.solid) for part in done.parts]
@@ -200,16 +274,16 @@ def _simplified(piece: Solid, limit: int) -> Solid:
     return solid_of(solid)
 
 
-def _record(parts: list[ConvexPart], hulls: list[NDArray[np.float64]], after: float, start: float) -> dict[str, Any]:
+def _record(made: Cover, limit: float, start: float) -> dict[str, Any]:
     """What the provenance says about parts; lengths in metres."""
-    record: dict[str, Any] = {
-        "count": len(parts),
-        "vertices": int(max(len(part.vertices) for part in parts)),
-        "faces": int(max(len(part.faces) for part in parts)),
-        "sticks_out": after,
+    grown = [inflation(part, hull) for part, hull in zip(made.parts, made.hulls, strict=True)]
+    return {
+        "count": len(made.parts),
+        "vertices": int(max(len(part.vertices) for part in made.parts)),
+        "faces": int(max(len(part.faces) for part in made.parts)),
+        "sticks_out": made.after,
         "seconds": round(time.monotonic() - start, 3),
+        "inflation": max(item.distance for item in grown),
+        "inflation_allowed": limit,
+        "inflation_volume": float(np.mean([item.volume for item in grown])),
     }
-    grown = [inflation(part, hull) for part, hull in zip(parts, hulls, strict=True)]
-    record["inflation"] = max(item.distance for item in grown)
-    record["inflation_volume"] = float(np.mean([item.volume for item in grown]))
-    return record

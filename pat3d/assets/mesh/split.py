@@ -6,18 +6,23 @@ around a ball they are 8 %. A half needs half as many sides, so its part sticks 
 
 from __future__ import annotations
 
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from pat3d.assets.mesh.reduce import inflation, reduce_hull
 from pat3d.errors import AssetError
+from pat3d.geometry.hulls import ConvexPart
 
 MOST, MOST_SHARE, LEAST = 1e-3, 0.01, 2e-4
 """A part may stick out of its piece by a millimetre [m] and by this share of the object's size, or by the least [m]."""
 
-CUTS = 2
-"""A piece is cut so many times at most, into up to four: parts cost time in every stage and every engine."""
+CUTS = 4
+"""A piece is cut so many times at most, into up to 16: parts cost time in every stage and every engine."""
 
 _FLAT = 0.08
 """Share of the surface from which a face is flat, not part of a curved side."""
@@ -28,24 +33,56 @@ def allowed(size: float) -> float:
     return max(min(MOST, MOST_SHARE * size), LEAST)
 
 
-def fitted(points: NDArray[np.float64], limit: float, cuts: int = CUTS) -> list[NDArray[np.float64]]:
-    """The hull of `points` in pieces, whose reduced parts stick out by at most `limit` if `cuts` suffice.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fitted:
+    """A convex piece and the part that stands for it."""
+
+    points: NDArray[np.float64]
+    """[m], shape (n, 3)."""
+    part: ConvexPart
+    cuts: int = 0
+    """How many times the piece was cut from another."""
+
+    @property
+    def excess(self) -> float:
+        """How far the part sticks out of the piece [m]."""
+        return inflation(self.part, self.points).distance
+
+
+def fitted(pieces: Sequence[NDArray[np.float64]], limit: float, most: int, cuts: int = CUTS) -> list[Fitted]:
+    """Convex pieces whose reduced parts stick out by at most `limit`, if `most` pieces and `cuts` suffice.
+
+    The piece whose part sticks out most is cut in two, until none does or there are `most`.
 
     Args:
-        points: [m], shape (n, 3).
+        pieces: points of each [m], shape (n, 3).
         limit: [m].
-        cuts: most times that a piece is cut in two.
+        most: pieces to end with; those given may be more.
+        cuts: most times that a piece is cut.
 
     Returns:
-        Points of each piece; their hulls together are the hull of `points`.
+        The pieces; their hulls together are the hulls of what was given.
     """
-    if cuts == 0 or inflation(reduce_hull(points), points).distance <= limit:
-        return [points]
-    try:
-        halves = _halves(points)
-        return [piece for half in halves for piece in fitted(half, limit, cuts - 1)]
-    except (QhullError, AssetError):
-        return [points]
+    done = [Fitted(points=points, part=reduce_hull(points)) for points in pieces]
+    waiting = [(-one.excess, number) for number, one in enumerate(done)]
+    heapq.heapify(waiting)
+    while waiting and len(done) < most:
+        excess, number = heapq.heappop(waiting)
+        if -excess <= limit:
+            break
+        if done[number].cuts == cuts:
+            continue
+        try:
+            halves = [
+                Fitted(points=half, part=reduce_hull(half), cuts=done[number].cuts + 1)
+                for half in _halves(done[number].points)
+            ]
+        except (QhullError, AssetError):
+            continue
+        for place, half in zip((number, len(done)), halves, strict=True):
+            done[place : place + 1] = [half]
+            heapq.heappush(waiting, (-half.excess, place))
+    return done
 
 
 def _halves(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
