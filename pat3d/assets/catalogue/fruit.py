@@ -44,7 +44,7 @@ def _star(z: float, r: float, count: int = 5) -> Shape:
 
 
 @entry(
-    "apple", family="food", synonyms=("red apple", "green apple"), material="fruit", colours=("red", "crimson", "lime")
+    "apple", family="food", synonyms=("red apple", "green apple"), material="fruit", colours=("red", "crimson")
 )
 def apple(style: Style) -> Build:
     """An apple with a dimple, a stalk and a leaf."""
