@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,8 +18,13 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
 from pat3d.scene.relations import built_together
 
+if TYPE_CHECKING:
+    from pat3d.assets.catalogue import Entry
+
 MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 """Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""
+_ONE_BY_ONE = frozenset({"cup", "mug"})
+"""Nouns of such families of which people have one of each colour."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -103,13 +108,14 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     from pat3d.generation.sizing import enlarged_trays
 
     planned = {obj.name: obj for obj in plan.objects}
+    colours = _different_colours(plan.objects, seed)
 
     def make(name: str, factor: float = 1.0) -> Asset:
         obj = planned[name]
         shape = partial(
             catalogue.make,
             obj.noun,
-            colours=obj.colours,
+            colours=obj.colours or colours.get(name, ()),
             material=obj.material,
             adjectives=obj.adjectives,
             seed=derived_seed(seed, name),
@@ -126,9 +132,9 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
         progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
         look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
         entry = catalogue.find(obj.noun)
-        shared = entry is not None and entry.family in MATCHING
+        shared = entry is not None and _is_set(entry)
         # What carries one thing together has to be of one height.
-        key = (look, obj.phrase if shared else together.get(obj.name, obj.name))
+        key = (look, colours.get(obj.name), obj.phrase if shared else together.get(obj.name, obj.name))
         if key not in made:
             made[key] = make(obj.name)
         assets[obj.name] = made[key]
@@ -147,6 +153,27 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
         )
         for obj in plan.objects
     )
+
+
+def _is_set(entry: Entry) -> bool:
+    return entry.family in MATCHING and entry.noun not in _ONE_BY_ONE
+
+
+def _different_colours(objects: Sequence[PlannedObject], seed: int) -> dict[str, tuple[str, ...]]:
+    """Colours of equal objects that the plan leaves open, as different as the catalogue has them, by name."""
+    from pat3d.assets import catalogue
+
+    open_ones: dict[str, list[str]] = {}
+    for obj in objects:
+        if not obj.colours and not obj.material:
+            open_ones.setdefault(obj.noun, []).append(obj.name)
+    found: dict[str, tuple[str, ...]] = {}
+    for noun, names in open_ones.items():
+        entry = catalogue.find(noun)
+        if len(names) > 1 and entry is not None and len(entry.colours) > 1 and not _is_set(entry):
+            order = np.random.default_rng(derived_seed(seed, "colours", noun)).permutation(len(entry.colours))
+            found |= {name: (entry.colours[order[k % len(order)]],) for k, name in enumerate(names)}
+    return found
 
 
 def _plain(obj: PlannedObject) -> dict[str, Any]:

@@ -26,17 +26,23 @@ from pat3d.layout.group import Group
 from pat3d.layout.hanging import attachment, hang
 from pat3d.layout.intents import Intents
 from pat3d.layout.leaning import leaning_rotation
+from pat3d.layout.loosening import loosen
+from pat3d.layout.place_settings import place_settings, turned
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.layout.tops import Top, item_of, spread
 from pat3d.layout.turning import turned_to_targets
+from pat3d.layout.turns import free_turn
 from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
+from pat3d.scene.relations import OPPOSITE, SIDES
 
 _SEATS = frozenset({"chair", "armchair", "stool", "bench"})
 """Nouns that turn towards what they stand around."""
+_SAT_AT = frozenset({"table", "desk", "workbench", "counter", "bar", "piano", "keyboard"})
+"""Nouns of what seats at a side of it are turned to."""
 _FURNITURE = 0.6
 """Objects larger than this [m] stand parallel to the walls of an imagined room."""
 
@@ -121,6 +127,8 @@ class _Arranger:
         self.notes.extend(self.intents.notes)
         self.turned = {name: posture_rotation(self.bodies[name], kind) for name, kind in postures.items()}
         """How objects are turned before their yaw, shape (3, 3), where they do not stand as they are made."""
+        self._seated = self._seats()
+        """Yaw of seats that stand at a side of a table [rad]."""
         for name, way in self.intents.leaning.items():
             self.turned[name] = leaning_rotation(self.bodies[name], way)
         for name in fixed:
@@ -147,13 +155,18 @@ class _Arranger:
                 f"no arrangement on the {GROUND} satisfies all of: {listed}. Remove one, or give poses. "
                 "Nothing was written."
             )
+        turns = {name: turn for name in names if (turn := self._turn(name)) is not None}
+        loose = loosen(
+            items, spots, laterals, Surface(), wishes, turns=turns, rng=self._rng(GROUND, "loosening"), held=pinned
+        )
         result = []
         for name, group in groups.items():
             if name in self.fixed:
                 result.append(group.shifted(np.array(self.fixed[name].position)))
             else:
                 height = self.gap - float(group.low[2])
-                result.append(group.shifted(np.array([*spots[name].position, height])))
+                found = group.turned(yaw_matrix(loose[name].turn)) if loose[name].turn else group
+                result.append(found.shifted(np.array([*loose[name].position, height])))
         return self._span(GROUND, self._turned(result))
 
     def _turned(self, groups: list[Group]) -> list[Group]:
@@ -227,6 +240,11 @@ class _Arranger:
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         free = [kid for kid in names if kid not in self.fixed]
         groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]
+        wishes = self.intents.wishes(group.name, {one.name: one for one in groups}, self._across, self.gap)
+        settings = place_settings({one.name: one for one in groups}, laterals, wishes)
+        angles = {name: angle for one in settings for name, angle in one.turns.items()}
+        groups = [turned(one, angles[one.name]) if one.name in angles else one for one in groups]
+        laid = {name for one in settings for name in one.formation.members}
         top = Top(
             supports=[*group.members, *(member for other in given for member in other.members)],
             root=group.root,
@@ -234,7 +252,9 @@ class _Arranger:
             given=given,
             turnable={kid for kid in free if not self.children[kid]},
             gap=self.gap,
-            wishes=self.intents.wishes(group.name, {one.name: one for one in groups}, self._across, self.gap),
+            wishes=wishes,
+            turns={kid: turn for kid in free if kid not in laid and (turn := self._turn(kid)) is not None},
+            settings=settings,
             leaning=frozenset(self.intents.leaning),
         )
         placed, notes = spread(top, groups, laterals, self._rng(group.name, "on"))
@@ -255,12 +275,45 @@ class _Arranger:
         angle = ring_angles(laterals).get(name)
         if angle is not None and _SEATS & set(self.bodies[name].asset.noun.split()):
             return float(np.arctan2(-np.cos(angle), np.sin(angle)))
+        towards = self._seated.get(name)
+        if towards is not None:
+            return towards
         kids, size = self.children[name], float(self.bodies[name].asset.size.max())
         if size > _FURNITURE or len(kids) > 1:
             return 0.0
         alone = parent != GROUND and len(self.children[parent]) == 1
         spread_by = 0.06 if kids or alone else 0.14
         return (base if alone else 0.0) + float(self._rng(name, "yaw").uniform(-spread_by, spread_by))
+
+    def _seats(self) -> dict[str, float]:
+        found = {}
+        for lat in self.laterals.get(GROUND, []):
+            nouns = [set(self.bodies[name].asset.noun.split()) for name in (lat.child, lat.parent)]
+            for seat, table, kind, own, other in (
+                (lat.child, lat.parent, lat.kind, *nouns),
+                (lat.parent, lat.child, OPPOSITE[lat.kind], *reversed(nouns)),
+            ):
+                if kind in SIDES and _SEATS & own and _SAT_AT & other and table != seat:
+                    axis, sign = SIDES[kind]
+                    way = -sign * np.eye(2)[axis]
+                    # The front of an asset is at -y.
+                    found[seat] = float(np.arctan2(way[1], way[0]) + np.pi / 2)
+        return found
+
+    def _turn(self, name: str) -> float | None:
+        """By how much a thing may be turned [rad] once it stands; None where something depends on its direction."""
+        if name in self.fixed or name in self.intents.yaws or not self._one_piece(name):
+            return None
+        asset = self.bodies[name].asset
+        if float(asset.size.max()) > _FURNITURE or name in self._seated:
+            return None
+        return free_turn(asset.noun, self._rng(name, "turn"), loaded=len(self.children[name]) > 1)
+
+    def _one_piece(self, name: str) -> bool:
+        """Whether a thing can be turned with all that it carries: nothing on it is at a side of another."""
+        if name in self.spans or self.laterals.get(name) or self.intents.by_surface.get(name):
+            return False
+        return all(self.kinds[kid] != "hangs_from" and self._one_piece(kid) for kid in self.children[name])
 
     def _rng(self, name: str, purpose: str) -> np.random.Generator:
         return np.random.default_rng([self.seed, *name.encode(), *purpose.encode()])

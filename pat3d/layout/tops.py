@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,13 +15,19 @@ from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, listed, lower, pack
-from pat3d.layout.flat import Item, Lateral
+from pat3d.layout.flat import Item, Lateral, Spot
 from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
 from pat3d.layout.group import Group
+from pat3d.layout.loosening import loosen
+from pat3d.layout.place_settings import Setting
 from pat3d.layout.places import pins
 from pat3d.layout.surfaces import NOTHING, arrange_flat
 
+_ROOMY = 2.0
+"""Surfaces this many times as long and wide as a thing alone on them have it anywhere."""
+_LEVEL = 1e-3
+"""By how much a thing may stand higher or lower where it was moved [m]."""
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
 
@@ -51,6 +57,10 @@ class Top:
     """Of the arrangements among the children."""
     leaning: frozenset[str] = frozenset()
     """Children that others keep from falling."""
+    turns: Mapping[str, float] = field(default_factory=dict)
+    """By how much children would like to be turned [rad]; missing for not at all."""
+    settings: Sequence[Setting] = ()
+    """Places laid at this table."""
 
     @property
     def name(self) -> str:
@@ -212,32 +222,70 @@ def _on_region(
     obstacles = [*top.supports, *(member for group in before for member in group.members)]
     if len(share) == 1 and not top.given and share[0].name not in top.wishes.places:
         alone = _alone(top, region, share[0], obstacles, rng, notes)
-        return None if alone is None else [alone]
+        return None if alone is None else [_somewhere(top, region, share[0], alone, obstacles, rng)]
     items = [item_of(group, turnable=group.name in top.turnable) for group in share]
     pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
     every = [*(item_of(group, turnable=False) for group in top.given), *items]
-    ways = pins(top.wishes, items, region.surface, rng) if top.wishes.places else [{}]
-    spots = next(
-        (
-            found
-            for way in ways
-            if (found := arrange_flat(every, laterals, region.surface, pinned={**pinned, **way}, wishes=top.wishes))
-            is not None
-        ),
-        None,
-    )
+    homes = {one.formation.members[0]: one.home for one in top.settings}
+    laid = replace(top.wishes, formations=(*top.wishes.formations, *(one.formation for one in top.settings)))
+    wishes, spots = laid, _packed(top, region, every, items, laid, laterals, pinned, rng)
+    if spots is None and top.settings:
+        wishes, spots, homes = top.wishes, _packed(top, region, every, items, top.wishes, laterals, pinned, rng), {}
     if spots is None:
         return None
-    placed = []
+    loose = loosen(every, spots, laterals, region.surface, wishes, turns=top.turns, rng=rng, held=pinned, homes=homes)
+    packed = _put(top, region, share, {name: (spot, 0.0) for name, spot in spots.items()}, obstacles)
+    ways = {name: (Spot(position=one.position), one.turn) for name, one in loose.items()}
+    freely = _put(top, region, share, ways, obstacles)
+    return freely if _as_good(top, freely, packed) else packed
+
+
+def _packed(
+    top: Top,
+    region: FlatRegion,
+    every: Sequence[Item],
+    items: Sequence[Item],
+    wishes: Wishes,
+    laterals: Sequence[Lateral],
+    pinned: Mapping[str, Array],
+    rng: np.random.Generator,
+) -> dict[str, Spot] | None:
+    ways = pins(wishes, items, region.surface, rng) if wishes.places else [{}]
+    found = (arrange_flat(every, laterals, region.surface, pinned={**pinned, **way}, wishes=wishes) for way in ways)
+    return next((one for one in found if one is not None), None)
+
+
+def _put(
+    top: Top,
+    region: FlatRegion,
+    share: Sequence[Group],
+    spots: Mapping[str, tuple[Spot, float]],
+    obstacles: Sequence[Placed],
+) -> list[Group] | None:
+    """All of `share` set down at its spots and turned [rad], or None where something is in the way."""
+    placed: list[Group] = []
+    standing = list(obstacles)
     for group in share:
-        spot = spots[group.name]
-        turned = group.turned(yaw_matrix(math.pi / 2)) if spot.quarter else group
-        found = _set_down(top, region, turned, region.centre[:2] + spot.position, obstacles)
+        spot, turn = spots[group.name]
+        angle = math.pi / 2 if spot.quarter else turn
+        turned = group.turned(yaw_matrix(angle)) if angle else group
+        found = _set_down(top, region, turned, region.centre[:2] + spot.position, standing)
         if found is None:
             return None
         placed.append(found)
-        obstacles.extend(found.members)
+        standing.extend(found.members)
     return placed
+
+
+def _as_good(top: Top, freely: list[Group] | None, packed: list[Group] | None) -> bool:
+    """Whether things stand as high and as safely where they were moved as where they were packed."""
+    if freely is None or packed is None:
+        return packed is None
+    level = all(abs(float(a.low[2] - b.low[2])) < _LEVEL for a, b in zip(freely, packed, strict=True))
+    return level and all(
+        _carried(top, one, freely) or not _carried(top, other, packed)
+        for one, other in zip(freely, packed, strict=True)
+    )
 
 
 def _alone(
@@ -273,6 +321,20 @@ def _alone(
         notes.append(f'"{group.name}" may tip or roll on "{top.name}".')
         return chosen
     return options[0] if options else None
+
+
+def _somewhere(
+    top: Top, region: FlatRegion, group: Group, alone: Group, obstacles: list[Placed], rng: np.random.Generator
+) -> Group:
+    """One group on a large surface away from the middle and turned, or `alone` as it is."""
+    room = 2 * np.array(region.surface.half_size)
+    if region.enclosed or np.any(room < _ROOMY * float(group.size[:2].max())):
+        return alone
+    item = item_of(group, turnable=False)
+    spots = {group.name: Spot(position=alone.root.position[:2] - region.centre[:2])}
+    loose = loosen([item], spots, (), region.surface, top.wishes, turns=top.turns, rng=rng)[group.name]
+    found = _put(top, region, [group], {group.name: (Spot(position=loose.position), loose.turn)}, obstacles)
+    return found[0] if found is not None and _as_good(top, found, [alone]) else alone
 
 
 def _set_down(top: Top, region: FlatRegion, group: Group, xy: Array, obstacles: Sequence[Placed]) -> Group | None:

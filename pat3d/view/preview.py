@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pat3d.errors import SpecError
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
-from pat3d.scene.model import Scene
+from pat3d.scene.model import GROUND, Scene
 from pat3d.scene.replacement import replaced_file
 from pat3d.view.camera import ELEVATION, frame
 from pat3d.view.render import Item, render
@@ -28,6 +28,12 @@ if TYPE_CHECKING:
 
 _PAPER = (250, 250, 249)
 _INK = (52, 54, 58)
+_STAGE = 0.5
+"""Size from which on a table is a stage for what is on it [m]."""
+_LEVEL = frozenset(
+    {"table", "desk", "counter", "workbench", "bench", "cabinet", "dresser", "sideboard", "floor", "stand"}
+)
+"""Nouns of what pictures need not show whole."""
 _LARGEST_PAGE = 16_384
 """Longest side of a sheet [pixel]."""
 
@@ -35,6 +41,16 @@ _LARGEST_PAGE = 16_384
 def scene_items(scene: Scene, *, initial: bool = False) -> list[Item]:
     """The meshes of `scene` at rest, or as laid out before settling."""
     return [(obj.asset.visual, obj.initial_pose if initial else obj.pose) for obj in scene.objects]
+
+
+def stage_of(scene: Scene) -> int | None:
+    """Index of the one piece of furniture that carries all else of `scene`, if there is one and it is only that."""
+    standing = [obj for obj in scene.objects if scene.parent(obj.name) == GROUND]
+    if len(standing) != 1 or len(scene.objects) < 2:
+        return None
+    carrier = standing[0]
+    extent = float(carrier.asset.size.max())
+    return scene.objects.index(carrier) if extent > _STAGE and _LEVEL & {*carrier.asset.noun.split()} else None
 
 
 def save_preview(
@@ -53,7 +69,7 @@ def save_preview(
         height: of each of the two pictures [pixel].
     """
     panels = [("initial layout", scene_items(scene, initial=True)), ("settled", scene_items(scene))]
-    save_png(side_by_side(panels, width=width, height=height), path)
+    save_png(side_by_side(panels, width=width, height=height, stage=stage_of(scene)), path)
 
 
 def side_by_side(
@@ -61,9 +77,10 @@ def side_by_side(
     *,
     width: int = 800,
     height: int = 600,
+    stage: int | None = None,
 ) -> Image.Image:
-    """Captioned pictures in a row, seen by one camera that shows all; arguments as for `save_preview`."""
-    camera = overlooking([items for _, items in panels], aspect=width / height)
+    """Captioned pictures in a row, seen by one camera; arguments as for `save_preview` and `overlooking`."""
+    camera = overlooking([items for _, items in panels], aspect=width / height, stage=stage)
     sheet = _Sheet(columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11))
     for index, (caption, items) in enumerate(panels):
         sheet.put(index, render(items, camera=camera, width=width, height=height), caption)
@@ -79,7 +96,7 @@ def save_picture(
 ) -> None:
     """Write the settled scene alone, without a caption; arguments as for `save_preview`."""
     items = scene_items(scene)
-    camera = overlooking([items], aspect=width / height)
+    camera = overlooking([items], aspect=width / height, stage=stage_of(scene))
     save_png(render(items, camera=camera, width=width, height=height), path)
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.geometry.normals import triangle_areas
-from pat3d.view.camera import ELEVATION, Camera
+from pat3d.view.camera import ELEVATION, Camera, frame
 from pat3d.view.geometry import Geometry
-from pat3d.view.render import Item, frame_items
+from pat3d.view.render import Item
 
 ELEVATIONS = (ELEVATION, 40.0, 55.0, 70.0)
 """That are tried in this order [deg]: low views show best what things are, high ones what they hold."""
@@ -18,22 +18,48 @@ ELEVATIONS = (ELEVATION, 40.0, 55.0, 70.0)
 ENOUGH = 0.1
 """Share of an item that has to be seen; of the lowest book of a stack, one hardly sees more from anywhere."""
 
+LEAST_VIEW = 0.25
+"""Half of the surface around things that is shown at least [m]."""
+
 _SAMPLES = 256
 """Faces of an item that are looked towards, at most."""
 
 
-def overlooking(panels: Sequence[Sequence[Item]], *, aspect: float) -> Camera:
-    """The lowest of the automatic cameras that shows every item of every panel, or else the most items."""
+def overlooking(panels: Sequence[Sequence[Item]], *, aspect: float, stage: int | None = None) -> Camera:
+    """The lowest of the automatic cameras that shows every item of every panel, or else the most items.
+
+    Args:
+        panels: items that are drawn together, each the same items in the same order.
+        aspect: width over height of the picture.
+        stage: index of the item that carries all others, of which the picture needs only what is around them.
+    """
     together = [item for items in panels for item in items]
-    best, most = frame_items(together, aspect=aspect), -1
+    points = _framed(panels, stage)
+    best, most = frame(points, aspect=aspect), -1
     for elevation in ELEVATIONS:
-        camera = frame_items(together, aspect=aspect, elevation=elevation)
+        camera = frame(points, aspect=aspect, elevation=elevation)
         shown = sum(int(np.count_nonzero(share_seen(items, camera) >= ENOUGH)) for items in panels)
         if shown > most:
             best, most = camera, shown
         if shown == len(together):
             break
     return best
+
+
+def _framed(panels: Sequence[Sequence[Item]], stage: int | None) -> NDArray[np.float64]:
+    """What has to be in the picture [m], shape (n, 3)."""
+    items = [item for one in panels for number, item in enumerate(one) if number != stage]
+    if stage is None or not items:
+        return np.concatenate([pose.apply(mesh.vertices) for one in panels for mesh, pose in one])
+    points = np.concatenate([pose.apply(mesh.vertices) for mesh, pose in items])
+    low, high = points.min(axis=0), points.max(axis=0)
+    mesh, pose = panels[0][stage]
+    carrier = pose.apply(mesh.vertices)
+    # A little of the surface on every side says what things stand on.
+    room = max(LEAST_VIEW, 0.6 * float((high - low)[:2].max()))
+    corners = [(low + high)[:2] / 2 + room * np.array([x, y]) for x in (-1, 1) for y in (-1, 1)]
+    around = np.clip(corners, carrier[:, :2].min(axis=0), carrier[:, :2].max(axis=0))
+    return np.concatenate([points, np.column_stack([around, np.full(4, low[2])])])
 
 
 def share_seen(items: Sequence[Item], camera: Camera) -> NDArray[np.float64]:

@@ -101,3 +101,34 @@ def test_what_is_set_aside_holds_nothing_up_and_a_note_says_so():
     plan = PLANNER.plan("A broom leaning against the wall.")
     assert plan.set_aside == ("the wall",)
     assert plan.notes == ('not arranged: "leaning against" "the wall", which is set aside',)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "named"),
+    [
+        ("Between the monitor and the edge of the desk lies a pen.", "edge"),
+        ("The knife is in the block.", "inside"),
+        ("The keyboard goes in front of the screen and the mouse goes to its right.", "keyboard"),
+        ("Open the box and take out the doll.", "take out"),
+        ("A bottle with its cap next to it.", "cap"),
+    ],
+)
+def test_what_a_scene_does_not_hold_of_a_place_is_named(sentence, named):
+    assert any(named in note for note in PLANNER.plan(sentence).notes)
+
+
+def test_every_second_one_is_refused():
+    with pytest.raises(PromptError, match="every second"):
+        PLANNER.plan("A row of four jars in which every second jar holds a candle.")
+
+
+@pytest.mark.parametrize(("part", "kind"), [("head", "upside_down"), ("side", "on_its_side")])
+def test_one_of_them_is_turned_and_the_others_are_not(part, kind):
+    plan = PLANNER.plan(f"Two cups on a tray, one of them on its {part}.")
+    assert [(one.object, one.kind) for one in plan.turned()] == [("cup 1", kind)]
+
+
+def test_what_is_on_a_head_stays_on_it():
+    plan = PLANNER.plan("A plush elephant with three hats stacked on its head.")
+    assert "hat 1 on plush elephant" in map(str, plan.relations)
+    assert not plan.turned()

@@ -54,3 +54,14 @@ def test_what_no_camera_shows_leaves_the_usual_one():
     cover = (block((0.3, 0.3, 0.3)), at(0.0, 0.0, 0.15))
     camera = overlooking([[BALL, cover]], aspect=4 / 3)
     assert elevation(camera) == pytest.approx(ELEVATION)
+
+
+def test_on_a_stage_the_things_fill_the_picture_and_not_the_stage():
+    items = [(block((2.0, 2.0, 0.02)), at(0.0, 0.0, -0.01)), BALL]
+    whole, near = (overlooking([items], aspect=4 / 3, stage=stage) for stage in (None, 0))
+    mesh, pose = BALL
+    width = [np.ptp(one.project(pose.apply(mesh.vertices), 800, 600)[:, 0]) for one in (whole, near)]
+    assert width[1] > 2.0 * width[0]
+    picture = near.project(pose.apply(mesh.vertices), 800, 600)
+    assert (picture >= 0).all()
+    assert (picture <= [800, 600]).all()

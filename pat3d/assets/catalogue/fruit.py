@@ -43,9 +43,7 @@ def _star(z: float, r: float, count: int = 5) -> Shape:
     return unseen(ring_of(blade, 0.0, count, 20).moved(z=z))
 
 
-@entry(
-    "apple", family="food", synonyms=("red apple", "green apple"), material="fruit", colours=("red", "crimson", "lime")
-)
+@entry("apple", family="food", synonyms=("red apple", "green apple"), material="fruit", colours=("red", "crimson"))
 def apple(style: Style) -> Build:
     """An apple with a dimple, a stalk and a leaf."""
     r = style.vary(0.038)

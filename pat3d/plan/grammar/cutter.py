@@ -136,8 +136,9 @@ class Cutter(Asides):
             return self._aside(after + 1 - self._at)
         if phrase.kind == "object":
             phrase = self._sense(phrase)
-        if phrase.possessive and word in ("its", "their") and self._nouns.of_class(phrase.noun, lexicon.FLOOR):
-            # "a truck with a block in its bed"
+        wide = self._nouns.of_class(phrase.noun, lexicon.FLOOR) or phrase.head in lexicon.DETACHED
+        if phrase.possessive and word in ("its", "their") and wide and phrase.head not in ("lid", "lids"):
+            # "a truck with a block in its bed", "a bottle with its cap"
             phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
@@ -228,7 +229,11 @@ class Cutter(Asides):
             if piece.kind == "clause":
                 break
             nearest = index == len(chunks) - 1
-            told = nearest and piece.phrase is not None and piece.phrase.kind == "pieces"
+            told = (
+                nearest
+                and piece.phrase is not None
+                and (piece.phrase.kind == "pieces" or piece.phrase.head == "another")
+            )
             if piece.phrase is not None and (piece.phrase.kind in ("object", "unknown") or told):
                 whole = replace(piece.phrase, modifiers=piece.phrase.modifiers.marked_as(said))
                 chunks[index] = replace(piece, phrase=whole)

@@ -13,13 +13,19 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
-from pat3d.plan.grammar.modifiers import Modifiers
+from pat3d.plan.grammar.modifiers import Modifiers, read_modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.plausible import LARGE
+from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.world import Item, Step, World
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
+
+_ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
+"""What an object may lie on that is a part of itself, and how it is turned then."""
+_ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
+"""Parts to which nothing is related: the whole is taken."""
 
 
 class Interpreter(Placing):
@@ -117,7 +123,7 @@ class Interpreter(Placing):
         link = self._chunks[at].link
         told = link is not None and link.manner not in ("include", "gaze", "goal")
         said = " ".join(f'"{self._chunks[head].text}"' for head in two)
-        if told and kinds <= {"object", "unknown", "pieces", "pronoun"}:
+        if told and kinds <= {"object", "unknown", "pieces", "pronoun", "part"}:
             self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
         elif link is not None and link.says:
             self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
@@ -148,7 +154,13 @@ class Interpreter(Placing):
         carried = any(world.support(item) is not None for item in items)
         if not carried or not any(world.is_table(item) for item in items):
             return 0.0
-        related = {each for edge in world.laterals for each in (edge.child, edge.parent)}
+        beside = [{edge.child, edge.parent} for edge in world.laterals]
+        # What is beside something small that is nowhere either, is nowhere.
+        placed = {item for item in items if world.support(item) is not None or world.on_floor(item)
+                  or world.is_a(item, lexicon.BY_A_SEAT, LARGE)}  # fmt: skip
+        for _ in beside:
+            placed |= {item for pair in beside if pair & placed for item in pair}
+        related = {item for pair in beside for item in pair if item in placed}
         related |= {item for each in world.arranged if each.kind == "under" for item in (*each.items, *each.of)}
         told = {item for each in world.sided for item in each.items}
         loose = [
@@ -212,6 +224,10 @@ class Interpreter(Placing):
 
     def _done(self, heads: Sequence[int]) -> None:
         children = self._said.refs_of(heads)
+        out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
+        if out and children and all(self._world.support(item) is None for item in children):
+            named = f'"{children[0].group.words}"'
+            self._world.note(f'not modelled: "{self._clause.said}": what {named} is taken out of is not said with it.')
         self._said.not_understood(heads)
         phrases = [self._chunks[head].phrase for head in heads]
         made_up = all(phrase is not None and phrase.determined and not phrase.definite for phrase in phrases)
@@ -281,7 +297,24 @@ class Interpreter(Placing):
             parents = multiply(self._world, parents, len(children) // len(parents))
         elif several and len(children) < len(parents) and not set(children) & set(parents):
             children = multiply(self._world, children, len(parents))
+        if link.kind == "on" and phrase is not None and self._lies_on(phrase, children, parents):
+            return
+        if link.kind in LATERAL_KINDS or link.manner == "between":
+            for place in places:
+                if place is not None and place.part in _ENDS:
+                    self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+
+    def _lies_on(self, phrase: Phrase, children: list[Item], parents: list[Item]) -> bool:
+        """Read "two cups, one of them on its head": of what has no head it says how it is turned."""
+        own = phrase.kind == "part" and phrase.possessive and phrase.said in _ON_ITS
+        likely, noun = self._world.likely, self._world.noun(parents[0])
+        headless = likely.level(noun) or likely.hollow(noun) or self._world.is_a(parents[0], lexicon.NARROW)
+        if not own or not (headless or set(children) <= set(parents)):
+            return False
+        for item in children:
+            item.told = item.told.marked_as(read_modifiers([token_text(_ON_ITS[phrase.said])]))
+        return True
 
     def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
         """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""
@@ -338,7 +371,10 @@ class Interpreter(Placing):
             return
         if link.manner == "flank":
             sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]
-            self._relating.flanked(children, owners, sides)
+            if "both" in sides:
+                self._relating.both_sides(children, owners)
+            else:
+                self._relating.flanked(children, owners, sides)
             return
         every = self._said.speaks_of_each(owner_heads) and not any(item.group.multiplied for item in children)
         every = every and not any(phrase is not None and phrase.definite for _, phrase in ordered)

@@ -222,6 +222,9 @@ ROUND = ("ball", "apple", "orange", "lemon", "lime", "peach", "plum", "cherry", 
     "crystal ball", "tennis ball", "basketball", "football", "soccer ball", "marble", "potato", "onion", "pear",
     "avocado", "grapefruit", "melon", "coconut", "pumpkin", "baseball", "globe", "sphere")  # fmt: skip
 """What rolls: a pile of it is no stack."""
+SOLID = (*ROUND, "block", "cube", "cylinder", "cone", "brick", "cheese", "book", "notebook", "laptop", "stone",
+    "candle", "cake", "bread", "soap", "sponge", "phone")  # fmt: skip
+"""What nothing is in, whatever is said."""
 NARROW = ("vase", "cup", "mug", "pen holder", "glass", "jar", "bottle", "toothbrush holder", "utensil holder",
           "beaker", "flask", "graduated cylinder")  # fmt: skip
 SLENDER = ("pen", "pencil", "ruler", "scissors", "toothbrush", "toothpaste", "razor", "spoon", "fork", "knife",

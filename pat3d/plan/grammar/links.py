@@ -13,7 +13,7 @@ Manner = Literal[
     "far", "source", "goal", "than",
 ]  # fmt: skip
 
-Side = Literal["left", "right", "centre"]
+Side = Literal["left", "right", "centre", "back", "front"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,12 +90,19 @@ def _table() -> dict[tuple[str, ...], Link]:
             ),
         )
         add(half, f"to the {side} side of", f"on {side} of")
+    depths: tuple[tuple[Side, RelationKind, tuple[str, ...]], ...] = (
+        ("back", "behind", ("back", "rear", "far side", "back side")),
+        ("front", "in_front_of", ("front", "near side", "front side")),
+    )
+    for side, kind, names in depths:
+        where = [f"{word} the {name} of" for word in ("at", "near", "towards", "toward", "on") for name in names]
+        add(Link(manner="half", side=side, kind=kind), *where)
     centre = Link(manner="half", side="centre", kind="on", says="in_middle")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
-    add(Link(kind="in_front_of"), "in front of", "in front", "at the front of", "before", "to the front of",
+    add(Link(kind="in_front_of"), "in front of", "in front", "before", "to the front of",
     "in the front of",
         "ahead of")  # fmt: skip
-    add(Link(kind="behind"), "behind", "in back of", "at the back of", "in the back of")
+    add(Link(kind="behind"), "behind", "in back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
     add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))

@@ -22,6 +22,8 @@ _NEGATIONS = frozenset({
     "wasn't", "weren't", "hasn't", "haven't",
 })  # fmt: skip
 _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
+_ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
+"""Ordinals after "every"."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
 _SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
@@ -81,6 +83,11 @@ def _refuse_negations(tokens: Sequence[Token]) -> None:
             raise PromptError(
                 f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
                 "are, and leave the rest out."
+            )
+        if token.text in ("every", "each") and follower in _ALTERNATE:
+            raise PromptError(
+                f'"{token.text} {follower}" (word {token.number}): say which of them by their places: "the first '
+                'and the third of four jars".'
             )
         side = follower in ("side", "end")
         if token.text in _CHOICES and not side:

@@ -86,6 +86,9 @@ class PhraseReader:
         tokens = self._tokens
         another = flags.pop("another", False)
         flags["other"] = flags.get("other", False) or another
+        if not self._definite and count is None and [token.text for token in run[1:]] == ["one"]:
+            another = another or run[0].text in ("third", "fourth", "fifth")
+            run = run[1:] if another else run
         if another and (not run or [token.text for token in run] in (["one"], ["ones"])):
             words = self._text[tokens[start].start : tokens[after - 1].end]
             number = tokens[after - 1].number

@@ -52,6 +52,9 @@ class Placing:
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
+            elif not parents and chunk.link.kind == "in" and (inner := self._just_named(at, children)):
+                # "a microwave on a counter with a bowl inside"
+                self._relating.relate(inner, chunk.link, children)
             elif not parents:
                 world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
             else:
@@ -76,11 +79,23 @@ class Placing:
             self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
         )
         if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
+            sides = [edge.child for edge in self._world.laterals if edge.parent in landmark]
+            before = [item for item in sides if item not in (*landmark, *children)]
+            if before and {"its", "their"} & set(chunk.words):
+                world.note(
+                    f'"{" ".join(chunk.words)}" is said of "{landmark[0].group.words}"; it may be said of '
+                    f'"{before[0].group.words}" too.'
+                )
             half = surface or side == "centre"
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
             self._relating.relate(children, link, landmark)
             return
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
+        """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""
+        items = self._said.ref(at - 1) if at and self._chunks[at - 1].kind == "noun" else []
+        return items if items and not set(items) & set(besides) else []
 
     def _alike(self, children: list[Item]) -> None:
         """Put `children` where the thing named before them is."""
@@ -142,6 +157,9 @@ class Placing:
             world.arrange("circle", items, self._ringed(items), f'"{groups[0].words}" in a circle')
         elif chunk.text == "facing":
             world.arrange("facing", items, (), f'"{groups[0].words}" facing each other')
+        elif chunk.text == "beside":
+            for left, right in zip(items, items[1:], strict=False):
+                world.beside([right], "next_to", [left])
         elif whole is not None:
             whole.rows = 1
             world.arrange("side_by_side" if chunk.text == "side_by_side" else "row", items)
@@ -153,10 +171,7 @@ class Placing:
             ordered = items[::-1] if chunk.text == "reverse" else items
             world.arrange("row", ordered)
             for left, right in zip(ordered, ordered[1:], strict=False):
-                if chunk.text == "beside":
-                    world.beside([right], "next_to", [left])
-                else:
-                    world.beside([left], "left_of", [right])
+                world.beside([left], "left_of", [right])
 
     def _ringed(self, items: Sequence[Item]) -> list[Item]:
         """What all of `items` are around, if there is one such thing."""

@@ -213,10 +213,17 @@ class References(Pronouns):
         """One more of what was named first in the sentence, else last."""
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
         groups = [named[0][0].group] if named else self._world.groups[-1:]
+        counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and not group.replaced]
+        said = set(phrase.words.lower().split())
+        if counted and said & {"more", *lexicon.POSITIONS}:
+            # "Five balls in a box and one more on it": one more ball; "two cups, a third one": a third cup.
+            place = next((lexicon.POSITIONS[word] for word in said & lexicon.POSITIONS.keys()), 0)
+            groups = [group for group in counted if len(group.items) == place] or counted
         if not groups or groups[0].proxy:
             return []
+        like = replace(groups[0].phrase.modifiers, postures=())
         more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
-                       definite=False)  # fmt: skip
+                       definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:

@@ -12,6 +12,11 @@ from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS, LateralKind
 
+_HALVES: dict[str, LateralKind] = {
+    "left": "left_of", "right": "right_of", "back": "behind", "front": "in_front_of",
+}  # fmt: skip
+"""What stands in for a half of what has no surface."""
+
 
 class Relating:
     """Relates objects of one world."""
@@ -130,7 +135,7 @@ class Relating:
         if kind == "in" and not world.is_a(parent, lexicon.HOLLOW):
             if world.is_a(parent, tuple(lexicon.OPENED)):
                 pass
-            elif world.is_a(parent, lexicon.CLOSED):
+            elif world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
             elif world.on_floor(parent):
@@ -220,4 +225,4 @@ class Relating:
             world.place(children, kind, parents)
             world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
         else:
-            world.beside(children, "left_of" if side == "left" else "right_of", parents)
+            world.beside(children, _HALVES[side], parents)
