@@ -18,6 +18,7 @@ COMMANDS = {
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),
+    "library": ("library", "folders of other people's objects, indexed, to make scenes from"),
     "suite": ("suites", "scenes with tasks by the thousand, in splits, for training and testing policies"),
     "doctor": ("doctor", "what works on this computer, and what would enable more; every part does a real step"),
     "evaluate": ("evaluation", "let a policy do episodes, and report its success rate and failures"),

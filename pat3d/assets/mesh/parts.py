@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -121,6 +122,14 @@ def make_parts(
             break
     store_points(path, [part.vertices for part in parts], record)
     return Parts(parts=parts, record=record)
+
+
+def covering_parts(fixed: Repaired, hulls: Sequence[NDArray[np.float64]]) -> Parts:
+    """Parts that others made, points [m] of each of shape (n, 3), grown until they contain the mesh."""
+    start = time.monotonic()
+    points, triangles = surface_patches(fixed.vertices, fixed.faces)
+    parts, before, after = cover(list(hulls), points, triangles)
+    return Parts(parts=parts, record={"stuck_out": before, **_record(parts, list(hulls), after, start)})
 
 
 def _decomposed(
