@@ -115,6 +115,7 @@ def add_library(
         raise AssetError(
             f'library "{name}" is of {head["source"]}; choose another name, or pat3d library remove {name} first.'
         )
+    licence = licence or str(head.get("licence", ""))
     progress(Event(stage="looking for objects", detail=str(root)))
     found = discover(root, name)
     if not found:

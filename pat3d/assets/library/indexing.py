@@ -79,7 +79,7 @@ def index_object(
     """
     begun, spent = time.perf_counter(), sum(os.times()[:4])
     metadata = names.read_metadata(found.path)
-    known = _known_names()
+    known = names.known_names()
     name, synonyms, like = names.synonyms_of(found.words, metadata, known)
     if "names" in settings:
         said = tuple(each.lower() for each in settings["names"])
@@ -167,7 +167,7 @@ def _made(
     cache_dir: Path,
     budget: CpuBudget,
 ) -> tuple[Asset, dict[str, Any], list[str]]:
-    typical, doubts = _typical(like), list[str]()
+    typical, doubts = typical_of(like), list[str]()
     unit, metres = _unit(body, typical, settings)
     up = Guess(value=settings["up"], reason="library.yaml says so", confidence=1.0, source="given") if (
         "up" in settings
@@ -335,12 +335,7 @@ def _weighed(asset: Asset, body: Body, placing: Placing, settings: Mapping[str, 
 
 
 @cache
-def _known_names() -> frozenset[str]:
-    return frozenset(lookup.names())
-
-
-@cache
-def _typical(noun: str) -> Typical | None:
+def typical_of(noun: str) -> Typical | None:
     """How large a catalogue noun is; None for none."""
     if not noun:
         return None

@@ -6,8 +6,11 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
+
+from pat3d.assets.catalogue import lookup
 
 GENERIC = frozenset({
     "model", "models", "mesh", "meshes", "object", "objects", "obj", "asset", "assets", "visual", "visuals", "textured",
@@ -157,6 +160,12 @@ def synonyms_of(words: Sequence[str], metadata: Metadata, known: frozenset[str])
         names += [" ".join(each[at:]) for at in range(max(0, len(each) - MAX_WORDS), len(each))]
     unique = tuple(dict.fromkeys(name for name in names if name))
     return unique[0], unique[1:], like
+
+
+@cache
+def known_names() -> frozenset[str]:
+    """Nouns and synonyms of the catalogue."""
+    return frozenset(lookup.names())
 
 
 def _within(words: Sequence[str], known: frozenset[str]) -> str:
