@@ -31,9 +31,11 @@ from pat3d.assets.library.readers.inertials import fault
 from pat3d.assets.library.resting import TOGETHER, Rest, resting_poses
 from pat3d.assets.library.store import Entry
 from pat3d.assets.materials import material
+from pat3d.assets.mesh.cover import outside
 from pat3d.assets.mesh.importing import METRES, TO_Z_UP, Placing, asset_of
 from pat3d.assets.rounded import circumscribed
 from pat3d.errors import AssetError
+from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import MassProperties
 from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset
@@ -49,6 +51,12 @@ LEVEL, LEANING = 0.1, 30.0
 
 PATIENCE = 20.0
 """The clock ends what has hung, after so many times the limit of processor time."""
+
+MISSED = 0.05
+"""Share of the longest side by which a picture may reach beyond its collision shapes for them to be meant for it."""
+
+STICKS_OUT = 1e-4
+"""By how much [m] a picture may stick out of the convex parts."""
 
 SWOLLEN = 0.1
 """Share of the longest side by which convex parts may make an object longer."""
@@ -207,14 +215,24 @@ def _made(
         timeout=max(120.0, PATIENCE * (budget.left or 0.0)),
         budget=budget,
     )
-    asset = make(parts=given if given is not None else settings.get("parts", "coacd"))
     extents = placing.factors * (high - low)
+    if given is not None and (gap := _missed(given, placing.apply(body.mesh.vertices[np.unique(body.mesh.faces)]))) > (
+        MISSED * extents.max()
+    ):
+        doubts.append(
+            f"collision: the picture reaches {1e3 * gap:.0f} mm beyond the collision shapes, so the convex parts were "
+            "made from the picture"
+        )
+        given = None
+    asset = make(parts=given if given is not None else settings.get("parts", "coacd"))
     for instead, told in (("hull", "one convex hull"), ([_wrapped(placing.apply(body.mesh.vertices))], "a plain wrap")):
-        if (asset.size <= extents + SWOLLEN * extents.max()).all():
+        fits = (asset.size <= extents + SWOLLEN * extents.max()).all()
+        if fits and (asset.provenance["parts"].get("sticks_out") or 0.0) <= STICKS_OUT:
             break
         asset = make(parts=instead)
         doubts = [one for one in doubts if not one.startswith("collision:")]
-        doubts.append(f"collision: its convex parts came out larger than it is, so it is {told}")
+        why = "left some of it out" if fits else "came out larger than it is"
+        doubts.append(f"collision: its convex parts {why}, so it is {told}")
     asset, wrong = _weighed(asset, body, placing, settings)
     doubts += [f"inertia: {wrong}; that of a uniform body was taken"] if wrong else []
     properties = asset.mass_properties
@@ -226,7 +244,7 @@ def _made(
     if not DENSITIES[0] <= asset.material.density <= DENSITIES[1]:
         doubts.append(f"mass: {properties.mass:.3g} kg in its volume is a density of {asset.material.density:.3g}")
     record = asset.provenance
-    if given is not None and record["parts"].get("stuck_out", 0.0) > 2e-3:
+    if record["parts"]["method"] == "given" and record["parts"].get("stuck_out", 0.0) > 2e-3:
         doubts.append(
             f"collision: the picture reached {1e3 * record['parts']['stuck_out']:.1f} mm beyond the collision shapes, "
             "which were grown to hold it"
@@ -257,6 +275,11 @@ def _made(
         "notes": [*record["notes"], *body.notes, *record["repairs"]],
     }  # fmt: skip
     return asset, facts, doubts
+
+
+def _missed(hulls: list[Points], points: Points) -> float:
+    """How far `points` stick out of the union of the convex `hulls` [m]."""
+    return float(outside(points, [convex_part(hull) for hull in hulls])[0].max())
 
 
 def _wrapped(points: Points) -> Points:

@@ -20,7 +20,7 @@ from pat3d.scene.cache import data_root
 from pat3d.scene.folder import read_json, write_json
 from pat3d.scene.replacement import replaced_file
 
-VERSION = 1
+VERSION = 2
 """Of what is kept; another one is made again."""
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,39}")

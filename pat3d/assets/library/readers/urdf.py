@@ -30,16 +30,21 @@ def read_urdf(path: Path, root: Path) -> Body:
     touched: list[Piece] = []
     inertials: list[Inertial] = []
     frictions: list[float] = []
-    same = True
+    same, lost = True, False
     for link in robot.findall("link"):
         frame = frames[link.get("name", "")]
         shapes = {}
         for kind, into in (("visual", seen), ("collision", touched)):
             for one in link.findall(kind):
                 rgb = _colour(one.find("material"), colours)
-                piece = _piece(one, frame, rgb, path, root, notes)
-                into.append(piece)
                 shapes.setdefault(kind, []).append(_named(one))
+                try:
+                    into.append(_piece(one, frame, rgb, path, root, notes))
+                except AssetError as error:
+                    if kind == "visual":
+                        raise
+                    notes.append(f"a collision shape was left out, so the picture's mesh is cut instead: {error}")
+                    lost = True
         same = same and (shapes.get("visual") == shapes.get("collision"))
         if (found := _inertial(link.find("inertial"), frame)) is not None:
             inertials.append(found)
@@ -50,7 +55,7 @@ def read_urdf(path: Path, root: Path) -> Body:
         frictions.append(float(numbers(element.text, 1)[0]))
     hulls: tuple[Points, ...] = ()
     meshes = any(name for one in robot.iter("collision") if (name := _named(one)).startswith("mesh"))
-    if touched and not (same and meshes):
+    if touched and not lost and not (same and meshes):
         hulls, note = hulls_of(touched)
         notes += [note] if note else []
     mesh = merged(seen or touched, notes)
