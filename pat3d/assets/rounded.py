@@ -50,7 +50,7 @@ def arc(radius: float, start: float, stop: float, count: int = 12) -> NDArray[np
 def wrapped(solid: manifold3d.Manifold, directions: ArrayLike) -> Shape:
     """A solid with one convex part: the half-spaces along `directions`, shape (n, 3), that touch it."""
     points = np.asarray(solid.to_mesh64().vert_properties)[:, :3]
-    return Shape(solid, (_circumscribed(points, np.asarray(directions, dtype=np.float64)),))
+    return Shape(solid, (circumscribed(points, np.asarray(directions, dtype=np.float64)),))
 
 
 def lump(points: ArrayLike) -> Shape:
@@ -172,7 +172,7 @@ def tube(
         side = np.cross(normal, along)
         turn = 2 * np.pi * np.arange(sides) / sides
         directions = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * normal
-        hulls.append(_circumscribed(rings[index].reshape(-1, 3), np.concatenate([directions, [along, -along]])))
+        hulls.append(circumscribed(rings[index].reshape(-1, 3), np.concatenate([directions, [along, -along]])))
     return Shape(_skin(rings, centres, closed), tuple(hulls))
 
 
@@ -232,7 +232,7 @@ def covered(pieces: Sequence[Shape], cover: Shape) -> tuple[Shape, ...]:
     return (Shape(first.solid, cover.hulls), *(unseen(piece) for piece in others))
 
 
-def _circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.float64]:
+def circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.float64]:
     """Corners of the polyhedron of half-spaces along `directions` that touch `points`."""
     directions = directions / np.linalg.norm(directions, axis=1)[:, None]
     centre = points.mean(axis=0)

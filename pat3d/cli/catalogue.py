@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import json
 from collections.abc import Iterator
 from contextlib import suppress
 from itertools import groupby
 from pathlib import Path
 
 from pat3d.assets import catalogue as nouns
+from pat3d.cli import nouns_of_yours
 from pat3d.cli.console import console, watch
 from pat3d.cli.options import command, option
 from pat3d.errors import PromptError, SpecError
@@ -21,18 +23,31 @@ from pat3d.scene.naming import slug
 
 
 @command(
-    option("name", "noun or synonym", metavar="NAME", nargs="?"),
+    option("name", "noun or synonym; or what to do with FILE: add, check, remove", metavar="NAME", nargs="?"),
+    option("file", "a noun of your own in the shape language, or the name of one to remove", metavar="FILE", nargs="?"),
     option("--sheet", "write pictures of everything", metavar="PNG"),
     option("--out", "picture of NAME", metavar="PNG", shown="./NAME.png"),
+    option("--schema", "print the JSON schema of nouns in YAML and stop", action="store_true"),
     option("--seed", "variation of what is drawn", type=int, default=0, shown=""),
     examples="""
     pat3d catalogue                        list everything by family
     pat3d catalogue mug                    one object, with a picture in mug.png
     pat3d catalogue --sheet catalogue.png  pictures of everything
+    pat3d catalogue check teapot.yaml      draw a noun of your own, and say what is wrong with it
+    pat3d catalogue add teapot.yaml        make it part of what sentences may name
+    pat3d catalogue remove teapot
+    pat3d catalogue --schema               what such a file may say, as a JSON schema
     """,
 )
 def catalogue(options: argparse.Namespace) -> int:
     """`pat3d catalogue`."""
+    if options.schema:
+        from pat3d.assets.nouns.language import SCHEMA
+
+        print(json.dumps(SCHEMA, indent=2))
+        return 0
+    if options.file is not None or options.name in nouns_of_yours.VERBS:
+        return nouns_of_yours.do(options.name, options.file, out=options.out)
     if options.name is not None:
         return one(options.name, seed=options.seed, out=options.out)
     if options.out is not None:

@@ -19,6 +19,7 @@ COMMANDS = {
     "verify": ("verify", "verify a scene file that is not ours: what overlaps, what is not balanced, what moves"),
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),
+    "library": ("library", "folders of other people's objects, indexed, to make scenes from"),
     "suite": ("suites", "scenes with tasks by the thousand, in splits, for training and testing policies"),
     "doctor": ("doctor", "what works on this computer, and what would enable more; every part does a real step"),
     "evaluate": ("evaluation", "let a policy do episodes, and report its success rate and failures"),

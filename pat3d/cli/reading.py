@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.options import command, option
 from pat3d.plan.describe import describe
+from pat3d.plan.grammar.names import known_names
 from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.grammar.vocabulary import Vocabulary
 from pat3d.plan.scene_plan import Planner, ScenePlan
 from pat3d.plan.telling import tell
 
@@ -19,6 +21,13 @@ if TYPE_CHECKING:
 
 PROXIES = option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true")
 
+LIBRARIES = option(
+    "--libraries",
+    "libraries to take objects from before the catalogue, in this order; see pat3d library",
+    nargs="+",
+    metavar="NAME",
+    default=(),
+)
 PLANNERS = ("grammar", "llm")
 PLANNER = option(
     "--planner",
@@ -43,8 +52,9 @@ def planner_of(options: argparse.Namespace) -> Planner:
     if options.planner == "llm":
         from pat3d.plan.llm.planner import LLMPlanner
 
-        return LLMPlanner(chat(), options.allow_proxies)
-    return (AskingPlanner if getattr(options, "ask", False) else GrammarPlanner)(options.allow_proxies)
+        return LLMPlanner(chat(), options.allow_proxies, options.libraries)
+    kind = AskingPlanner if getattr(options, "ask", False) else GrammarPlanner
+    return kind(options.allow_proxies, vocabulary=known_names(options.libraries))
 
 
 def critic_of(options: argparse.Namespace) -> Critic | None:
@@ -73,6 +83,7 @@ def chat() -> Chat:
     option("prompt", "what the scene shows, or what a robot is to do", metavar="PROMPT"),
     PROXIES,
     PLANNER,
+    LIBRARIES,
     examples="""
     pat3d plan "a laptop, a mouse and two glasses on a desk"
     pat3d plan "put the soup in the basket"                        the scene before, and the task
@@ -93,8 +104,8 @@ def plan(options: argparse.Namespace) -> int:
 class AskingPlanner:
     """Asks on the terminal where a sentence has two readings that are nearly as likely."""
 
-    def __init__(self, allow_proxies: bool = False) -> None:
-        self._planner = GrammarPlanner(allow_proxies)
+    def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
+        self._planner = GrammarPlanner(allow_proxies, vocabulary=vocabulary)
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt` as the user means it.

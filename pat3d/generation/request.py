@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from pat3d.progress import Event, Progress
 from pat3d.scene.arrangements import Arrangement, PostureKind
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
+from pat3d.scene.naming import APART
 from pat3d.scene.relations import built_together
 
 if TYPE_CHECKING:
@@ -79,12 +80,14 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
     objects = [_plain(obj) for obj in plan.objects]
     arranged = [[one.kind, one.objects, one.of] for one in plan.held()]
     postured = [[one.object, one.kind] for one in plan.turned()]
+    foreign = foreign_assets(obj.noun for obj in plan.objects)
     return SceneRequest(
         prompt=plan.prompt,
         names=tuple(obj.name for obj in plan.objects),
         relations=plan.relations,
         fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies]
-        + ([arranged, postured] if arranged or postured else []),
+        + ([arranged, postured] if arranged or postured else [])
+        + ([foreign] if foreign else []),
         arrangements=plan.held(),
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
         task=plan.task,
@@ -102,9 +105,19 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
     )
 
 
+def foreign_assets(nouns: Iterable[str]) -> Mapping[str, str]:
+    """What decides the assets of `nouns` that are not the catalogue's."""
+    found = [noun for noun in nouns if APART in noun]
+    if not found:
+        return {}
+    from pat3d.assets.sources import fingerprint
+
+    return fingerprint(found)
+
+
 def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
-    """An asset from the catalogue for every planned object; equal objects of a set share one."""
-    from pat3d.assets import catalogue
+    """An asset for every planned object; equal objects of a set share one."""
+    from pat3d.assets import catalogue, sources
     from pat3d.generation.sizing import enlarged_trays
 
     planned = {obj.name: obj for obj in plan.objects}
@@ -113,7 +126,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     def make(name: str, factor: float = 1.0) -> Asset:
         obj = planned[name]
         shape = partial(
-            catalogue.make,
+            sources.make,
             obj.noun,
             colours=obj.colours or colours.get(name, ()),
             material=obj.material,

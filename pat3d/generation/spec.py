@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import math
 import os
@@ -12,18 +11,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from pat3d.errors import AssetError, PromptError, SpecError
+from pat3d.errors import AssetError, Pat3dError, PromptError, SpecError
 from pat3d.generation.optimize_stage import GIVEN
-from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed
+from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed, foreign_assets
 from pat3d.generation.spec_schema import BUILD_SCHEMA
-from pat3d.generation.yaml_source import Source, read_yaml
 from pat3d.geometry.pose import Pose
 from pat3d.progress import CpuBudget, Event, Progress
 from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
+from pat3d.scene.naming import APART
 from pat3d.scene.physics import SETTLING_FRICTION
 from pat3d.scene.relations import built_together, check_sides
+from pat3d.scene.yaml_source import Source, nearest, read_yaml, validate
 
 LIGHTEST, HEAVIEST = 1e-5, 1e5
 """Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
@@ -71,6 +71,7 @@ class Spec:
                 document.get("relations", []),
                 hashes,
                 *([document["arrangements"]] if "arrangements" in document else []),
+                *([foreign] if (foreign := foreign_assets(obj.get("noun", "") for obj in self.objects)) else []),
             ],
             make_objects=partial(self.make_objects, budget=budget or CpuBudget()),
             record={"specification": document},
@@ -142,7 +143,7 @@ def load_spec(path: str | os.PathLike[str]) -> Spec:
         SpecError: it is invalid; the message names line, column and key, and what would be valid.
     """
     source = read_yaml(Path(path))
-    _validate(source)
+    validate(source, BUILD_SCHEMA)
     document = source.document
     _check_objects(source, document["objects"], Path(path).parent)
     names = [obj["name"] for obj in document["objects"]]
@@ -192,43 +193,13 @@ def _arrangements(source: Source, names: list[str], relations: tuple[Relation, .
 
 def _known(source: Source, place: tuple[str | int, ...], name: str, names: list[str]) -> None:
     if name not in names:
-        raise source.error(place, f'there is no object "{name}".{_nearest(name, names)}')
-
-
-def _validate(source: Source) -> None:
-    """Raise for the first place where the document does not follow the schema."""
-    import jsonschema
-
-    errors = sorted(
-        jsonschema.Draft202012Validator(BUILD_SCHEMA).iter_errors(source.document),
-        # A misspelt key is told before what it was meant to be is missed.
-        key=lambda error: (
-            source.lines.get(tuple(error.absolute_path), (0, 0)),
-            error.validator != "additionalProperties",
-        ),
-    )
-    if not errors:
-        return
-    error = errors[0]
-    place = tuple(error.absolute_path)
-    if error.validator == "additionalProperties":
-        known = list(error.schema["properties"])
-        key = next(key for key in error.instance if key not in known)
-        raise source.error((*place, key), f'unknown key "{key}".{_nearest(key, known)}')
-    if error.validator == "required":
-        missing = next(key for key in error.validator_value if key not in error.instance)
-        raise source.error(place, f'"{missing}" is missing.')
-    if error.validator == "enum":
-        valid = ", ".join(map(str, error.validator_value))
-        raise source.error(place, f'"{error.instance}" is not valid. Valid: {valid}.')
-    text = error.message if len(error.message) < 160 else f"{error.message[:160]} ..."
-    described = (error.schema.get("description") or "").rstrip(".")
-    raise source.error(place, f"{text}{f' ({described})' if described else ''}.")
+        raise source.error(place, f'there is no object "{name}".{nearest(name, names)}')
 
 
 def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) -> None:
     """What a schema cannot say."""
     from pat3d.assets import catalogue
+    from pat3d.assets.sources import source_of
 
     seen: dict[str, int] = {}
     for number, obj in enumerate(objects):
@@ -248,8 +219,13 @@ def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) 
             other = "meshes" if "noun" in obj else "catalogue nouns"
             raise source.error((*place, wrong), f'"{wrong}" is for {other} only.')
         if "noun" in obj:
-            if catalogue.find(obj["noun"]) is None:
-                near = _nearest(obj["noun"], catalogue.nearest(obj["noun"])) or " See pat3d catalogue."
+            if APART in obj["noun"]:
+                try:
+                    source_of(obj["noun"]).digest(obj["noun"])
+                except Pat3dError as error:
+                    raise source.error((*place, "noun"), str(error)) from error
+            elif catalogue.find(obj["noun"]) is None:
+                near = nearest(obj["noun"], catalogue.nearest(obj["noun"])) or " See pat3d catalogue."
                 raise source.error((*place, "noun"), f'"{obj["noun"]}" is not in the catalogue.{near}')
             if isinstance(obj.get("size"), list):
                 raise source.error((*place, "size"), "the size of a noun is one length, its longest side [m].")
@@ -271,11 +247,11 @@ def _pose(source: Source, number: int, entry: Mapping[str, Any]) -> Pose:
 
 
 def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
-    """A catalogue asset with the size, mass and friction that `obj` asks for."""
-    from pat3d.assets import catalogue
+    """An asset of a noun with the size, mass and friction that `obj` asks for."""
+    from pat3d.assets import sources
 
     def made(scale: float) -> Asset:
-        return catalogue.make(
+        return sources.make(
             obj["noun"],
             colours=obj.get("colours", [obj["colour"]] if "colour" in obj else []),
             material=obj.get("material"),
@@ -296,13 +272,6 @@ def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
     if "friction" in obj:
         material = replace(material, friction=float(obj["friction"]))
     return replace(asset, mass_properties=properties, material=material)
-
-
-def _nearest(word: str, known: list[str] | tuple[str, ...]) -> str:
-    near = difflib.get_close_matches(word, known, n=3, cutoff=0.4)
-    if near:
-        return f" Nearest: {', '.join(near)}."
-    return f" Valid: {', '.join(known)}." if 0 < len(known) <= 30 else ""
 
 
 def _hash(path: Path) -> str:

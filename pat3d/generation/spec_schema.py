@@ -36,7 +36,10 @@ _OBJECT = {
     "type": "object",
     "properties": {
         "name": {**_NAME, "description": "Unique in the scene."},
-        "noun": {**_NAME, "description": "What to take from the catalogue; see pat3d catalogue."},
+        "noun": {
+            **_NAME,
+            "description": "What to take from the catalogue (see pat3d catalogue) or a library: ycb/power_drill.",
+        },
         "mesh": {
             "type": "string",
             "minLength": 1,

@@ -27,6 +27,13 @@ def cache_root(cache_dir: str | os.PathLike[str] | None = None) -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "pat3d"
 
 
+def data_root() -> Path:
+    """What is kept for good: $PAT3D_DATA, else $XDG_DATA_HOME/pat3d, else ~/.local/share/pat3d."""
+    if os.environ.get("PAT3D_DATA"):
+        return Path(os.environ["PAT3D_DATA"])
+    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "pat3d"
+
+
 def content_key(arrays: Mapping[str, NDArray[Any]], options: Mapping[str, Any]) -> str:
     """SHA-256 of `arrays` (types and shapes included) and JSON-serialisable `options`, as hex digits."""
     import numpy as np

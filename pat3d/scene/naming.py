@@ -6,6 +6,9 @@ import re
 import unicodedata
 from collections.abc import Iterable
 
+APART = "/"
+"""Between the source of an asset and its noun: "ycb/power_drill"; the catalogue's nouns have none."""
+
 SLUG_PATTERN = r"^[a-z0-9][a-z0-9_]{0,63}$"
 """What a slug looks like: safe as a file name, an XML name and a USD prim name's tail."""
 

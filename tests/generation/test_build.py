@@ -12,7 +12,7 @@ import pat3d
 from pat3d.cli.main import main
 from pat3d.generation.optimize_stage import given_poses
 from pat3d.generation.spec_schema import BUILD_SCHEMA
-from pat3d.generation.yaml_source import read_yaml
+from pat3d.scene.yaml_source import read_yaml
 
 GOOD = """\
 seed: 3

@@ -60,12 +60,31 @@ def make(
     Raises:
         PromptError: `noun` is not in the catalogue.
     """
-    from pat3d.assets.catalogue.assemble import assemble
-
     found = find(noun)
     if found is None:
         near = ", ".join(f'"{name}"' for name in nearest(noun)) or "see `pat3d catalogue`"
         raise PromptError(f'"{noun}" is not in the catalogue. Nearest: {near}.')
+    return make_entry(found, noun, colours=colours, material=material, scale=scale, adjectives=adjectives, seed=seed)
+
+
+def make_entry(
+    found: Entry,
+    noun: str,
+    *,
+    colours: Iterable[str] = (),
+    material: str | None = None,
+    scale: float = 1.0,
+    adjectives: Iterable[str] = (),
+    seed: int = 0,
+) -> Asset:
+    """Make an asset of an entry that need not be registered, which was called `noun`; the rest as for `make`.
+
+    Raises:
+        AssetError: the recipe's solids do not join, or an argument is out of range.
+    """
+    from pat3d.assets.catalogue.assemble import assemble
+
+    colours = tuple(colours)
     if not (np.isfinite(scale) and 0.01 <= scale <= 100.0):
         raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
     rng = np.random.default_rng([seed, *noun.encode()])

@@ -6,7 +6,7 @@ import hashlib
 import math
 import os
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -15,14 +15,21 @@ from numpy.typing import NDArray
 
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.load import LoadedMesh, files_beside, load_mesh
-from pat3d.assets.mesh.parts import DECOMPOSITION_SECONDS, MAX_HULLS, Decomposing, PartsMethod, make_parts
+from pat3d.assets.mesh.parts import (
+    DECOMPOSITION_SECONDS,
+    MAX_HULLS,
+    Decomposing,
+    PartsMethod,
+    covering_parts,
+    make_parts,
+)
 from pat3d.assets.mesh.regions import find_regions
 from pat3d.assets.mesh.repair import repair
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import mass_properties
 from pat3d.progress import CpuBudget
-from pat3d.scene.asset import Asset, VisualMesh
+from pat3d.scene.asset import Asset, Material, VisualMesh
 
 Units = Literal["m", "cm", "mm", "in"]
 UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
@@ -46,6 +53,22 @@ MOST_IMPORTED = 16
 
 _imported: dict[tuple[str, ...], Asset] = {}
 """The last assets that this process imported, by the files and the arguments they came from."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Placing:
+    """From a file's coordinates to the asset frame: turned, moved and stretched, in this order."""
+
+    turn: NDArray[np.float64]
+    """Rotation, shape (3, 3)."""
+    origin: NDArray[np.float64]
+    """What becomes the origin, in the file's units after the turn, shape (3,)."""
+    factors: NDArray[np.float64]
+    """Along each axis [m per unit], shape (3,)."""
+
+    def apply(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """`points` of the file, shape (n, 3), in the asset frame [m]."""
+        return (points @ self.turn.T - self.origin) * self.factors
 
 
 def import_mesh(
@@ -111,56 +134,104 @@ def import_mesh(
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
-        placed, factors = _placed(loaded, axis, units, scale, size)
-        fixed = repair(placed, loaded.faces, thickness=thickness)
-        weighed = (density or found.density) if mass is None else None
-        properties = mass_properties(
-            fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass
+        placing = _placing(loaded, axis, units, scale, size)
+        made = asset_of(
+            loaded,
+            placing,
+            name=name or path.stem,
+            material=found if density is None else replace(found, density=density),
+            mass=mass,
+            friction=friction,
+            parts=how,
+            thickness=thickness,
+            cache_dir=cache_dir,
+            budget=budget,
         )
-        made = make_parts(fixed, how, cache_dir, budget)
     except AssetError as error:
         raise AssetError(f'"{path}": {error}') from error
+    while len(_imported) >= MOST_IMPORTED:
+        del _imported[next(iter(_imported))]
+    source = {
+        "source": "mesh",
+        "file": path.name,
+        "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+        "units": units,
+        "scale": [float(factor) for factor in placing.factors],
+        "up": axis,
+    }
+    _imported[key] = replace(made, provenance={**source, **made.provenance})
+    return replace(_imported[key])
+
+
+def asset_of(
+    loaded: LoadedMesh,
+    placing: Placing,
+    *,
+    name: str,
+    material: Material,
+    mass: float | None = None,
+    friction: float | None = None,
+    parts: Decomposing | Sequence[NDArray[np.float64]] | None = None,
+    thickness: float | None = None,
+    cache_dir: str | os.PathLike[str] | None = None,
+    budget: CpuBudget | None = None,
+) -> Asset:
+    """Repair, weigh and decompose triangles that have been read, and stand them on z = 0.
+
+    Args:
+        loaded: the triangles.
+        placing: turns, sizes and centres them.
+        name: noun of the asset.
+        material: with the density where `mass` is None.
+        mass: [kg].
+        friction: Coulomb coefficient [-]; the material's where None.
+        parts: how to make convex parts; as `Decomposing` says where None; or the points of each [m], of shape (n, 3),
+            in the frame that `placing` leads to, which then grow by what the mesh sticks out of them.
+        thickness: as for `import_mesh`.
+        cache_dir: as for `import_mesh`.
+        budget: of the processor; None for any.
+
+    Raises:
+        AssetError: the triangles bound no solid, or the decomposition fails.
+    """
+    fixed = repair(placing.apply(loaded.vertices), loaded.faces, thickness=thickness)
+    weighed = material.density if mass is None else None
+    properties = mass_properties(fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass)
+    if parts is None or isinstance(parts, Decomposing):
+        how = parts or Decomposing()
+        method, made = how.method, make_parts(fixed, how, cache_dir, budget or CpuBudget())
+    else:
+        method, made = "given", covering_parts(fixed, parts)
     # Parts may reach below the mesh by their inflation; what is simulated stands on z = 0.
     drop = min(part.bounds[0, 2] for part in made.parts)
     lift = np.array([0.0, 0.0, -drop if abs(drop) > 1e-12 else 0.0])
     convex = tuple(_moved(part, lift) for part in made.parts)
     centre = np.array(properties.centre_of_mass) + lift
-    uv = loaded.uv.reshape(-1, 2)[fixed.corners]
-    used_scale = [float(factor) for factor in factors]
-    while len(_imported) >= MOST_IMPORTED:
-        del _imported[next(iter(_imported))]
-    _imported[key] = Asset(
-        noun=name or path.stem,
+    return Asset(
+        noun=name,
         visual=VisualMesh(
             vertices=fixed.vertices + lift,
             faces=np.ascontiguousarray(fixed.faces, dtype=np.int32),
-            uv=np.ascontiguousarray(uv),
+            uv=np.ascontiguousarray(loaded.uv.reshape(-1, 2)[fixed.corners]),
             texture=loaded.texture,
         ),
         parts=convex,
         mass_properties=replace(properties, centre_of_mass=tuple(map(float, centre))),  # type: ignore[arg-type]
         material=replace(
-            found,
+            material,
             density=properties.mass / properties.volume,
-            friction=found.friction if friction is None else float(friction),
+            friction=material.friction if friction is None else float(friction),
         ),
         regions=find_regions(convex),
         provenance={
-            "source": "mesh",
-            "file": path.name,
-            "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-            "units": units,
-            "scale": used_scale,
-            "up": axis,
             "notes": list(loaded.notes),
             "watertight": fixed.watertight,
             "repairs": list(fixed.repairs),
             "volume_source": fixed.volume_source,
-            "parts": {"method": parts, **made.record},
+            "parts": {"method": method, **made.record},
             "lifted": float(lift[2]),
         },
     )
-    return replace(_imported[key])
 
 
 def _moved(part: ConvexPart, offset: NDArray[np.float64]) -> ConvexPart:
@@ -171,15 +242,16 @@ def _moved(part: ConvexPart, offset: NDArray[np.float64]) -> ConvexPart:
     return replace(part, vertices=vertices, box=box)
 
 
-def _placed(
+def _placing(
     loaded: LoadedMesh,
     axis: str,
     units: str | None,
     scale: float | None,
     size: float | Sequence[float | None] | None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Vertices in the asset frame [m], and the factor applied along each of its axes."""
-    vertices = loaded.vertices @ np.array(TO_Z_UP[axis], dtype=np.float64).T
+) -> Placing:
+    """How the file's coordinates become those of the asset frame."""
+    turn = np.array(TO_Z_UP[axis], dtype=np.float64)
+    vertices = loaded.vertices @ turn.T
     used = vertices[np.unique(loaded.faces)]
     low, high = used.min(axis=0), used.max(axis=0)
     extents = high - low
@@ -198,7 +270,7 @@ def _placed(
                 f"({', '.join(METRES)}), a scale, or a target size in metres."
             )
     origin = np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
-    return (vertices - origin) * factors, factors
+    return Placing(turn=turn, origin=origin, factors=factors)
 
 
 def _factors(size: float | Sequence[float | None], extents: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -38,6 +38,8 @@ class LoadedMesh:
     """RGB, row 0 at the top, shape (height, width, 3)."""
     notes: tuple[str, ...] = field(default=())
     """What was left out or changed while reading."""
+    files: tuple[Path, ...] = ()
+    """The file, and those beside it that it was read with."""
 
 
 def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[str] | None = None) -> LoadedMesh:
@@ -85,7 +87,9 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
             f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad}: {vertices[bad]}).'
         )
     uv, texture = pack([patch for _, _, patch in patches], notes)
-    return LoadedMesh(vertices=vertices, faces=faces, uv=uv, texture=texture, notes=tuple(notes))
+    return LoadedMesh(
+        vertices=vertices, faces=faces, uv=uv, texture=texture, notes=tuple(notes), files=(path, *resolver.opened)
+    )
 
 
 def _patches(
@@ -190,6 +194,7 @@ def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> A
 
         def __init__(self) -> None:
             self.refused: list[str] = []
+            self.opened: list[Path] = []
             self.file_name = path.name
 
         def get(self, name: str) -> bytes:
@@ -207,6 +212,7 @@ def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> A
             if reason:
                 self.refused.append(f'"{name}" {reason} and was not read')
                 raise ValueError(self.refused[-1])
+            self.opened.append(target)
             return target.read_bytes()
 
         def keys(self) -> list[str]:

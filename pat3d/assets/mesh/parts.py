@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -189,6 +190,15 @@ def _contained(
         parts=[made.parts[k] for k in kept] + [one.part for one in again],
     )
     return replace(last, before=made.before)
+
+
+def covering_parts(fixed: Repaired, hulls: Sequence[NDArray[np.float64]]) -> Parts:
+    """Parts that others made, points [m] of each of shape (n, 3), grown until they contain the mesh."""
+    start = time.monotonic()
+    points, triangles = surface_patches(fixed.vertices, fixed.faces)
+    made = cover(list(hulls), points, triangles)
+    limit = allowed(float(np.ptp(points, axis=0).max()))
+    return Parts(parts=made.parts, record={"stuck_out": made.before, **_record(made, limit, start)})
 
 
 def _decomposed(

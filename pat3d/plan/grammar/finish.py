@@ -72,7 +72,8 @@ def _open_boxes(world: World, nouns: Nouns) -> None:
     for edge in world.supports.values():
         for closed, opened in lexicon.OPENED.items():
             noun = nouns.resolve(opened)
-            if edge.kind == "in" and noun and edge.parent.group.noun == nouns.resolve(closed):
+            group = edge.parent.group
+            if edge.kind == "in" and noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
                 edge.parent.group.noun = noun
 
 
@@ -81,7 +82,7 @@ def _widen_bowls(world: World, nouns: Nouns) -> None:
     for narrow, wide in lexicon.WIDER.items():
         noun = nouns.resolve(wide)
         for group in world.groups:
-            if noun is None or group.noun != nouns.resolve(narrow):
+            if noun is None or group.noun != nouns.resolve(narrow) or not nouns.own(group.noun):
                 continue
             held = [e.child for e in world.supports.values() if e.kind == "in" and e.parent.group is group]
             fruit = any(world.is_a(item, lexicon.FRUIT) for item in held)

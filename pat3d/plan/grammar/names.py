@@ -7,10 +7,12 @@ import hashlib
 import json
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pat3d
+from pat3d.assets.nouns.where import has_own
 from pat3d.scene.cache import cache_root
 
 
@@ -25,9 +27,18 @@ class Word:
 class Names:
     """The nouns, synonyms and irregular plurals that the catalogue has, as its lookup finds them."""
 
-    def __init__(self, plurals: dict[str, list[str]], names: dict[str, str]) -> None:
+    def __init__(
+        self, plurals: Mapping[str, Sequence[str]], names: Mapping[str, str], kin: Mapping[str, str] | None = None
+    ) -> None:
         self._words = {noun: Word(noun=noun, plurals=tuple(plurals.get(noun, ()))) for noun in set(names.values())}
         self._names = names
+        self._plurals = plurals
+        self.kin = kin or {}
+        """The catalogue noun that another source's noun is a kind of."""
+
+    def joined(self, names: Mapping[str, str], kin: Mapping[str, str]) -> Names:
+        """These, with the nouns of other sources by their names, which come first, and what each is a kind of."""
+        return Names(self._plurals, {**self._names, **names}, {**self.kin, **kin})
 
     def find(self, name: str, /) -> Word | None:
         """What is called `name`, or None."""
@@ -51,6 +62,20 @@ def catalogue_names() -> Names:
         return Names(data["plurals"], data["names"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return _stored(path)
+
+
+def known_names(libraries: Sequence[str] = ()) -> Names:
+    """The names of `libraries`, of the user's own nouns and of the catalogue; of equal names the first of these.
+
+    Raises:
+        AssetError: there is no library of a name.
+    """
+    names = catalogue_names()
+    if not libraries and not has_own():
+        return names
+    from pat3d.assets.sources import names_of, sources
+
+    return names.joined(*names_of(sources(libraries)))
 
 
 def _stored(path: Path) -> Names:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.scene.naming import APART
 
 
 class Known(Protocol):
@@ -59,6 +60,8 @@ class Nouns:
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         self._classes: dict[Any, frozenset[str]] = {}
+        # What a library calls "ycb/mug" is judged as a mug is.
+        self._kin: Mapping[str, str] = getattr(vocabulary, "kin", {})
         self.joined = frozenset(
             tuple(name.split()) for name in vocabulary.names() if {"of", "and", "in", "on", "with"} & set(name.split())
         )
@@ -116,12 +119,16 @@ class Nouns:
         if table not in self._classes:
             found = (self._vocabulary.find(name) for name in table)
             self._classes[table] = frozenset(known.noun for known in found if known) | frozenset(table)
-        return noun in self._classes[table]
+        return noun in self._classes[table] or self._kin.get(noun) in self._classes[table]
 
     def resolve(self, name: str) -> str | None:
         """Catalogue noun that `name` means, or None."""
         known = self._vocabulary.find(name)
         return None if known is None else known.noun
+
+    def own(self, noun: str) -> bool:
+        """Whether `noun` is the catalogue's, and so may give way to another of its nouns."""
+        return APART not in noun
 
     def nearest(self, word: str) -> tuple[str, ...]:
         """Known names most like `word`."""

@@ -39,9 +39,9 @@ class Answer:
 class LLMPlanner:
     """Plans prompts of any language with the model that `chat` asks."""
 
-    def __init__(self, chat: Chat, allow_proxies: bool = False) -> None:
-        """Ask `chat`; with `allow_proxies` plain boxes stand in for what the catalogue lacks."""
-        self._chat = chat
+    def __init__(self, chat: Chat, allow_proxies: bool = False, libraries: Sequence[str] = ()) -> None:
+        """Ask `chat`; with `allow_proxies` plain boxes stand in for what catalogue and `libraries` lack."""
+        self._chat, self._libraries = chat, libraries
         self._proxies = allow_proxies
         self._cost: dict[str, int] = {}
 
@@ -117,9 +117,9 @@ class LLMPlanner:
         """The names that the catalogue, the colours and the materials have."""
         from pat3d.assets.colours import COLOURS
         from pat3d.assets.materials import material_names
-        from pat3d.plan.grammar.names import catalogue_names
+        from pat3d.plan.grammar.names import known_names
 
-        known = catalogue_names()
+        known = known_names(self._libraries)
         nouns = {found.noun for name in known.names() if (found := known.find(name)) is not None}
         return {
             "PlannedObject.noun": sorted(nouns),

@@ -6,9 +6,10 @@ in YAML 1.2. No anchors, no tags, no repeated keys, nothing deep or large.
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -93,6 +94,45 @@ def read_yaml(path: Path) -> Source:
         raise SpecError(f"{path}: the file is empty. Nothing was written.")
     lines: dict[Place, tuple[int, int]] = {}
     return Source(path=path, document=_value(path, node, (), lines), lines=lines)
+
+
+def validate(source: Source, schema: Mapping[str, Any]) -> None:
+    """Raise SpecError for the first place where the document of `source` does not follow the JSON `schema`."""
+    import jsonschema
+
+    errors = sorted(
+        jsonschema.Draft202012Validator(schema).iter_errors(source.document),
+        # A misspelt key is told before what it was meant to be is missed.
+        key=lambda error: (
+            source.lines.get(tuple(error.absolute_path), (0, 0)),
+            error.validator != "additionalProperties",
+        ),
+    )
+    if not errors:
+        return
+    error = errors[0]
+    place = tuple(error.absolute_path)
+    if error.validator == "additionalProperties":
+        known = list(error.schema["properties"])
+        key = next(key for key in error.instance if key not in known)
+        raise source.error((*place, key), f'unknown key "{key}".{nearest(key, known)}')
+    if error.validator == "required":
+        missing = next(key for key in error.validator_value if key not in error.instance)
+        raise source.error(place, f'"{missing}" is missing.')
+    if error.validator == "enum":
+        valid = ", ".join(map(str, error.validator_value))
+        raise source.error(place, f'"{error.instance}" is not valid. Valid: {valid}.')
+    text = error.message if len(error.message) < 160 else f"{error.message[:160]} ..."
+    described = (error.schema.get("description") or "").rstrip(".")
+    raise source.error(place, f"{text}{f' ({described})' if described else ''}.")
+
+
+def nearest(word: str, known: Sequence[str]) -> str:
+    """A hint at the known words most like `word`, or at all of them where they are few."""
+    near = difflib.get_close_matches(word, known, n=3, cutoff=0.4)
+    if near:
+        return f" Nearest: {', '.join(near)}."
+    return f" Valid: {', '.join(known)}." if 0 < len(known) <= 30 else ""
 
 
 def _refuse_tricks(path: Path, text: str) -> None:

@@ -1,7 +1,7 @@
 import pytest
 
 from pat3d.errors import SpecError
-from pat3d.generation.yaml_source import MAX_BYTES, read_yaml
+from pat3d.scene.yaml_source import MAX_BYTES, read_yaml
 
 
 @pytest.fixture

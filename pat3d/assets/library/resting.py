@@ -1,0 +1,99 @@
+"""Poses in which a body rests on the floor: faces of its convex hull with the centre of mass above them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pat3d.assets.library.body import Points
+from pat3d.errors import AssetError
+from pat3d.geometry.hulls import convex_part
+from pat3d.geometry.mass import mass_properties
+from pat3d.geometry.rotations import quat_of
+
+MOST_POINTS = 400
+"""Of the hull that is looked at: a scan's thousands of tiny faces tell nothing more."""
+
+
+TOGETHER = 10.0
+"""Poses whose up axes differ by less [degrees] are one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rest:
+    """One pose."""
+
+    rotation: list[list[float]]
+    """From the frame of the points to the pose, shape (3, 3)."""
+    quat_wxyz: tuple[float, float, float, float]
+    tilt: float
+    """Angle between the frame's up axis and that of the pose [degrees]."""
+    probability: float
+    """That a random throw ends so."""
+
+
+def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
+    """Stable poses of a body of uniform density that fills the hull of `points` [m], shape (n, 3), likeliest first.
+
+    Poses within TOGETHER of a likelier one count as that one: the base of a scan is many faces, nearly level. What is
+    left out is less likely than `least` and more than that far from the frame's own up axis.
+
+    Raises:
+        AssetError: the points are flat.
+    """
+    import trimesh
+
+    hull = convex_part(points)
+    if len(hull.vertices) > MOST_POINTS:
+        hull = convex_part(_thinned(hull.vertices))
+    body = trimesh.Trimesh(hull.vertices, hull.faces, process=False)
+    centre = np.array(mass_properties(hull.vertices, hull.faces, mass=1.0).centre_of_mass)
+    try:
+        # Faces that are nearly coplanar make it take the square root of nothing, which costs a face its chance.
+        with np.errstate(invalid="ignore"):
+            transforms, chances = trimesh.poses.compute_stable_poses(
+                body, center_mass=centre, n_samples=1, threshold=0.0
+            )
+    except (ValueError, IndexError, np.linalg.LinAlgError) as error:
+        raise AssetError(f"its resting poses cannot be found ({type(error).__name__}).") from error
+    chances = np.nan_to_num(np.asarray(chances, dtype=np.float64))
+    ups, shares = list[Points](), list[float]()
+    for index in np.argsort(-chances):
+        up = transforms[index][2, :3] / np.linalg.norm(transforms[index][2, :3])
+        near = [at for at, other in enumerate(ups) if up @ other > math.cos(math.radians(TOGETHER))]
+        if near:
+            shares[near[0]] += float(chances[index])
+        else:
+            ups.append(up)
+            shares.append(float(chances[index]))
+    found = []
+    for up, share in zip(ups, shares, strict=True):
+        # What trimesh says of the yaw is arbitrary: the smallest turn that brings the same side down is taken.
+        tilt = math.degrees(math.acos(float(np.clip(up[2], -1.0, 1.0))))
+        if share >= least or tilt < TOGETHER:
+            rotation = _to_z(up)
+            rest = Rest(rotation=rotation.tolist(), quat_wxyz=quat_of(rotation), tilt=tilt, probability=share)
+            found.append(rest)
+    return tuple(sorted(found, key=lambda rest: -rest.probability))
+
+
+def _to_z(direction: Points) -> Points:
+    """The smallest rotation that turns a unit vector to z."""
+    x, y, z = direction
+    if z < -1.0 + 1e-12:
+        return np.diag([1.0, -1.0, -1.0])
+    axis = np.array([y, -x, 0.0])
+    cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    return np.eye(3) + cross + cross @ cross / (1.0 + z)
+
+
+def _thinned(points: Points) -> Points:
+    """Those of `points` that are furthest along some of many directions."""
+    count = 4 * MOST_POINTS
+    k = np.arange(count) + 0.5
+    polar, turn = np.arccos(1 - 2 * k / count), np.pi * (1 + 5**0.5) * k
+    ways = np.stack([np.cos(turn) * np.sin(polar), np.sin(turn) * np.sin(polar), np.cos(polar)], axis=1)
+    axes = np.concatenate([np.eye(3), -np.eye(3)])
+    return points[np.unique((np.concatenate([ways, axes]) @ points.T).argmax(axis=1))]
