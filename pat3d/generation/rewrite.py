@@ -11,7 +11,7 @@ from typing import Any
 from pat3d.check.verification import Verification, verify
 from pat3d.errors import SpecError
 from pat3d.exporters.compare import ParityReport, parity
-from pat3d.exporters.formats import export, exported
+from pat3d.exporters.formats import VIEWS, export, exported
 from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import SettledScene
 from pat3d.progress import Clock, Event, Progress
@@ -86,7 +86,9 @@ def rewrite(
     with replacing(target) as fresh:
         with clock("export"):
             paths = export(scene, formats, fresh, progress=progress, **usd)
-            exports = {name: parity(scene, path).moved(fresh, target) for name, path in paths.items()}
+            exports = {
+                name: parity(scene, path).moved(fresh, target) for name, path in paths.items() if name not in VIEWS
+            }
         if verification is None:
             with clock("verification"):
                 verification = verify(scene, fresh / "mjcf" / "scene.xml", progress)
