@@ -15,11 +15,16 @@ from pat3d.scene.model import Scene
 FORMATS = ("mjcf", "usd", "urdf", "sdf")
 """Names of the formats, each also the name of its folder."""
 
+VIEWS = ("html", "glb")
+"""Formats to look at, likewise: they hold no physics, and no simulator reads them back."""
+
 _WRITERS = {
     "mjcf": ("pat3d.exporters.mjcf.writer", "write_mjcf"),
     "usd": ("pat3d.exporters.usd.writer", "write_usd"),
     "urdf": ("pat3d.exporters.urdf.writer", "write_urdf"),
     "sdf": ("pat3d.exporters.sdf.writer", "write_sdf"),
+    "html": ("pat3d.exporters.html.writer", "write_html"),
+    "glb": ("pat3d.exporters.glb.writer", "write_glb"),
 }
 
 
@@ -35,13 +40,13 @@ def export(
 
     Args:
         scene: what to write.
-        formats: names of FORMATS.
+        formats: names of FORMATS and VIEWS.
         out: folder, made if missing; `out/mjcf`, `out/usd`, ... in it are replaced, other files are kept.
         progress: told what is being written.
         usd: settings of `write_usd`: `text` for .usda, `package` for a .usdz.
 
     Returns:
-        The main file of every format: scene.xml, scene.usdc, manifest.json, scene.sdf.
+        The main file of every format: scene.xml, scene.usdc, manifest.json, scene.sdf, scene.html, scene.glb.
 
     Raises:
         SpecError: an unknown format.
@@ -67,7 +72,7 @@ def exported(folder: str | Path) -> tuple[tuple[str, ...], dict[str, Any]]:
         ExportError: the packages that one needs are not installed.
     """
     here = Path(folder)
-    formats = chosen([name for name in FORMATS if name == "mjcf" or (here / name).is_dir()])
+    formats = chosen([name for name in (*FORMATS, *VIEWS) if name == "mjcf" or (here / name).is_dir()])
     text, package = (here / "usd" / "scene.usda").is_file(), (here / "usd" / "scene.usdz").is_file()
     return formats, {"text": text, "package": package}
 
@@ -80,9 +85,9 @@ def chosen(formats: Iterable[str]) -> tuple[str, ...]:
         ExportError: the packages that one needs are not installed.
     """
     names = [name.strip().lower() for item in formats for name in item.split(",") if name.strip()]
-    unknown = [name for name in names if name not in FORMATS]
+    unknown = [name for name in names if name not in (*FORMATS, *VIEWS)]
     if unknown or not names:
-        raise SpecError(f'unknown format "{", ".join(unknown)}". Valid: {", ".join(FORMATS)}.')
+        raise SpecError(f'unknown format "{", ".join(unknown)}". Valid: {", ".join((*FORMATS, *VIEWS))}.')
     if "usd" in names and not has_usd():
         raise ExportError("usd needs usd-core, which is not installed: pip install 'pat3d[usd]'.")
     return tuple(dict.fromkeys(names))

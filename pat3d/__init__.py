@@ -15,16 +15,18 @@ from typing import TYPE_CHECKING, Any
 from pat3d.scene import versions
 
 if TYPE_CHECKING:
+    from pat3d.generation.editing.editable import load
     from pat3d.generation.pipeline import build, generate
     from pat3d.scene.io import load_scene, save_scene
 
 __version__ = versions.VERSION
 
-__all__ = ["__version__", "build", "generate", "load_scene", "save_scene"]
+__all__ = ["__version__", "build", "generate", "load", "load_scene", "save_scene"]
 
 _HOMES = {
     "build": "pat3d.generation.pipeline",
     "generate": "pat3d.generation.pipeline",
+    "load": "pat3d.generation.editing.editable",
     "load_scene": "pat3d.scene.io",
     "save_scene": "pat3d.scene.io",
 }

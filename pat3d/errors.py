@@ -36,6 +36,10 @@ class LayoutError(Pat3dError):
     """No arrangement without intersection was found, or an object does not fit where it belongs."""
 
 
+class EditError(Pat3dError):
+    """An edit of a scene that names what is not there, or that the scene would not stand."""
+
+
 class SimulationError(Pat3dError):
     """The simulator was given an invalid state or could not converge."""
 

@@ -13,6 +13,8 @@ COMMANDS = {
     "plan": ("reading", "say how a sentence is read, and make nothing"),
     "generate": ("making", "make a verified scene from a sentence, or one from every line of a file"),
     "build": ("making", "make a verified scene from a specification with your meshes, sizes and relations"),
+    "edit": ("editing", "add, remove, move, turn or replace objects of a scene, which settles again and is verified"),
+    "vary": ("editing", "make other scenes that the same relations describe"),
     "settle": ("mending", "bring a scene whose poses were edited back to rest, and verify it"),
     "optimize": ("mending", "find an initial layout from which a scene settles with its relations where its own fails"),
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),

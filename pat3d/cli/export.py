@@ -12,7 +12,7 @@ from pat3d.cli.console import console, verdict, watch
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
-from pat3d.exporters.formats import FORMATS, chosen, has_usd
+from pat3d.exporters.formats import FORMATS, VIEWS, chosen, has_usd
 from pat3d.exporters.formats import export as write_formats
 from pat3d.exporters.urdf.mesh_paths import MESH_PATHS, check_mesh_paths, set_mesh_paths
 from pat3d.progress import Event
@@ -61,10 +61,10 @@ _MESH_OPTIONS = (
     option("--out", "where to write; each format has its folder", metavar="FOLDER", required=True),
     option(
         "--formats",
-        f"{', '.join(FORMATS)}, with commas or spaces between",
+        f"{', '.join(FORMATS)} for simulators, {' and '.join(VIEWS)} to look at, with commas or spaces between",
         nargs="+",
         metavar="FORMAT",
-        shown="all",
+        shown="all for simulators",
     ),
     option("--usda", "USD as text, scene.usda", action="store_true"),
     option("--usdz", "USD also in one file, scene.usdz", action="store_true"),
@@ -79,6 +79,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
+    pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
     pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
     pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
@@ -127,9 +128,10 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
         if "urdf" in paths and mesh_paths != MESH_PATHS[0]:
             set_mesh_paths(paths["urdf"].parent, mesh_paths)
         record_checksums(out, formats)
-        reports = {name: parity(scene, path) for name, path in paths.items()}
+        reports = {name: parity(scene, path) for name, path in paths.items() if name not in VIEWS}
     target = console()
-    target.print(parity_table(reports))
+    if reports:
+        target.print(parity_table(reports))
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
@@ -163,7 +165,9 @@ def _meshes(
     if made:
         target.print(assets_table(made))
         worst = {
-            name: max(made, key=lambda one, key=name: one.parities[key].largest).parities[name] for name in formats
+            name: max(made, key=lambda one, key=name: one.parities[key].largest).parities[name]
+            for name in formats
+            if name not in VIEWS
         }
         target.print()
         target.print(parity_table(worst))

@@ -11,7 +11,7 @@ from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
 from pat3d.cli.reading import CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
 from pat3d.errors import SpecError
-from pat3d.exporters.formats import FORMATS
+from pat3d.exporters.formats import FORMATS, VIEWS
 from pat3d.generation.settings import DEVICES, Settings
 from pat3d.plan.telling import tell
 
@@ -24,7 +24,7 @@ _HELPS = {
     "least_tilt": LEAST_TILT,
     "cpu_limit": "processor time that a scene may take, decompositions included, before it is refused",
     "device": "where to simulate",
-    "formats": f"{', '.join(FORMATS)}, with commas or spaces between",
+    "formats": f"{', '.join((*FORMATS, *VIEWS))}, with commas or spaces between",
     "resume": "keep finished stages in FOLDER.partial, and go on from those of an earlier run",
 }
 _KEYWORDS = {

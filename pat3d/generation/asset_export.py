@@ -14,7 +14,7 @@ from pat3d.assets.mesh.load import FORMATS as MESH_FORMATS
 from pat3d.check.drop import DropReport, ground_drop
 from pat3d.errors import AssetError
 from pat3d.exporters.compare import ParityReport, parity
-from pat3d.exporters.formats import chosen, export
+from pat3d.exporters.formats import VIEWS, chosen, export
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.asset import Asset, VisualMesh
@@ -168,7 +168,7 @@ def export_asset(
         paths = export(scene, names, fresh, progress=progress, **(usd or {}))
         record_checksums(fresh)
         progress(Event(stage="reading back", detail=asset.noun))
-        parities = {name: parity(scene, file) for name, file in paths.items()}
+        parities = {name: parity(scene, file) for name, file in paths.items() if name not in VIEWS}
         progress(Event(stage="dropping", detail=asset.noun))
         drop = ground_drop(paths["mjcf"]) if "mjcf" in paths else None
         made = ExportedAsset(asset=asset, folder=folder, parities=parities, drop=drop)

@@ -107,7 +107,7 @@ def generate_many(
         row = _kept(prompt, root / name, settings, allow_proxies, planner)
         row = row or _made(prompt, root / name, settings, allow_proxies, planner, progress)
         rows.append(row)
-        _write_table(rows, root)
+        write_table(rows, root)
         yield row
 
 
@@ -132,7 +132,7 @@ def _kept(prompt: str, folder: Path, settings: Settings, allow_proxies: bool, pl
     )
     if not isinstance(inputs, dict) or inputs.get("request") != key or not isinstance(exports, dict):
         return None
-    return replace(_row(prompt, folder, report), kept=True) if set(settings.formats) <= exports.keys() else None
+    return row_of(prompt, folder, report, kept=True) if set(settings.formats) <= exports.keys() else None
 
 
 def _made(
@@ -157,15 +157,17 @@ def _made(
             message=f"{type(error).__name__}: {error}",
             exit_code=error.exit_code,
         )
-    return _row(prompt, folder, outcome.report.as_dict())
+    return row_of(prompt, folder, outcome.report.as_dict())
 
 
-def _row(prompt: str, folder: Path, report: dict[str, Any]) -> Row:
+def row_of(prompt: str, folder: Path, report: dict[str, Any], *, kept: bool = False) -> Row:
+    """The row of a finished scene, from its report."""
     failures = report.get("failures") or []
     drifts = [obj.get("drift_mm") or 0.0 for obj in report.get("objects", ())]
     return Row(
         prompt=prompt,
         folder=folder.name,
+        kept=kept,
         state="verified" if report.get("passed") else "faulty",
         objects=len(drifts),
         drift_mm=max(drifts, default=0.0),
@@ -175,7 +177,8 @@ def _row(prompt: str, folder: Path, report: dict[str, Any]) -> Row:
     )
 
 
-def _write_table(rows: Sequence[Row], root: Path) -> None:
+def write_table(rows: Sequence[Row], root: Path) -> None:
+    """Write TABLE into `root`."""
     root.mkdir(parents=True, exist_ok=True)
     temporary = root / f".{TABLE}.{os.getpid()}.part"
     with temporary.open("w", newline="", encoding="utf-8") as file:

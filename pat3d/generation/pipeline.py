@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pat3d.exporters.formats import export
+from pat3d.exporters.formats import VIEWS, export
 from pat3d.generation.attempts import Attempts
 from pat3d.generation.checkpoints import Workspace
 from pat3d.generation.report import Report
@@ -258,4 +258,4 @@ def _exports(
     more = [name for name in formats if name != "mjcf"]
     paths = {"mjcf": fresh / "mjcf", **(export(scene, more, fresh, progress=progress) if more else {})}
     progress(Event(stage="reading the formats back"))
-    return {name: parity(scene, path).moved(fresh, folder) for name, path in paths.items()}
+    return {name: parity(scene, path).moved(fresh, folder) for name, path in paths.items() if name not in VIEWS}

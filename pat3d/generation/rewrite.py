@@ -11,7 +11,7 @@ from typing import Any
 from pat3d.check.verification import Verification, verify
 from pat3d.errors import SpecError
 from pat3d.exporters.compare import ParityReport, parity
-from pat3d.exporters.formats import export, exported
+from pat3d.exporters.formats import VIEWS, export, exported
 from pat3d.generation.report import FORMAT, VERSION, of_scene
 from pat3d.generation.settle_stage import SettledScene
 from pat3d.progress import Clock, Event, Progress
@@ -20,8 +20,8 @@ from pat3d.scene.folder import OWN, read_json, replacing, write_json
 from pat3d.scene.io import load_scene, save_scene
 from pat3d.scene.model import Scene
 
-_STALE = ("inputs", "reused", "delivered_attempt")
-"""Of a report: what would let --resume of another command take the changed scene for its own."""
+_STALE = ("inputs", "reused", "delivered_attempt", "edits")
+"""Of a report: what would let --resume of another command take the changed scene for its own, and earlier edits."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,9 +54,27 @@ def read_folder(folder: Path, progress: Progress) -> Scene:
 
 
 def rewrite(
-    scene: Scene, settled: SettledScene, *, source: Path, target: Path, clock: Clock, progress: Progress
+    scene: Scene,
+    settled: SettledScene,
+    *,
+    source: Path,
+    target: Path,
+    clock: Clock,
+    progress: Progress,
+    verification: Verification | None = None,
+    more: Mapping[str, Any] | None = None,
 ) -> Rewritten:
     """Write the settled `scene`, which came from the folder `source`, into the folder `target`.
+
+    Args:
+        scene: at rest.
+        settled: how it came there.
+        source: whose formats are written, and whose report is continued.
+        target: folder to write.
+        clock: adds up the stages.
+        progress: told what is going on.
+        verification: of the scene, where it was verified already.
+        more: what else the report says.
 
     Raises:
         ExportError: it cannot be written.
@@ -68,9 +86,12 @@ def rewrite(
     with replacing(target) as fresh:
         with clock("export"):
             paths = export(scene, formats, fresh, progress=progress, **usd)
-            exports = {name: parity(scene, path).moved(fresh, target) for name, path in paths.items()}
-        with clock("verification"):
-            verification = verify(scene, fresh / "mjcf" / "scene.xml", progress)
+            exports = {
+                name: parity(scene, path).moved(fresh, target) for name, path in paths.items() if name not in VIEWS
+            }
+        if verification is None:
+            with clock("verification"):
+                verification = verify(scene, fresh / "mjcf" / "scene.xml", progress)
         with clock("files"):
             progress(Event(stage="writing the folder"))
             save_scene(scene, fresh)
@@ -80,7 +101,7 @@ def rewrite(
             progress(Event(stage="drawing the preview"))
             save_preview(scene, fresh / "preview.png")
         written = Rewritten(settled=settled, verification=verification, exports=exports)
-        write_json(fresh / "report.json", _report(scene, written, earlier, clock))
+        write_json(fresh / "report.json", {**_report(scene, written, earlier, clock), **(more or {})})
     return written
 
 

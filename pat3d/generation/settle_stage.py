@@ -50,17 +50,25 @@ class SettledScene:
         return replace(scene, objects=objects)
 
 
-def settle_scene(scene: Scene, *, device: str = "cpu", progress: Progress = silent) -> SettledScene:
+def settle_scene(
+    scene: Scene, *, device: str = "cpu", progress: Progress = silent, near_rest: bool = False
+) -> SettledScene:
     """Settle `scene` from its initial poses with its settling friction, on Warp's `device`.
+
+    Args:
+        scene: laid out.
+        device: Warp's name of it.
+        progress: told of every step.
+        near_rest: whether everything already touches as at rest, see `pat3d.sim.settling.settle`.
 
     Raises:
         SimulationError: objects intersect at the start, the state degenerates.
     """
-    return settle_scenes([scene], device=device, progress=progress)[0]
+    return settle_scenes([scene], device=device, progress=progress, near_rest=near_rest)[0]
 
 
 def settle_scenes(
-    scenes: Sequence[Scene], *, device: str = "cpu", progress: Progress = silent
+    scenes: Sequence[Scene], *, device: str = "cpu", progress: Progress = silent, near_rest: bool = False
 ) -> tuple[SettledScene, ...]:
     """Settle scenes side by side, a world each; frames, steps and iterations of the records are the whole batch's.
 
@@ -84,7 +92,7 @@ def settle_scenes(
         progress(Event(stage=phase, step=step, motion=motion))
 
     progress(Event(stage="settling", step=0))
-    found = settle(model, options, tell, throw=False)
+    found = settle(model, options, tell, throw=False, near_rest=near_rest)
     poses = poses_from_states(model, found.q)
     states = np.concatenate([found.trajectory, found.q[None].astype(np.float32)])
     settled = []

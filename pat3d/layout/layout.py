@@ -221,6 +221,8 @@ class _Arranger:
             return group
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         groups = [self._build(kid, 0.0) for kid in names if kid not in self.fixed]
+        if not groups:
+            return self._with(group, given)
         obstacles = [member for other in given for member in other.members]
         packed = pack(
             root,

@@ -24,6 +24,8 @@ OWN = (
     "usd",
     "urdf",
     "sdf",
+    "html",
+    "glb",
     "report.json",
     "summary.json",
     "preview.png",

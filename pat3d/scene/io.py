@@ -26,6 +26,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.scene.arrangements import Arrangement
 from pat3d.scene.asset import Asset, Material, Region, VisualMesh
 from pat3d.scene.checksums import record_checksums
+from pat3d.scene.history import Edit
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
@@ -34,7 +35,8 @@ from pat3d.scene.replacement import replace_entries
 from pat3d.scene.schema import SCENE_SCHEMA
 
 FORMAT = "pat3d-scene"
-VERSION = 1
+VERSION = 2
+"""Newest version of the format that is read. What needs nothing newer is written in version 1, which has no history."""
 MAX_JSON_BYTES = 64 * 2**20
 
 
@@ -110,6 +112,10 @@ def load_scene(folder: str | Path) -> Scene:
             settling_friction=float(document["settling_friction"]),
             least_tilt=float(document.get("least_tilt", LEAST_TILT)),
             provenance=document["provenance"],
+            history=tuple(
+                Edit(verb=entry["verb"], said=entry["said"], objects=tuple(entry["objects"]))
+                for entry in document.get("history", [])
+            ),
         )
     except SpecError as error:
         raise error if str(path) in str(error) else SpecError(f"{path}: {error}") from error
@@ -132,7 +138,7 @@ def _write(scene: Scene, folder: Path) -> None:
             _write_meshes(obj.asset, folder / "assets" / slug)
     document = {
         "format": FORMAT,
-        "version": VERSION,
+        "version": 2 if scene.history else 1,
         "prompt": scene.prompt,
         "seed": scene.seed,
         "settling_friction": scene.settling_friction,
@@ -165,6 +171,10 @@ def _write(scene: Scene, folder: Path) -> None:
         ]
     if scene.task is not None:
         document["task"] = scene.task
+    if scene.history:
+        document["history"] = [
+            {"verb": edit.verb, "said": edit.said, "objects": [*edit.objects]} for edit in scene.history
+        ]
     try:
         text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
     except (TypeError, ValueError, RecursionError) as error:

@@ -19,6 +19,7 @@ from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.arrangements import Arrangement, Posture, PostureKind, check_arrangements
 from pat3d.scene.asset import Asset
+from pat3d.scene.history import Edit
 from pat3d.scene.physics import LEAST_TILT, MAX_TILT, SETTLING_FRICTION
 from pat3d.scene.relations import GROUND, Relation, carriers_of, check_tree, parent_of
 
@@ -133,6 +134,8 @@ class Scene:
     """Tilt of the ground [degrees], whichever way, that the scene has to stand to be verified."""
     provenance: Mapping[str, Any] = field(default_factory=dict)
     """Versions, settings and inputs; JSON-serialisable."""
+    history: tuple[Edit, ...] = ()
+    """What was edited since it was made, in order."""
 
     def __post_init__(self) -> None:
         if not self.objects:

@@ -1,4 +1,4 @@
-"""JSON schema of scene.json, format version 1."""
+"""JSON schema of scene.json, format versions 1 and 2; version 2 has a history."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Any
 
 from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES
 from pat3d.scene.checksums import MAX_FILES
+from pat3d.scene.history import MAX_HISTORY, VERBS
 from pat3d.scene.model import MAX_ANCHORS
 from pat3d.scene.naming import SLUG_PATTERN
 from pat3d.scene.physics import MAX_TILT
@@ -83,6 +84,7 @@ _ATTACHMENT = _record(
         "anchors": {"type": "array", "items": _vector(2, _vector(3)), "minItems": 1, "maxItems": MAX_ANCHORS},
     }
 )
+_EDIT = _record({"verb": {"enum": [*VERBS]}, "said": _TEXT, "objects": {"type": "array", "items": _NAME}})
 _SHA256 = {"type": "string", "pattern": "^[0-9a-f]{64}$"}
 _CHECKSUMS = {
     "type": "object",
@@ -97,7 +99,7 @@ SCENE_SCHEMA: dict[str, Any] = {
     **_record(
         {
             "format": {"const": "pat3d-scene"},
-            "version": {"const": 1},
+            "version": {"enum": [1, 2]},
             "prompt": _TEXT,
             "seed": {"type": "integer"},
             "settling_friction": {"type": "number", "minimum": 0},
@@ -116,8 +118,11 @@ SCENE_SCHEMA: dict[str, Any] = {
             "arrangements": {"type": "array", "items": _ARRANGEMENT, "maxItems": 10_000},
             "attachments": {"type": "array", "items": _ATTACHMENT, "maxItems": 10_000},
             "task": _NAME,
+            "history": {"type": "array", "items": _EDIT, "maxItems": MAX_HISTORY},
             "checksums": _CHECKSUMS,
             "checksum": _SHA256,
         },
     ),
+    "if": {"required": ["history"]},
+    "then": {"properties": {"version": {"const": 2}}},
 }

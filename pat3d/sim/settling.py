@@ -62,6 +62,7 @@ def settle(
     progress: Progress = lambda *_: None,
     *,
     throw: bool = True,
+    near_rest: bool = False,
 ) -> Settled:
     """Let the bodies of every world of `model` come to rest from its initial state.
 
@@ -70,6 +71,8 @@ def settle(
         options: settings.
         progress: called with the phase, step number and largest motion [m].
         throw: whether worlds that do not come to rest raise; else their `status` tells, and their state is safe.
+        near_rest: the bodies touch as they did when they last settled; only the end of the polish is done, in which
+            they move by micrometres where loads have not changed.
 
     Raises:
         SimulationError: bodies intersect at the start, or a world can never move on.
@@ -81,9 +84,10 @@ def settle(
         run = Run(model, options, progress)
         run.throw = throw
         run.refuse_intersections()
-        run.set_d_hat(options.d_hat)
-        run.drop()
-        at_rest, residual = straighten(run, *run.polish())
+        run.set_d_hat(options.final_d_hat if near_rest else options.d_hat)
+        if not near_rest:
+            run.drop()
+        at_rest, residual = straighten(run, *(run.finish() if near_rest else run.polish()))
     settled = Settled(
         q=run.state(),
         trajectory=run.trajectory,

@@ -144,7 +144,7 @@ def test_a_failed_save_leaves_every_file_as_it_was(scene, tmp_path, monkeypatch)
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda d: d.update(version=2), "Upgrade pat3d"),
+        (lambda d: d.update(version=3), "Upgrade pat3d"),
         (lambda d: d.update(format="other"), "not a PAT3D scene"),
         (lambda d: d["objects"][1].pop("pose"), r"objects\[1\]: 'pose' is a required property"),
         (lambda d: d["objects"][1]["pose"].update(position=[0, 0]), r"objects\[1\]\.pose\.position"),
