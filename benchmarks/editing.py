@@ -1,6 +1,6 @@
-"""How long a scene takes to come to rest again after one edit, and to be verified.
+r"""How long a scene takes to come to rest again after one edit, and to be verified.
 
-    pat3d generate "a stack of three books, a vase, a red mug, a bowl with two apples and a laptop on a desk" \\
+    pat3d generate "a stack of three books, a vase, a red mug, a bowl with two apples and a laptop on a desk" \
         --out scenes/ten
     python benchmarks/editing.py scenes/ten [--repeats 3]
 
@@ -51,6 +51,7 @@ class Stopwatch:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
     def read(self) -> tuple[float, float]:
+        """Both."""
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
