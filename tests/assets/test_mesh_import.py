@@ -490,23 +490,26 @@ def test_one_file_is_imported_once_until_it_changes(tmp_path, monkeypatch):
 
 def test_all_pieces_of_a_mesh_share_one_budget_of_time(tmp_path, monkeypatch):
     """A soup has dozens of pieces; a limit for each would add up to many minutes."""
+    from pat3d import progress
     from pat3d.assets.mesh import parts
 
     clock = [0.0]
     given = []
 
-    def slow(vertices, faces, *, timeout, **options):
-        given.append(timeout)
+    def slow(vertices, faces, *, cpu_limit, **options):
+        given.append(cpu_limit)
         clock[0] += 40.0
         return Decomposition(parts=[vertices], options={}, cached=False, seconds=40.0)
 
     monkeypatch.setattr(parts, "decompose", slow)
-    monkeypatch.setattr(parts.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(progress, "_processor_time", lambda: clock[0])
     outline = [(0, 0), (0.1, 0), (0.1, 0.03), (0.03, 0.03), (0.03, 0.1), (0, 0.1)]
     ells = [prism(outline, 0.05).moved(x=0.2 * number).solid.to_mesh64() for number in range(4)]
     ells = [trimesh.Trimesh(np.asarray(ell.vert_properties)[:, :3], np.asarray(ell.tri_verts)) for ell in ells]
     path = tmp_path / "ells.stl"
     trimesh.util.concatenate(ells).export(path)
-    import_mesh(path, cache_dir=tmp_path / "cache", timeout=100.0)
-    assert given[:3] == [100.0, 60.0, 20.0]
-    assert all(rest == parts.LEAST_SECONDS for rest in given[3:])
+    import_mesh(path, cache_dir=tmp_path / "cache", cpu_limit=100.0)
+    assert given == [100.0, 60.0, 20.0, 0.0]
+    clock[0], given[:] = 0.0, []
+    import_mesh(path, cache_dir=tmp_path / "other")
+    assert given[0] == importing.DECOMPOSITION_SECONDS

@@ -42,9 +42,12 @@ TO_Z_UP: dict[str, tuple[tuple[int, int, int], ...]] = {
 }
 """Rotations that turn each axis up; from y up, +z (glTF's front) becomes -y (ours)."""
 
+DECOMPOSITION_SECONDS = 120.0
+"""Of the processor, for the import of a mesh, where nobody gave a limit. Scanned bowls and mugs take 10 to 70 s, and
+what takes longer, a soup of triangles, takes ten minutes too."""
+
 PATIENCE = 20.0
-"""Where there is a limit of processor time it decides, on a busy machine too: the clock only ends what has hung, after
-so many times the limit."""
+"""Processor time decides, on a busy machine too: the clock only ends what has hung, after so many times the limit."""
 
 MOST_IMPORTED = 16
 
@@ -68,7 +71,6 @@ def import_mesh(
     thickness: float | None = None,
     texture_root: str | os.PathLike[str] | None = None,
     cache_dir: str | os.PathLike[str] | None = None,
-    timeout: float = 120.0,
     cpu_limit: float | None = None,
 ) -> Asset:
     """Read, repair, weigh and decompose a mesh file.
@@ -89,8 +91,7 @@ def import_mesh(
         thickness: wall thickness [m] for open shells; see `repair`.
         texture_root: folder that material files may refer into; the mesh's own where None.
         cache_dir: where decompositions are kept; see `cache_root`.
-        timeout: [s] for the convex decomposition of all pieces.
-        cpu_limit: [s] of the processor for all of it; None for any.
+        cpu_limit: [s] of the processor for all of it; 120 where None.
 
     Raises:
         AssetError: the file, the mesh or an argument is unusable; the message says why and what would do.
@@ -105,8 +106,8 @@ def import_mesh(
     if key in _imported:
         # A copy, since objects that share an asset share its files.
         return replace(_imported[key])
-    budget = CpuBudget(cpu_limit)
-    timeout = timeout if cpu_limit is None else max(timeout, PATIENCE * cpu_limit)
+    seconds = DECOMPOSITION_SECONDS if cpu_limit is None else cpu_limit
+    budget = CpuBudget(seconds)
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
     try:
@@ -116,7 +117,7 @@ def import_mesh(
         properties = mass_properties(
             fixed.solid.vertices, fixed.solid.faces.astype(np.int32), density=weighed, mass=mass
         )
-        made = make_parts(fixed, parts, cache_dir, timeout, budget)
+        made = make_parts(fixed, parts, cache_dir, PATIENCE * seconds, budget)
     except AssetError as error:
         raise AssetError(f'"{path}": {error}') from error
     # Parts may reach below the mesh by their inflation; what is simulated stands on z = 0.
