@@ -119,6 +119,14 @@ def balls() -> tuple[Scene, float | None]:
     ), 0.0
 
 
+def tip(width: float = 0.002) -> tuple[Scene, float | None]:
+    """A block of 6 cm on a fixed post as wide as this [m]."""
+    return scene_of(
+        placed("tip", asset_of(box(width, width, 0.05)), (0, 0, GAP), fixed=True),
+        placed("block", asset_of(box(0.06, 0.06, 0.06)), (0, 0, 0.05 + 2 * GAP)),
+    ), math.atan(width / 2 / 0.03)
+
+
 FORMS: dict[str, Callable[[], tuple[Scene, float | None]]] = {
     "box": one_box,
     "boxes": boxes,
@@ -133,6 +141,8 @@ FORMS: dict[str, Callable[[], tuple[Scene, float | None]]] = {
     "domino 52": lambda: domino(52.0),
     "domino 60": lambda: domino(60.0),
     "ball on ball": balls,
+    "tip 0.7 mm": lambda: tip(0.0007),
+    "tip 2 mm": lambda: tip(0.002),
 }
 
 

@@ -16,7 +16,7 @@ are a convex set, so what is stood towards sixteen sides is stood in the polygon
 circle that fits into it is stood whichever way. Friction there is that of the exports, since a scene that crept to rest
 with less has none of that to spare; what hangs is clamped, since it swings and comes back. The tilt is the lesser of
 what the convex parts stand in engines, which keep few contact points of a face, and of what the true surfaces stand
-(see `support`).
+(see `support`), both on faces a little smaller than they are (see `wear`).
 
 Forces must have a cause. Two walls could hold a block between them by friction, however little there is, if they only
 pressed hard enough; nothing makes them. Of all forces that balance, those of least sum are looked at: where some of
@@ -34,6 +34,7 @@ import numpy as np
 
 from pat3d.check.balance import Balance
 from pat3d.check.support import Support, true_support
+from pat3d.check.wear import worn
 from pat3d.errors import CheckError
 from pat3d.geometry.contacts import Contacts, find_contacts, four_of_each
 from pat3d.scene.model import Scene
@@ -179,9 +180,10 @@ def certify(
         return certificate
     gap, jammed = _pressed(balance, contacts, friction)
     true = true_support(scene, contacts, balance, friction, TOLERANCE)
-    surfaces, parts = (_largest_tilt(one, None) for one in (Balance(scene, true.contacts), balance))
+    faces = worn(contacts)
+    surfaces, parts = (_largest_tilt(Balance(scene, one), None) for one in (worn(true.contacts), faces))
     outline, first = min(surfaces, parts, key=lambda one: one[0])
-    tilt = min(outline, _in_engines(scene, contacts, parts[0]))
+    tilt = min(outline, _in_engines(scene, faces, parts[0]))
     return replace(
         certificate,
         smallest_friction=_smallest_friction(balance),

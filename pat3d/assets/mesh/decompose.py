@@ -139,8 +139,9 @@ def _run(
             said = log.read()[-2000:].decode(errors="replace").strip().splitlines()
         if cpu_limit is not None and code == -signal.SIGXCPU:
             raise AssetError(
-                f"convex decomposition of {len(faces)} faces did not end within the {cpu_limit:.3g} s of processor "
-                'time that were left and was stopped; allow more, simplify the mesh, or choose parts "hull" or "box".'
+                f"convex decomposition of {len(faces)} faces was given up after the {cpu_limit:.3g} s of processor "
+                'time that were left for it; allow more with --cpu-limit, simplify the mesh, or choose parts "hull" '
+                'or "box".'
             )
         if code:
             reason = signal.Signals(-code).name if code < 0 else f"exit code {code}"
