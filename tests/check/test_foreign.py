@@ -86,6 +86,14 @@ def test_mechanisms_are_held_and_what_hangs_on_constraints_is_not_judged(tmp_pat
     assert report.passed, report.failures
 
 
+def test_markers_of_goals_are_left_out_and_told(tmp_path):
+    ghost = '<body name="goal" pos="0 0 1"><freejoint/><geom size="0.02" contype="0" conaffinity="0"/></body>'
+    report = verify_foreign(load_foreign(written(tmp_path, ghost, block("rests", 0.0, 0.43))))
+    assert [one.name for one in report.objects] == ["rests"]
+    assert report.passed
+    assert "goal" in report.notes[0]
+
+
 def test_a_keyframe_is_another_scene(tmp_path):
     key = '<keyframe><key name="up" qpos="0 0 0.6 1 0 0 0"/></keyframe>'
     scene = load_foreign(written(tmp_path, block("block", 0.0, 0.43), more=key))
