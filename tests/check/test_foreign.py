@@ -14,6 +14,8 @@ from pat3d.check.foreign.verify import verify_foreign
 from pat3d.cli.main import main
 from pat3d.errors import CheckError
 from pat3d.exporters import export
+from pat3d.exporters.common.objects import body_names
+from tests.exporters.things import mixed_scene
 from tests.scenes import tower
 
 TABLE = """<geom name="floor" type="plane" size="2 2 0.1"/>
@@ -84,6 +86,14 @@ def test_mechanisms_are_held_and_what_hangs_on_constraints_is_not_judged(tmp_pat
     assert report.passed, report.failures
 
 
+def test_markers_of_goals_are_left_out_and_told(tmp_path):
+    ghost = '<body name="goal" pos="0 0 1"><freejoint/><geom size="0.02" contype="0" conaffinity="0"/></body>'
+    report = verify_foreign(load_foreign(written(tmp_path, ghost, block("rests", 0.0, 0.43))))
+    assert [one.name for one in report.objects] == ["rests"]
+    assert report.passed
+    assert "goal" in report.notes[0]
+
+
 def test_a_keyframe_is_another_scene(tmp_path):
     key = '<keyframe><key name="up" qpos="0 0 0.6 1 0 0 0"/></keyframe>'
     scene = load_foreign(written(tmp_path, block("block", 0.0, 0.43), more=key))
@@ -139,3 +149,53 @@ def test_files_that_are_none_are_one_line(tmp_path, text):
     assert "\n" not in str(error.value)
     with pytest.raises(CheckError, match="no known scene format"):
         load_foreign(tmp_path / "scene.blend")
+
+
+@pytest.mark.parametrize("kind", ["sdf", "usd"])
+def test_our_own_scenes_weigh_and_stand_the_same_in_other_formats(tmp_path, kind):
+    """Read from SDF and USD, a scene has the masses, inertias and poses that MuJoCo reads from its MJCF."""
+    if kind == "usd":
+        pytest.importorskip("pxr")
+    scene = mixed_scene()
+    paths = export(scene, ("mjcf", kind), tmp_path)
+    there, here = (load_foreign(paths[name]).compile() for name in ("mjcf", kind))
+    for obj in scene.objects:
+        name = body_names(scene)[obj.name]
+        one, other = there.body(name), here.body(f"World/{name}" if kind == "usd" else name)
+        assert np.allclose(one.pos, other.pos, atol=1e-9)
+        assert np.allclose(np.abs(one.quat @ other.quat), 1.0, atol=1e-9)
+        if not obj.fixed:
+            assert one.mass[0] == pytest.approx(other.mass[0], rel=1e-6)
+            assert np.allclose(np.sort(one.inertia), np.sort(other.inertia), rtol=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["sdf", "usd"])
+def test_a_tower_is_at_rest_in_other_formats_and_not_after_a_lift(tmp_path, kind):
+    if kind == "usd":
+        pytest.importorskip("pxr")
+    paths = export(tower(2), (kind,), tmp_path)
+    report = verify_foreign(load_foreign(paths[kind]))
+    assert len(report.objects) == 2
+    assert all(one.unbalanced < 0.01 for one in report.objects), report.failures
+    assert not report.overlaps
+
+
+def test_sdf_primitives_includes_and_angles(tmp_path):
+    model = tmp_path / "can"
+    model.mkdir()
+    (model / "model.sdf").write_text(
+        """<sdf version="1.6"><model name="can"><link name="l"><inertial><mass>0.3</mass><inertia><ixx>1e-4</ixx>
+        <iyy>2e-4</iyy><izz>2.5e-4</izz></inertia></inertial><collision name="c"><geometry><cylinder><radius>0.03
+        </radius><length>0.1</length></cylinder></geometry></collision></link></model></sdf>"""
+    )
+    world = tmp_path / "w.sdf"
+    world.write_text(
+        """<sdf version="1.6"><world name="w"><model name="floor"><static>true</static><link name="l"><collision
+        name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model><include><uri>
+        model://can</uri><name>lying</name><pose>0.2 0 0.03 1.5707963267948966 0 0</pose></include><include>
+        <uri>model://can</uri><name>standing</name><pose>0 0 0.05 0 0 0</pose></include></world></sdf>"""
+    )
+    report = verify_foreign(load_foreign(world))
+    assert {one.name: round(one.mass, 6) for one in report.objects} == {"lying": 0.3, "standing": 0.3}
+    assert all(one.unbalanced < 0.01 for one in report.objects), report.failures
+    assert {one.name: one.moved for one in report.objects}["standing"] is False

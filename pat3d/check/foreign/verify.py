@@ -180,6 +180,11 @@ def verify_model(
                 messages.append(f"MuJoCo warns of {kind.removeprefix('mjWARN_').lower()}, {stat.number} times.")
     finally:
         mujoco.set_mju_user_warning(before)
+    # What nothing can touch marks a goal, and falls through the floor by design.
+    solid = [bool(_colliding(model, who, k).any()) for k in range(len(who.names))]
+    markers = [name for name, touches in zip(who.names, solid, strict=True) if not touches]
+    if markers:
+        notes = (*notes, f"left out, since nothing collides with them: {', '.join(markers)}.")
     objects = tuple(
         ForeignObject(
             name=name,
@@ -189,6 +194,7 @@ def verify_model(
             turned_degrees=float(np.degrees(turned[k])),
         )
         for k, (name, root) in enumerate(zip(who.names, who.roots, strict=True))
+        if solid[k]
     )
     return ForeignReport(
         path=path,
@@ -284,6 +290,13 @@ def _size(model: Any, who: Owners, number: int) -> float:
     """A length of an object, for torques [m]: the largest bounding sphere of its geoms."""
     geoms = np.flatnonzero(who.of_body[model.geom_bodyid] == number)
     return max([1e-3, *(float(radius) for radius in model.geom_rbound[geoms])])
+
+
+def _colliding(model: Any, who: Owners, number: int) -> NDArray[np.bool_]:
+    """Which geoms of an object can touch anything, shape (geoms of it,)."""
+    geoms = np.flatnonzero(who.of_body[model.geom_bodyid] == number)
+    paired = np.isin(geoms, np.concatenate([model.pair_geom1, model.pair_geom2]))
+    return (model.geom_contype[geoms] != 0) | (model.geom_conaffinity[geoms] != 0) | paired
 
 
 def _constrained(model: Any, equality: int) -> list[int]:

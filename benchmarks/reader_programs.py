@@ -1,0 +1,258 @@
+"""What readers of scene formats make of a file, each run in an environment of its own.
+
+    python reader_programs.py READER FILE
+
+Prints one line of JSON: the version, how many bodies can move, and what they weigh together [kg]. Needs the reader's
+own package and nothing else, least of all ours.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+
+def mujoco(path: Path) -> dict[str, Any]:
+    """Compiled, and stepped for a tenth of a second."""
+    import mujoco as package
+
+    model = package.MjModel.from_xml_path(str(path))
+    data = package.MjData(model)
+    package.mj_step(model, data, nstep=50)
+    free = [int(model.jnt_bodyid[k]) for k in range(model.njnt) if model.jnt_type[k] == package.mjtJoint.mjJNT_FREE]
+    if not math.isfinite(float(data.qpos.sum())):
+        raise ValueError("the state is not finite after a tenth of a second")
+    return {"version": package.__version__, "bodies": len(free), "mass": float(sum(model.body_mass[free]))}
+
+
+def mjx(path: Path) -> dict[str, Any]:
+    """Put on a device and stepped once, compiled by XLA."""
+    import jax
+    import mujoco as package
+    from mujoco import mjx as xla  # pyright: ignore[reportMissingImports]
+
+    model = package.MjModel.from_xml_path(str(path))
+    there = xla.put_model(model)
+    data = jax.jit(xla.step)(there, xla.make_data(there))
+    if not math.isfinite(float(data.qpos.sum())):
+        raise ValueError("the state is not finite after a step")
+    free = [int(model.jnt_bodyid[k]) for k in range(model.njnt) if model.jnt_type[k] == package.mjtJoint.mjJNT_FREE]
+    mass = float(sum(there.body_mass[body] for body in free))
+    return {"version": metadata.version("mujoco-mjx"), "bodies": len(free), "mass": mass}
+
+
+def mujoco_warp(path: Path) -> dict[str, Any]:
+    """Put on a device and stepped once."""
+    import mujoco as package
+    import mujoco_warp  # pyright: ignore[reportMissingImports]
+
+    model = package.MjModel.from_xml_path(str(path))
+    there = mujoco_warp.put_model(model)
+    data = mujoco_warp.put_data(model, package.MjData(model))
+    mujoco_warp.step(there, data)
+    if not math.isfinite(float(data.qpos.numpy().sum())):
+        raise ValueError("the state is not finite after a step")
+    free = [int(model.jnt_bodyid[k]) for k in range(model.njnt) if model.jnt_type[k] == package.mjtJoint.mjJNT_FREE]
+    return {"version": metadata.version("mujoco-warp"), "bodies": len(free), "mass": float(sum(model.body_mass[free]))}
+
+
+def dm_control(path: Path) -> dict[str, Any]:
+    """The scene parsed by dm_control.mjcf; every object of it attached to an arena by a free joint, and compiled."""
+    from dm_control import mjcf  # pyright: ignore[reportMissingImports]
+
+    physics = mjcf.Physics.from_mjcf_model(mjcf.from_path(str(path)))
+    objects = sorted((path.parent / "robosuite").glob("*.xml"))
+    arena = mjcf.RootElement(model="arena")
+    for file in objects:
+        arena.attach(mjcf.from_path(str(file))).add("freejoint")
+    attached = mjcf.Physics.from_mjcf_model(arena)
+    if attached.model.njnt != len(objects):
+        raise ValueError(f"{attached.model.njnt} joints for {len(objects)} objects after attach")
+    free = [int(physics.model.jnt_bodyid[k]) for k in range(physics.model.njnt) if physics.model.jnt_type[k] == 0]
+    mass = float(sum(physics.model.body_mass[free]))
+    return {"version": metadata.version("dm_control"), "bodies": len(free), "mass": mass}
+
+
+def robosuite(path: Path) -> dict[str, Any]:
+    """Every object by MujocoXMLObject, each compiled alone; as many as there are files."""
+    import tempfile
+
+    from robosuite.models.base import MujocoXML  # pyright: ignore[reportMissingImports]
+    from robosuite.models.objects import MujocoXMLObject  # pyright: ignore[reportMissingImports]
+
+    files = sorted((path.parent / "robosuite").glob("*.xml"))
+    for file in files:
+        with tempfile.TemporaryDirectory() as folder:
+            arena = Path(folder) / "arena.xml"
+            arena.write_text("<mujoco><worldbody/></mujoco>")
+            world, thing = MujocoXML(str(arena)), MujocoXMLObject(str(file), name="thing")
+            world.merge_assets(thing)
+            world.worldbody.append(thing.get_obj())
+            world.get_model()
+    return {"version": metadata.version("robosuite"), "objects": len(files)}
+
+
+def yourdfpy(path: Path) -> dict[str, Any]:
+    """Every object's file, with its meshes; no errors."""
+    import yourdfpy as package  # pyright: ignore[reportMissingImports]
+
+    return _objects(path, lambda file: _yourdfpy(package, file), metadata.version("yourdfpy"))
+
+
+def _yourdfpy(package: Any, file: Path) -> float:
+    robot = package.URDF.load(str(file), load_collision_meshes=True)
+    if not robot.validate():
+        raise ValueError(f"{file.name}: {robot.errors[:2]}")
+    (link,) = robot.link_map.values()
+    if not robot.scene.geometry or not robot.collision_scene.geometry:
+        raise ValueError(f"{file.name}: its meshes were not found")
+    return float(link.inertial.mass)
+
+
+def pinocchio(path: Path) -> dict[str, Any]:
+    """Every object's file with its collision meshes, started from the root folder without any package folder."""
+    import pinocchio as package  # pyright: ignore[reportMissingImports]
+
+    def mass(file: Path) -> float:
+        # One free link: its inertia is the root joint's.
+        model = package.buildModelFromUrdf(str(file), package.JointModelFreeFlyer())
+        geometry = package.buildGeomFromUrdf(model, str(file), package.GeometryType.COLLISION)
+        if not geometry.ngeoms:
+            raise ValueError(f"{file.name}: no geometry was read")
+        return float(model.inertias[1].mass)
+
+    os.chdir("/")
+    return _objects(path, mass, package.__version__)
+
+
+def sapien(path: Path) -> dict[str, Any]:
+    """Every object's file, loaded with its convex parts."""
+    import sapien as package  # pyright: ignore[reportMissingImports]
+
+    scene = package.Scene([package.physx.PhysxCpuSystem()])
+
+    def mass(file: Path) -> float:
+        loader = scene.create_urdf_loader()
+        loader.fix_root_link = False
+        actor = loader.load(str(file))
+        body = (
+            actor.links[0]
+            if hasattr(actor, "links")
+            else actor.find_component_by_type(package.physx.PhysxRigidDynamicComponent)
+        )
+        return float(body.mass)
+
+    return _objects(path, mass, metadata.version("sapien"))
+
+
+def pybullet(path: Path) -> dict[str, Any]:
+    """Every object's file."""
+    import pybullet as package  # pyright: ignore[reportMissingImports]
+
+    client = package.connect(package.DIRECT)
+
+    def mass(file: Path) -> float:
+        body = package.loadURDF(str(file), physicsClientId=client)
+        return float(package.getDynamicsInfo(body, -1, physicsClientId=client)[0])
+
+    return _objects(path, mass, metadata.version("pybullet"))
+
+
+def _objects(path: Path, mass: Any, version: str) -> dict[str, Any]:
+    """Masses of all objects of a URDF manifest that move."""
+    entries = json.loads(path.read_text(encoding="utf-8"))["objects"]
+    known: dict[str, float] = {}
+    for entry in entries:
+        if entry["file"] not in known:
+            known[entry["file"]] = mass((path.parent / entry["file"]).resolve())
+    moving = [entry for entry in entries if not entry["fixed"]]
+    return {"version": version, "bodies": len(moving), "mass": sum(known[entry["file"]] for entry in moving)}
+
+
+def drake(path: Path) -> dict[str, Any]:
+    """The directives, or the SDF world, finalized, with hydroelastic contact computed at load."""
+    from pydrake.multibody.parsing import Parser  # pyright: ignore[reportMissingImports]
+    from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig  # pyright: ignore[reportMissingImports]
+    from pydrake.systems.framework import DiagramBuilder  # pyright: ignore[reportMissingImports]
+
+    builder = DiagramBuilder()
+    plant, _ = AddMultibodyPlant(
+        MultibodyPlantConfig(time_step=1e-3, contact_model="hydroelastic_with_fallback"), builder
+    )
+    parser = Parser(plant)
+    if path.name == "manifest.json":
+        parser.package_map().Add("pat3d_scene", str(path.parent))
+        parser.AddModels(str(path.parent / "scene.dmd.yaml"))
+    else:
+        parser.AddModels(str(path))
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    builder.Build().CreateDefaultContext()
+    free = sorted(plant.GetFloatingBaseBodies())
+    mass = sum(plant.get_body(index).get_mass(context) for index in free)
+    return {"version": metadata.version("drake"), "bodies": len(free), "mass": float(mass)}
+
+
+def openusd(path: Path) -> dict[str, Any]:
+    """Opened and composed; no error or warning of the validators that come with it."""
+    from pxr import Usd, UsdPhysics, UsdValidation  # pyright: ignore[reportMissingImports]
+
+    stage = Usd.Stage.Open(str(path))
+    registry = UsdValidation.ValidationRegistry()
+    issues = UsdValidation.ValidationContext(registry.GetOrLoadAllValidators()).Validate(stage)
+    if issues:
+        raise ValueError(issues[0].GetErrorAsString())
+    moving = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    mass = sum(float(UsdPhysics.MassAPI(prim).GetMassAttr().Get()) for prim in moving)
+    return {"version": metadata.version("usd-core"), "bodies": len(moving), "mass": mass}
+
+
+def newton(path: Path) -> dict[str, Any]:
+    """Parsed into a model and finalized on the CPU."""
+    import newton as package  # pyright: ignore[reportMissingImports]
+
+    builder = package.ModelBuilder()
+    builder.add_usd(str(path))
+    masses = [float(mass) for mass in builder.body_mass if mass > 0.0]
+    builder.finalize(device="cpu")
+    return {"version": metadata.version("newton"), "bodies": len(masses), "mass": sum(masses)}
+
+
+def blender(path: Path) -> dict[str, Any]:
+    """Imported by Blender: as many meshes as objects, and as many pictures as assets."""
+    import bpy  # pyright: ignore[reportMissingImports]
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.usd_import(filepath=str(path))
+    pictures = {image.name for image in bpy.data.images if image.size[0] > 0}
+    meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]
+    return {"version": bpy.app.version_string, "meshes": len(meshes), "pictures": len(pictures)}
+
+
+PROGRAMS = {
+    function.__name__: function
+    for function in (
+        mujoco,
+        mjx,
+        mujoco_warp,
+        dm_control,
+        robosuite,
+        yourdfpy,
+        pinocchio,
+        sapien,
+        pybullet,
+        drake,
+        openusd,
+        newton,
+        blender,
+    )
+}
+
+
+if __name__ == "__main__":
+    print("\n" + json.dumps(PROGRAMS[sys.argv[1]](Path(sys.argv[2]).resolve())))
