@@ -1,15 +1,18 @@
 """The wheel in fresh virtual environments, outside the checkout: how long it installs, and what then works.
 
-    python benchmarks/clean_install.py [--extras core robots] [--constraints with without] [--python python3.12]
+    python benchmarks/clean_install.py [--extras core robots] [--constraints with without] [--pythons python3.12]
+    python benchmarks/clean_install.py --pipx
 
 Every environment gets the wheel with one extra, does with it what a new user would, in an empty folder, and is thrown
-away. MENAGERIE_ROOT, where it is set, says where robot models are; they are downloaded otherwise. The exit code is 1
-where a step fails or an installation takes longer than LONGEST.
+away. With --pipx the wheel is not installed but run: pipx makes an environment for `pipx run --spec WHEEL pat3d
+generate ...` by itself. MENAGERIE_ROOT, where it is set, says where robot models are; they are downloaded otherwise.
+The exit code is 1 where a step fails or an installation takes longer than LONGEST.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import os
 import shutil
 import subprocess
@@ -64,19 +67,47 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--extras", nargs="+", choices=EXTRAS, default=list(EXTRAS))
     parser.add_argument("--constraints", nargs="+", choices=("with", "without"), default=["with", "without"])
-    parser.add_argument("--python", default=sys.executable)
+    parser.add_argument("--pythons", nargs="+", default=[sys.executable])
+    parser.add_argument("--pipx", action="store_true")
     options = parser.parse_args()
     worked = True
     with tempfile.TemporaryDirectory(prefix="pat3d-install-") as scratch:
         wheel = _wheel(Path(scratch))
-        print(f"| extra | constraints | install [s] | size [MB] | {' | '.join(STEPS)} |")
-        print("| --- " * (4 + len(STEPS)) + "|", flush=True)
-        for extra in options.extras:
-            for constraints in options.constraints:
-                cells = _environment(Path(scratch), wheel, extra, constraints == "with", options.python)
-                worked &= "FAILS" not in " ".join(cells)
-                print(f"| {extra} | {constraints} | {' | '.join(cells)} |", flush=True)
+        if options.pipx:
+            return _pipx(Path(scratch), wheel)
+        print(f"| Python | extra | constraints | install [s] | size [MB] | {' | '.join(STEPS)} |")
+        print("| --- " * (5 + len(STEPS)) + "|", flush=True)
+        for python, extra, constraints in itertools.product(options.pythons, options.extras, options.constraints):
+            cells = _environment(Path(scratch), wheel, extra, constraints == "with", python)
+            worked &= "FAILS" not in " ".join(cells)
+            print(f"| {_version(python)} | {extra} | {constraints} | {' | '.join(cells)} |", flush=True)
     return 0 if worked else 1
+
+
+def _version(python: str) -> str:
+    """Of an interpreter."""
+    told = subprocess.run([python, "--version"], capture_output=True, text=True, check=True)
+    return told.stdout.split()[-1]
+
+
+def _pipx(scratch: Path, wheel: Path) -> int:
+    """Let pipx, in an environment of its own, run the wheel; everything that it makes stays in `scratch`."""
+    venv, work = scratch / "venv", scratch / "work"
+    work.mkdir()
+    folders = {f"PIPX_{name}": str(scratch / "pipx" / name.lower()) for name in ("HOME", "BIN_DIR", "MAN_DIR")}
+    clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONHOME")} | folders
+    try:
+        _run([sys.executable, "-m", "venv", str(venv)], work, clean)
+        _run([str(venv / "bin" / "pip"), "install", "--quiet", "pipx"], work, clean)
+        for number, command in enumerate((GENERATE, ["pat3d", "check", "mug"])):
+            begun = time.monotonic()
+            _run([str(venv / "bin" / "pipx"), "run", "--spec", str(wheel), *command], work, clean)
+            what = "with the environment that pipx makes" if number == 0 else "in the environment that is there"
+            print(f"pipx run pat3d {command[1]}: {time.monotonic() - begun:.0f} s, {what}", flush=True)
+    except subprocess.CalledProcessError as error:
+        print(f"{' '.join(error.cmd)}: {error.stdout[-2000:]}\n{error.stderr[-2000:]}", file=sys.stderr)
+        return 1
+    return 0
 
 
 def _wheel(scratch: Path) -> Path:

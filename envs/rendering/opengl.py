@@ -44,8 +44,10 @@ class OpenGL:
         self._camera = self._mujoco.MjvCamera()
         self._camera.type = self._mujoco.mjtCamera.mjCAMERA_FIXED
 
-    def draw(self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool) -> Picture:
-        """See Renderer."""
+    def draw(
+        self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool, fine: bool = False
+    ) -> Picture:
+        """See Renderer; shadows and smooth edges are in every picture."""
         mujoco, scene = self._mujoco, self._scene
         limits = self._model.vis.global_
         if height > limits.offheight or width > limits.offwidth:

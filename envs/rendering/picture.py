@@ -26,8 +26,10 @@ class Picture:
 class Renderer(Protocol):
     """Draws what one camera of one model sees."""
 
-    def draw(self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool) -> Picture:
-        """The picture, with depth and geoms where they are asked for."""
+    def draw(
+        self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool, fine: bool = False
+    ) -> Picture:
+        """The picture, with depth and geoms where they are asked for; `fine` for films, slower where that helps."""
         ...
 
     def close(self) -> None:

@@ -35,11 +35,20 @@ class Pictures:
         self._labels = np.append(labels, 0).astype(np.uint16)
         self._renderer: Renderer = OpenGL(model) if backend() == "gl" else RayTracer(model)
 
-    def take(self, camera: str, height: int, width: int, *, depth: bool = False, segmentation: bool = False) -> Picture:
-        """What `camera` sees now, `height` x `width` pixels."""
+    def take(
+        self,
+        camera: str,
+        height: int,
+        width: int,
+        *,
+        depth: bool = False,
+        segmentation: bool = False,
+        fine: bool = False,
+    ) -> Picture:
+        """What `camera` sees now, `height` x `width` pixels; `fine`, as films are, with shadows and smooth edges."""
         data = self._simulation.data
         picture = self._renderer.draw(
-            data, self._cameras[camera], height, width, depth=depth, segmentation=segmentation
+            data, self._cameras[camera], height, width, depth=depth, segmentation=segmentation, fine=fine
         )
         labels = None if picture.geoms is None else self._labels[picture.geoms]
         return Picture(image=picture.image, depth=picture.depth, geoms=picture.geoms, segmentation=labels)

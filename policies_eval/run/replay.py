@@ -67,7 +67,7 @@ class Replayer:
             nonlocal step
             if step % every == 0 or step == result.steps:
                 progress(Event(stage="filming", step=len(frames), steps=result.steps // every + 1))
-                frames.append(env.pictures.take(camera, size[1], size[0]).image)
+                frames.append(env.pictures.take(camera, size[1], size[0], fine=True).image)
             step += 1
 
         digest = self._runner.replay(result.episode, result.actions, watch)
@@ -84,7 +84,7 @@ class Replayer:
         def watch(env: Any) -> None:
             nonlocal step
             if step in steps:
-                frames.append(env.pictures.take(camera, size[1], size[0]).image)
+                frames.append(env.pictures.take(camera, size[1], size[0], fine=True).image)
             step += 1
 
         self._runner.replay(result.episode, result.actions, watch)

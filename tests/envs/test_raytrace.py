@@ -140,3 +140,74 @@ def test_a_floor_is_where_the_view_meets_it_in_tiles_that_fade_into_the_sky(tilt
     expected = 255.0 * (shade * (1.0 - fade) + SKY * fade)
     assert len(set(np.round(shade[plain, 0], 3))) == 2
     np.testing.assert_allclose(drawn.image[below][plain], expected[plain], atol=0.6)
+
+
+SHADED = """
+<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="0 0 1"/>
+    <body pos="0 0 0.1"><geom name="box" type="box" size="0.4 0.4 0.1" rgba="0.8 0.4 0.2 1"/></body>
+    <body pos="{x} {y} {z}"><geom name="ball" size="0.05" rgba="0.1 0.1 0.1 1"/></body>
+    <camera name="eye" pos="0 0 3" fovy="30"/>
+  </worldbody>
+</mujoco>
+"""
+
+
+def in_the_sun(height: float, fine: bool):
+    """A box on a floor, seen from above, and a ball on the line from the middle of its top to the sun."""
+    ball = np.array([0.0, 0.0, 0.2]) + height * SUN / np.linalg.norm(SUN)
+    model = mujoco.MjModel.from_xml_string(SHADED.format(x=ball[0], y=ball[1], z=ball[2]))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return RayTracer(model).draw(data, 0, 101, 101, depth=False, segmentation=True, fine=fine)
+
+
+def test_what_something_hides_from_the_sun_has_the_light_of_sky_and_lamp_alone():
+    """A ball that does not cover the middle of the picture throws its shadow there, in films alone."""
+    sun = float(SUN[2] / np.linalg.norm(SUN))
+    shade = lit((0.0, 0.0, 1.0)) - 255.0 * 0.48 * sun * np.array([0.8, 0.4, 0.2])
+    film, plain = in_the_sun(0.6, True), in_the_sun(0.6, False)
+    assert film.geoms is not None
+    assert film.geoms[50, 50] == 1
+    np.testing.assert_allclose(film.image[50, 50], shade, atol=0.51)
+    np.testing.assert_allclose(plain.image[50, 50], lit((0.0, 0.0, 1.0)), atol=0.51)
+    # The shadow of a ball of 5 cm is an ellipse, one radius wide across the sun's direction.
+    dark = (film.image[..., 0] < shade[0] + 1) & (film.geoms == 1)
+    pixel = 2.0 * 2.8 * np.tan(np.radians(15.0)) / 101
+    assert dark.sum() * pixel**2 == pytest.approx(np.pi * 0.05**2 / sun, rel=0.2)
+
+
+def test_a_box_throws_its_shadow_on_the_floor_away_from_the_sun():
+    """The sun is at +x, -y: 20 cm of box reach 8.5 cm to -x and 11 cm to +y."""
+    film, plain = in_the_sun(100.0, True), in_the_sun(100.0, False)
+    darker = (film.image.astype(int).sum(axis=2) < plain.image.astype(int).sum(axis=2) - 60) & (film.geoms == 0)
+    rows, columns = np.nonzero(darker)
+    assert len(rows)
+    pixel = 2.0 * 3.0 * np.tan(np.radians(15.0)) / 101
+    assert (50 - columns.min()) * pixel == pytest.approx(0.4 + 0.2 * SUN[0] / SUN[2], abs=0.03)
+    assert (50 - rows.min()) * pixel == pytest.approx(0.4 - 0.2 * SUN[1] / SUN[2], abs=0.03)
+    # The box's own top covers the floor to 43 cm, seen from 3 m.
+    assert (columns.max() - 50) * pixel < 0.44
+
+
+def test_pixels_on_an_edge_are_between_what_is_on_both_sides_and_others_stay():
+    """A tilted box covers a part of each pixel on its edges; what is inside is as it was."""
+    text = BOX.format(quat="0.98 0 0 0.2").replace('fovy="5"', 'fovy="20"')
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    tracer = RayTracer(model)
+    plain, film = (tracer.draw(data, 0, 61, 61, depth=False, segmentation=True, fine=fine) for fine in (False, True))
+    assert plain.geoms is not None
+    box, sky = plain.image[30, 30].astype(int), np.array(255.0 * SKY + 0.5, dtype=int)
+    shares = (film.image[..., 0].astype(float) - sky[0]) / float(box[0] - sky[0])
+    # Of four rays through a pixel some meet the box; top alone is seen, or a side, which is darker.
+    between = (shares > 0.2) & (shares < 0.8)
+    assert between.sum() > 40
+    inside = np.zeros_like(between)
+    inside[1:-1, 1:-1] = True
+    for shift in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        inside &= np.roll(plain.geoms, shift, axis=(0, 1)) == plain.geoms
+    np.testing.assert_array_equal(film.image[inside], plain.image[inside])
+    assert not between[inside].any()
