@@ -21,6 +21,7 @@ COMMANDS = {
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),
     "suite": ("suites", "scenes with tasks by the thousand, in splits, for training and testing policies"),
+    "mcp": ("machines", "let other programs plan, make, edit, check and export scenes, by the Model Context Protocol"),
     "doctor": ("doctor", "what works on this computer, and what would enable more; every part does a real step"),
     "evaluate": ("evaluation", "let a policy do episodes, and report its success rate and failures"),
     "compare": ("evaluation", "compare two policies on the episodes that both did"),
