@@ -1,4 +1,4 @@
-"""How long a scene takes to come to rest again after one edit, and to be verified.
+r"""How long a scene takes to come to rest again after one edit, and to be verified.
 
     pat3d generate "a stack of three books, a vase, a red mug, a bowl with two apples and a laptop on a desk" \\
         --out scenes/ten
@@ -95,9 +95,7 @@ def main() -> None:
         except Pat3dError as error:
             print(f"{' '.join(edit):52} refused: {error}")
             continue
-        row = {
-            key: tuple(statistics.median(run[key][at] for run in runs) for at in range(2)) for key in runs[0]
-        }
+        row = {key: tuple(statistics.median(run[key][at] for run in runs) for at in range(2)) for key in runs[0]}
         rows.append(row)
         cells = " ".join(f"{row[key][0]:5.2f}/{row[key][1]:5.2f}" for key in ("edit", "settle", "proof"))
         print(f"{' '.join(edit):52} {cells} {row['moved'][0]:9.1g}")

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from pat3d.assets import catalogue as nouns
 from pat3d.cli.console import console, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import PromptError, SpecError
 from pat3d.progress import Event, Progress
@@ -25,6 +26,7 @@ from pat3d.scene.naming import slug
     option("--sheet", "write pictures of everything", metavar="PNG"),
     option("--out", "picture of NAME", metavar="PNG", shown="./NAME.png"),
     option("--seed", "variation of what is drawn", type=int, default=0, shown=""),
+    JSON,
     examples="""
     pat3d catalogue                        list everything by family
     pat3d catalogue mug                    one object, with a picture in mug.png
@@ -33,6 +35,11 @@ from pat3d.scene.naming import slug
 )
 def catalogue(options: argparse.Namespace) -> int:
     """`pat3d catalogue`."""
+    if options.json:
+        from pat3d.generation.facts import kinds
+
+        print_facts(kinds(options.name or ""))
+        return 0
     if options.name is not None:
         return one(options.name, seed=options.seed, out=options.out)
     if options.out is not None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
@@ -56,6 +57,7 @@ _MESH_OPTIONS = (
     option("--usda", "USD as text, scene.usda", action="store_true"),
     option("--usdz", "USD also in one file, scene.usdz", action="store_true"),
     *_MESH_OPTIONS,
+    JSON,
     examples="""
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
@@ -74,7 +76,10 @@ def export(options: argparse.Namespace) -> int:
     if (source / "scene.json").is_file() or source.name == "scene.json":
         if mesh:
             raise SpecError(f"--{next(iter(mesh))} is for meshes; {source} is a scene, whose objects are weighed.")
-        code = _scene(source if source.is_dir() else source.parent, out, formats, usd)
+        code = _scene(source if source.is_dir() else source.parent, out, formats, usd, as_json=options.json)
+        notes = [] if options.json else notes
+    elif options.json:
+        raise SpecError(f"--json tells of scenes; summary.json beside each mesh has the same for {source}.")
     else:
         code = _meshes(source, out, formats, usd, mesh)
     for note in notes:
@@ -93,7 +98,7 @@ def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:
     ]
 
 
-def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any]) -> int:
+def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], *, as_json: bool) -> int:
     from pat3d.scene.io import load_scene
 
     with watch(console(stderr=True)) as progress:
@@ -103,13 +108,20 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
         seconds = time.perf_counter() - start
         record_checksums(out, formats)
         reports = {name: parity(scene, path) for name, path in paths.items() if name not in VIEWS}
+    failures = tuple(line for report in reports.values() for line in report.failures)
+    if as_json:
+        from pat3d.generation.facts import ExportFacts
+
+        files = {name: str(path) for name, path in paths.items()}
+        print_facts(ExportFacts(folder=str(out), passed=not failures, failures=list(failures), files=files))
+        return verdict(failures)
     target = console()
     if reports:
         target.print(parity_table(reports))
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
-    return verdict(tuple(line for report in reports.values() for line in report.failures))
+    return verdict(failures)
 
 
 def _meshes(source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh: dict[str, Any]) -> int:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 import tempfile
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from mcp.server.mcpserver import Context, Image, MCPServer
 from mcp.server.mcpserver.exceptions import ResourceNotFoundError, ToolError
@@ -17,6 +18,17 @@ from mcp_types import ToolAnnotations
 from pydantic import BaseModel, ConfigDict, Field
 
 from pat3d.errors import Pat3dError
+from pat3d.generation.facts import (
+    EditedFacts,
+    KindFacts,
+    OutcomeFacts,
+    PlanFacts,
+    edited_facts,
+    kinds,
+    outcome_facts,
+    plan_facts,
+    scene_facts,
+)
 from pat3d.generation.settings import MAX_SEED
 from pat3d.mcp_server.jobs import Jobs
 from pat3d.mcp_server.root import Root
@@ -56,83 +68,6 @@ class EditStep(BaseModel):
     )
 
 
-class ObjectFacts(BaseModel):
-    """One object of a scene."""
-
-    name: str
-    noun: str
-    rests_on: list[str]
-    fixed: bool
-    mass_kg: float
-    friction: float
-    material: str
-    size_m: list[float]
-    position_m: list[float]
-    quat_wxyz: list[float]
-
-
-class SceneFacts(BaseModel):
-    """What is in a scene."""
-
-    prompt: str
-    seed: int
-    task: str | None
-    objects: list[ObjectFacts]
-    relations: list[dict[str, str]]
-    history: list[str]
-
-
-class OutcomeFacts(BaseModel):
-    """A scene that was made, edited or checked."""
-
-    name: str
-    passed: bool
-    failures: list[str]
-    notes: list[str]
-    scene: SceneFacts
-    verification: dict[str, float | int | None] | None
-    exports: list[str]
-    seconds: float | None
-
-
-class MotionFacts(BaseModel):
-    """How far an object went."""
-
-    mm: float
-    degrees: float
-
-
-class EditedFacts(OutcomeFacts):
-    """An edited scene, and what the edits did."""
-
-    edits: list[str]
-    added: list[str]
-    removed: list[str]
-    moved: dict[str, MotionFacts]
-    broke: list[str]
-
-
-class PlanFacts(BaseModel):
-    """How a sentence is read."""
-
-    model_config = ConfigDict(extra="allow")
-
-    told: str
-    objects: list[dict[str, Any]]
-    relations: list[dict[str, str]]
-    notes: list[str]
-    task: str | None
-
-
-class KindFacts(BaseModel):
-    """A kind of object that the catalogue can make."""
-
-    noun: str
-    family: str
-    also_called: list[str]
-    material: str
-
-
 def server(folder: str | Path) -> MCPServer:
     """The server of the scenes in `folder`.
 
@@ -154,13 +89,12 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
     ) -> PlanFacts:
         """Say how a sentence is read, and make nothing: objects, relations, and what was assumed or left out."""
 
-        def work(progress: Progress) -> dict[str, Any]:
-            from pat3d.generation.facts import plan_facts
+        def work(progress: Progress) -> PlanFacts:
             from pat3d.plan.grammar.planner import GrammarPlanner
 
             return plan_facts(GrammarPlanner().plan(sentence))
 
-        return PlanFacts(**await jobs.run(ctx, work))
+        return await jobs.run(ctx, work)
 
     @made.tool(annotations=_WRITES)
     async def generate(
@@ -173,8 +107,7 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
     ) -> OutcomeFacts:
         """Make a scene from a sentence: plan it, lay it out, settle it, verify it, and write its folder."""
 
-        def work(progress: Progress) -> dict[str, Any]:
-            from pat3d.generation.facts import outcome_facts
+        def work(progress: Progress) -> OutcomeFacts:
             from pat3d.generation.pipeline import run_prompt
             from pat3d.generation.settings import Settings
 
@@ -189,11 +122,11 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
                 failures=report.failures,
                 verification=report.chosen.checked.verification,
                 exports=report.exports,
-                seconds=report.seconds,
+                seconds=report.seconds.get("total"),
                 notes=(*report.understood.get("notes", ()), *report.chosen.best.notes),
             )
 
-        return OutcomeFacts(**_named(await jobs.run(ctx, work)))
+        return await jobs.run(ctx, work)
 
     @made.tool(annotations=_WRITES)
     async def edit(
@@ -204,10 +137,9 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
     ) -> EditedFacts:
         """Change a scene: it settles from where it was and is verified; an edit that cannot be changes nothing."""
 
-        def work(progress: Progress) -> dict[str, Any]:
+        def work(progress: Progress) -> EditedFacts:
             from pat3d.generation.editing.editable import load
             from pat3d.generation.editing.said import applied
-            from pat3d.generation.facts import edit_facts, outcome_facts
 
             target = root.named(out if out is not None else name)
             steps = [(step.verb, step.words) for step in edits]
@@ -221,11 +153,11 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
                 failures=written.failures,
                 verification=written.verification,
                 exports=written.exports,
-                seconds=done.proven.clock.seconds,
+                seconds=done.proven.clock.seconds["total"],
             )
-            return {**facts, **edit_facts(done.edits, done.proven.changes)}
+            return edited_facts(facts, done.edits, done.proven.changes)
 
-        return EditedFacts(**_named(await jobs.run(ctx, work)))
+        return await jobs.run(ctx, work)
 
 
 def _add_looking(made: MCPServer, root: Root, jobs: Jobs) -> None:
@@ -242,17 +174,7 @@ def _add_looking(made: MCPServer, root: Root, jobs: Jobs) -> None:
         """Search the catalogue of objects that can be made, by noun, synonym or family."""
 
         def work(progress: Progress) -> list[KindFacts]:
-            from pat3d.assets import catalogue
-
-            said = words.casefold().strip()
-            near = set(catalogue.nearest(said, 5)) if said else set()
-            return [
-                KindFacts(noun=one.noun, family=one.family, also_called=list(one.synonyms), material=one.material)
-                for one in catalogue.entries()
-                if not said
-                or said in " ".join((one.noun, one.family, *one.synonyms, *one.plurals))
-                or near & {one.noun, *one.synonyms}
-            ]
+            return kinds(words)
 
         return await jobs.run(ctx, work)
 
@@ -264,9 +186,8 @@ def _add_looking(made: MCPServer, root: Root, jobs: Jobs) -> None:
     ) -> OutcomeFacts:
         """Verify a scene folder again: its files, equilibrium, intersections, stillness in MuJoCo, relations."""
 
-        def work(progress: Progress) -> dict[str, Any]:
+        def work(progress: Progress) -> OutcomeFacts:
             from pat3d.check.folder import check_folder
-            from pat3d.generation.facts import outcome_facts
 
             report = check_folder(root.scene(name), seconds=seconds, progress=progress)
             if report.scene is None:
@@ -279,7 +200,7 @@ def _add_looking(made: MCPServer, root: Root, jobs: Jobs) -> None:
                 notes=report.notes,
             )
 
-        return OutcomeFacts(**_named(await jobs.run(ctx, work)))
+        return await jobs.run(ctx, work)
 
     @made.tool(annotations=_WRITES)
     async def export(
@@ -351,10 +272,9 @@ def _add_resources(made: MCPServer, root: Root) -> None:
     @made.resource("pat3d://scenes/{name}", mime_type="application/json")
     def scene(name: str) -> str:
         """The objects of a scene, where they are and what they rest on."""
-        from pat3d.generation.facts import scene_facts
         from pat3d.scene.io import load_scene
 
-        return json.dumps(scene_facts(load_scene(_found(root, name))))
+        return json.dumps(asdict(scene_facts(load_scene(_found(root, name)))))
 
     @made.resource("pat3d://scenes/{name}/report", mime_type="application/json")
     def report(name: str) -> str:
@@ -377,8 +297,3 @@ def _found(root: Root, name: str) -> Path:
         return root.scene(name)
     except Pat3dError as error:
         raise ResourceNotFoundError(str(error)) from error
-
-
-def _named(facts: dict[str, Any]) -> dict[str, Any]:
-    """Facts with a name in the folder in the place of a path."""
-    return {"name": facts.pop("folder"), **facts}
