@@ -18,6 +18,7 @@ FLOORS = (
     ("generation",),
     ("envs",),
     ("policies_eval",),
+    ("mcp_server",),
     ("cli",),
     ("__main__",),
 )

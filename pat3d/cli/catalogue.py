@@ -13,6 +13,7 @@ from pathlib import Path
 from pat3d.assets import catalogue as nouns
 from pat3d.cli import nouns_of_yours
 from pat3d.cli.console import console, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import PromptError, SpecError
 from pat3d.progress import Event, Progress
@@ -29,6 +30,7 @@ from pat3d.scene.naming import slug
     option("--out", "picture of NAME", metavar="PNG", shown="./NAME.png"),
     option("--schema", "print the JSON schema of nouns in YAML and stop", action="store_true"),
     option("--seed", "variation of what is drawn", type=int, default=0, shown=""),
+    JSON,
     examples="""
     pat3d catalogue                        list everything by family
     pat3d catalogue mug                    one object, with a picture in mug.png
@@ -48,6 +50,11 @@ def catalogue(options: argparse.Namespace) -> int:
         return 0
     if options.file is not None or options.name in nouns_of_yours.VERBS:
         return nouns_of_yours.do(options.name, options.file, out=options.out)
+    if options.json:
+        from pat3d.generation.facts import kinds
+
+        print_facts(kinds(options.name or ""))
+        return 0
     if options.name is not None:
         return one(options.name, seed=options.seed, out=options.out)
     if options.out is not None:

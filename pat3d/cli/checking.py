@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from pat3d.cli.console import console, show_engines, show_settings, show_verification, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import SpecError
 from pat3d.scene.physics import STILL_SECONDS
@@ -29,6 +30,7 @@ MAX_SECONDS = 600.0
         nargs="+",
         metavar="SETTING",
     ),
+    JSON,
     option("--seconds", "simulated time; 60 to see what creeps", type=float, default=STILL_SECONDS),
     examples="""
     pat3d check scenes/mug
@@ -43,6 +45,8 @@ def check(options: argparse.Namespace) -> int:
         raise SpecError(
             f"--seconds {options.seconds:g}: give a simulated time of more than 0 and at most {MAX_SECONDS:g} s."
         )
+    if options.json and (options.engines or options.settings):
+        raise SpecError("--json tells of the whole check; leave out --engines and --settings.")
     if options.engines:
         return _check_engines(options)
     if options.settings:
@@ -51,6 +55,18 @@ def check(options: argparse.Namespace) -> int:
 
     with watch(console(stderr=True)) as progress:
         report = check_folder(options.folder, seconds=options.seconds, progress=progress)
+    if options.json and report.scene is not None:
+        from pat3d.generation.facts import outcome_facts
+
+        facts = outcome_facts(
+            report.scene,
+            folder=options.folder,
+            failures=report.failures,
+            verification=report.verification,
+            notes=report.notes,
+        )
+        print_facts(facts)
+        return verdict(report.failures)
     if report.scene is not None and report.verification is not None:
         show_verification(console(), report.scene, report.verification)
     for note in report.notes:

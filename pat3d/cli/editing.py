@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, show_many, show_parity, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, fields, option
 from pat3d.cli.reading import PLANNER, PROXIES, planner_of
 from pat3d.errors import SpecError
@@ -26,7 +25,6 @@ LITTLE = 0.1
 """What moved by less than this [mm] is told in one line."""
 
 _SCENE = option("folder", "scene folder that generate, build or edit wrote", metavar="SCENE")
-_JSON = option("--json", "print what came of it as JSON, in the form of docs/json.md", action="store_true")
 
 
 class _InOrder(argparse.Action):
@@ -56,7 +54,7 @@ def _edit(verb: str, help: str) -> Any:
     PLANNER,
     PROXIES,
     *fields(Settings, {"device": {"choices": DEVICES}}, device="where to simulate"),
-    _JSON,
+    JSON,
     examples="""
     pat3d edit scenes/desk --remove "bottom book" --out scenes/desk2
     pat3d edit scenes/desk --add "a coffee mug on the stack of books" --set "coffee mug: mass=0.3"
@@ -83,15 +81,17 @@ def edit(options: argparse.Namespace) -> int:
         return 1
     seconds = dict(proven.clock.seconds)
     if options.json:
-        facts = {
-            "folder": str(out),
-            "passed": not written.failures,
-            "failures": list(written.failures),
-            "edits": [str(one) for one in done.edits],
-            **proven.changes.as_dict(),
-            "seconds": seconds,
-        }
-        print(json.dumps(facts, indent=2))
+        from pat3d.generation.facts import edited_facts, outcome_facts
+
+        outcome = outcome_facts(
+            done.scene,
+            folder=out,
+            failures=written.failures,
+            verification=written.verification,
+            exports=written.exports,
+            seconds=seconds["total"],
+        )
+        print_facts(edited_facts(outcome, done.edits, proven.changes))
     else:
         target = console()
         show_changes(target, done.edits, proven.changes)
@@ -114,7 +114,7 @@ def edit(options: argparse.Namespace) -> int:
     option("--seed", "of the variations", type=int, default=0),
     option("--out", "folder for the scenes, one folder each", metavar="FOLDER", required=True),
     *fields(Settings, {"device": {"choices": DEVICES}}, device="where to simulate"),
-    _JSON,
+    JSON,
     examples="""
     pat3d vary scenes/desk --count 50 --layout --objects same-kind --materials --out suites/desks
     pat3d vary scenes/desk --count 5 --layout --out suites/places       the same command goes on where it stopped
@@ -145,7 +145,7 @@ def vary(options: argparse.Namespace) -> int:
             how = "there already" if row.kept else row.state
             errors.print(f"{len(rows)}/{options.count} {row.folder}: {how}", markup=False, soft_wrap=True)
     if options.json:
-        print(json.dumps([asdict(row) for row in rows], indent=2))
+        print_facts(rows)
     else:
         show_many(console(), rows)
     return max(row.exit_code for row in rows)

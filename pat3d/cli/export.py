@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
@@ -75,6 +76,7 @@ _MESH_OPTIONS = (
         shown=MESH_PATHS[0],
     ),
     *_MESH_OPTIONS,
+    JSON,
     examples="""
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
@@ -98,7 +100,11 @@ def export(options: argparse.Namespace) -> int:
             raise SpecError(
                 f"--{next(iter(mesh)).replace('_', '-')} is for meshes; {source} is a scene, whose objects are weighed."
             )
-        code = _scene(source if source.is_dir() else source.parent, out, formats, usd, mesh_paths)
+        folder = source if source.is_dir() else source.parent
+        code = _scene(folder, out, formats, usd, mesh_paths, as_json=options.json)
+        notes = [] if options.json else notes
+    elif options.json:
+        raise SpecError(f"--json tells of scenes; summary.json beside each mesh has the same for {source}.")
     else:
         code = _meshes(source, out, formats, usd, mesh_paths, mesh)
     for note in notes:
@@ -117,7 +123,9 @@ def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:
     ]
 
 
-def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str) -> int:
+def _scene(
+    folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str, *, as_json: bool
+) -> int:
     from pat3d.scene.io import load_scene
 
     with watch(console(stderr=True)) as progress:
@@ -129,13 +137,20 @@ def _scene(folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any
             set_mesh_paths(paths["urdf"].parent, mesh_paths)
         record_checksums(out, formats)
         reports = {name: parity(scene, path) for name, path in paths.items() if name not in VIEWS}
+    failures = tuple(line for report in reports.values() for line in report.failures)
+    if as_json:
+        from pat3d.generation.facts import ExportFacts
+
+        files = {name: str(path) for name, path in paths.items()}
+        print_facts(ExportFacts(folder=str(out), passed=not failures, failures=list(failures), files=files))
+        return verdict(failures)
     target = console()
     if reports:
         target.print(parity_table(reports))
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
-    return verdict(tuple(line for report in reports.values() for line in report.failures))
+    return verdict(failures)
 
 
 def _meshes(

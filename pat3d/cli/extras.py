@@ -18,6 +18,7 @@ ENABLES = {
     "eval": "policy evaluation: records, servers, films, demonstrations",
     "ray": "suites made by a cluster",
     "models": "sentences read, and pictures judged, by a language model",
+    "mcp": "tools for other programs, by the Model Context Protocol",
     "gpu": "thousands of scenes at once on a GPU",
     "all": "all of these",
 }

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
 from pat3d.cli.reading import CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
 from pat3d.errors import SpecError
@@ -51,6 +52,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
+    JSON,
     examples="""
     pat3d generate "a red mug on a wooden table" --out scenes/mug
     pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
@@ -87,7 +89,7 @@ def generate(options: argparse.Namespace) -> int:
             from pat3d.plan.scene_plan import Decided
 
             outcome = run_prompt(options.prompt, planner=Decided(decided=plan, source=planner), **common)
-    return _finished(outcome, options.out)
+    return _finished(outcome, options)
 
 
 def _generate_many(options: argparse.Namespace, settings: Settings) -> int:
@@ -110,8 +112,11 @@ def _generate_many(options: argparse.Namespace, settings: Settings) -> int:
             rows.append(row)
             how = "there already" if row.kept else row.state
             errors.print(f"{len(rows)}/{len(prompts)} {row.folder}: {how}", markup=False, soft_wrap=True)
-    show_many(console(), rows)
-    console().print(f"\ntable: {Path(options.out) / TABLE}", markup=False, soft_wrap=True)
+    if options.json:
+        print_facts(rows)
+    else:
+        show_many(console(), rows)
+        console().print(f"\ntable: {Path(options.out) / TABLE}", markup=False, soft_wrap=True)
     return max(row.exit_code for row in rows)
 
 
@@ -120,6 +125,7 @@ def _generate_many(options: argparse.Namespace, settings: Settings) -> int:
     option("--schema", "print the JSON schema of specifications and stop", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS | _FROM_FILE, **_HELPS),
+    JSON,
     examples="""
     pat3d build scene.yaml --out scenes/mine
     pat3d build --schema > scene.schema.json
@@ -138,9 +144,24 @@ def build(options: argparse.Namespace) -> int:
         raise SpecError("give the specification and the folder to write: pat3d build scene.yaml --out scenes/NAME.")
     with watch(console(stderr=True)) as progress:
         outcome = run_spec(options.spec, out=options.out, progress=progress, **values(Settings, options))
-    return _finished(outcome, options.out)
+    return _finished(outcome, options)
 
 
-def _finished(outcome: Outcome, out: str) -> int:
-    show_report(console(), outcome.report, Path(out))
+def _finished(outcome: Outcome, options: argparse.Namespace) -> int:
+    report = outcome.report
+    if options.json:
+        from pat3d.generation.facts import outcome_facts
+
+        facts = outcome_facts(
+            outcome.scene,
+            folder=options.out,
+            failures=report.failures,
+            verification=report.chosen.checked.verification,
+            exports=report.exports,
+            seconds=report.seconds["total"],
+            notes=(*report.understood.get("notes", ()), *report.chosen.best.notes),
+        )
+        print_facts(facts)
+    else:
+        show_report(console(), report, Path(options.out))
     return verdict(outcome.report.failures)

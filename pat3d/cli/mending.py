@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from pat3d.cli.console import console, show_optimized, show_settled, verdict, watch
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, fields, option
 from pat3d.generation.optimize_stage import available, missing
 from pat3d.generation.settings import DEVICES, Settings
@@ -21,6 +22,7 @@ _DEVICE = fields(Settings, {"device": {"choices": DEVICES}}, device="where to si
     _SCENE,
     _OUT,
     *_DEVICE,
+    JSON,
     examples="""
     pat3d settle scenes/desk                     after you edited poses in scenes/desk/scene.json
     pat3d settle scenes/desk --out scenes/desk2  write another folder, leave this one as it is
@@ -32,7 +34,20 @@ def settle(options: argparse.Namespace) -> int:
 
     with watch(console(stderr=True)) as progress:
         outcome = settle_folder(options.folder, out=options.out, device=options.device, progress=progress)
-    show_settled(console(), outcome)
+    if options.json:
+        from pat3d.generation.facts import outcome_facts
+
+        facts = outcome_facts(
+            outcome.scene,
+            folder=options.out or options.folder,
+            failures=outcome.written.failures,
+            verification=outcome.written.verification,
+            exports=outcome.written.exports,
+            seconds=outcome.seconds,
+        )
+        print_facts(facts)
+    else:
+        show_settled(console(), outcome)
     return verdict(outcome.written.failures)
 
 

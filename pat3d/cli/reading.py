@@ -7,6 +7,7 @@ import sys
 from functools import cache
 from typing import TYPE_CHECKING
 
+from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.plan.describe import describe
 from pat3d.plan.grammar.names import known_names
@@ -84,6 +85,7 @@ def chat() -> Chat:
     PROXIES,
     PLANNER,
     LIBRARIES,
+    JSON,
     examples="""
     pat3d plan "a laptop, a mouse and two glasses on a desk"
     pat3d plan "put the soup in the basket"                        the scene before, and the task
@@ -93,6 +95,11 @@ def chat() -> Chat:
 def plan(options: argparse.Namespace) -> int:
     """`pat3d plan`."""
     made = planner_of(options).plan(options.prompt)
+    if options.json:
+        from pat3d.generation.facts import plan_facts
+
+        print_facts(plan_facts(made))
+        return 0
     print(f"{tell(made)}\n\n{describe(made)}")
     if made.task is not None:
         print(f"task: {made.task}")
