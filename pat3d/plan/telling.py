@@ -163,7 +163,11 @@ class _Teller:
     def _postures(self) -> list[str]:
         held = {one.object: one.kind for one in self._plan.turned()}
         kinds = {"upside_down": "upside down", "on_its_side": "on its side"}
-        return [f"{self._the(name)} {self._is([name])} {kinds[kind]}" for name, kind in held.items() if kind in kinds]
+        told = {name: kinds[kind] for name, kind in held.items() if kind in kinds}
+        # What lies by nature and is said to stand does so on its edge.
+        on_end = {one.object for one in self._plan.postures if re.search(r"upright|end|edge", one.said)}
+        told |= {name: "on its edge" for name in told if name in on_end and held[name] == "on_its_side"}
+        return [f"{self._the(name)} {self._is([name])} {how}" for name, how in told.items()]
 
     def _is(self, names: Sequence[str]) -> str:
         return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"

@@ -67,6 +67,7 @@ def held(plan: ScenePlan) -> set[str]:
         ("A tray that carries two cups, one upside down.", {"cup 1 upside_down"}),
         ("An inverted bowl on a plate.", {"bowl upside_down"}),
         ("A bottle standing upright on a table.", {"bottle upright"}),
+        ("A book on end on a shelf.", {"book on_its_side"}),
     ],
 )  # fmt: skip
 def test_what_is_said_is_held(sentence: str, wanted: set[str]):
@@ -87,7 +88,7 @@ def test_what_is_said_is_held(sentence: str, wanted: set[str]):
         ("A chair hanging from a tree, with a ball under it.", "under"),
         ("A book under a lamp.", ""),
         ("Two balls in a circle.", "in a circle"),
-        ("Three books standing upright.", "upright"),
+        ("Three forks standing upright.", "upright"),
         ("A bear lying on its back.", "lying on its back"),
         ("A mug rotated by 45 degrees.", "rotated by 45 degrees"),
         ("A cup tilted to one side.", "tilted"),

@@ -112,8 +112,8 @@ def test_a_size_that_nothing_has_is_refused(planner: GrammarPlanner, prompt: str
         ("a 20 cm tall, 10 cm wide vase",
          '"10 cm wide" is left out: "a 20 cm tall, 10 cm wide vase" has a size already and keeps its proportions.'),
         # Postures
-        ("Three books standing upright",
-         'not arranged: "upright"; "Three books" is placed the way the catalogue makes it'),
+        ("Three forks standing upright",
+         'not arranged: "upright"; "Three forks" is placed the way the catalogue makes it'),
         ("A mug rotated by 45 degrees",
          'not arranged: "rotated by 45 degrees"; "A mug" is placed the way the catalogue makes it'),
         ("A mug with its handle facing right",

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from pat3d.assets.catalogue.registry import RGB, Build, Style
-from pat3d.assets.shapes import Shape, ellipsoid, join
+from pat3d.assets.shapes import Shape, convex, ellipsoid, join
 from pat3d.geometry.rotations import frame_along
 from pat3d.scene.asset import Region
 
@@ -152,3 +152,14 @@ def finish(
         ),
         mass=None if mass is None else mass * sx * sy * sz,
     )
+
+
+def foot(x: float, y: float, wide: float, long: float, thick: float) -> Shape:
+    """A flat three-toed foot [m]: a wedge that widens to the front."""
+    outline = [
+        (x - wide * 0.3, y + long * 0.5),
+        (x + wide * 0.3, y + long * 0.5),
+        (x + wide, y - long * 0.5),
+        (x - wide, y - long * 0.5),
+    ]
+    return convex([(px, py, z) for px, py in outline for z in (0.0, thick)])

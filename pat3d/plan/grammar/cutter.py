@@ -28,6 +28,8 @@ _EMPTY = frozenset({
     "did", "about", "all", "at", "there", "here", "too", "well", "as", "is", "are",
 })  # fmt: skip
 """Words that mean nothing by themselves."""
+_HANGING = frozenset({"hanging", "hung", "suspended", "dangling", "hangs", "hang", "dangles"})
+"""Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
 
 
@@ -118,6 +120,8 @@ class Cutter(Asides):
             self._add("verb")
             return self._quality()
         if word in lexicon.VERBS and not (self._opens and follower == "of") and not self._names(word, follower):
+            if word in _HANGING:
+                self._made.unread.append(word)
             return self._add("verb")
         if self._meaningless(word, follower):
             return self._drop()
@@ -250,6 +254,8 @@ class Cutter(Asides):
         """Whether a word that is in no chunk changes what the sentence says."""
         word = token.text
         empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
+        if word in _HANGING:
+            return True
         return not (token.mark or word in empty or is_marked(word) or word in _MODALS | _JOINTS | ABOUT)
 
     def _meaningless(self, word: str, follower: str) -> bool:

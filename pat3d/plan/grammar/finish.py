@@ -8,7 +8,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import arranging, lexicon
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
-from pat3d.plan.grammar.postures import is_held, kind_of
+from pat3d.plan.grammar.postures import is_held, kind_of, stands_on_edge
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
@@ -245,8 +245,10 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
     for item, name in names.items():
         group = item.group
         for said in dict.fromkeys((*group.modifiers.postures, *item.told.postures)):
-            held = is_held(said, lies=world.is_a(item, lexicon.LYING))
-            made.append(Posture(object=name, kind=kind_of(said), said=said, arranged=held))
+            kind, held = kind_of(said), is_held(said, lies=world.is_a(item, lexicon.LYING))
+            if kind in ("upright", "on_its_side") and stands_on_edge(said) and world.is_a(item, lexicon.ON_EDGE):
+                kind, held = "on_its_side", True
+            made.append(Posture(object=name, kind=kind, said=said, arranged=held))
             if not held:
                 note = f'not arranged: "{said}"; "{group.words}" is placed the way the catalogue makes it'
                 world.note(note)

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
-from pat3d.plan.grammar.modifiers import Modifiers, read_modifiers
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, read_modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.placing import Placing
@@ -246,6 +246,9 @@ class Interpreter(Placing):
 
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
+        if not items and told != NO_MODIFIERS:
+            said = " ".join(self._chunks[head].text for head in heads)
+            self._world.note(f'not understood: how "{said}" is described')
         for group in dict.fromkeys(item.group for item in items):
             self._maker.note_adjectives(self._world, group.phrase, told)
             if all(item in items for item in group.items):

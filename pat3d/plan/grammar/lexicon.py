@@ -239,6 +239,8 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
     "envelope")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
+ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
+"""What lies and can stand on its edge: "upright" and "on end" say that of it."""
 NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket",
     "radio", "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher",
     "tray")  # fmt: skip

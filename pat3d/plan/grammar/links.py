@@ -106,8 +106,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
     add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))
-    for near in ("at", "on", "near", "in", "by"):
-        for part in ("edge", "corner", "end"):
+    for near in ("at", "on", "near", "in", "by", "along"):
+        for part in ("edge", "corner", "end", "rim", "border"):
             place = f"{near} the {part} of"
             add(Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge"), place)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",

@@ -22,8 +22,15 @@ _NEGATIONS = frozenset({
     "wasn't", "weren't", "hasn't", "haven't",
 })  # fmt: skip
 _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
+_MIDDLES = ("centre", "center", "middle")
 _ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
 """Ordinals after "every"."""
+_ITS: dict[tuple[str, str], tuple[str, ...]] = {
+    **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in _MIDDLES},
+    **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
+    **{(near, "side"): ("next", "to") for near in ("at", "by")},
+}
+"""Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
 _SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
@@ -41,7 +48,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """
     tokens = _without(tokens, _SILENT)
     _refuse_negations(tokens)
-    tokens = _sides_of(_perfect(_parentheses(text, tokens, nouns)), nouns)
+    tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(_plain_words(_kinds(tokens, nouns), nouns), nouns))
 
@@ -130,6 +137,25 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
             made[-1] = replace(made[-1], text="is" if made[-1].text == "has" else "are")
         else:
             made.append(token)
+    return made
+
+
+def _its_places(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "at its centre" as "in the middle of it", and "at its side" as "next to it"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = tuple(token.text for token in tokens[at : at + 3])
+        told = _ITS.get((words[0], words[2])) if len(words) == 3 and words[1] in ("its", "their") else None
+        if told is not None:
+            pronoun = "it" if words[1] == "its" else "them"
+            places = (0, *(1 for _ in told[1:-1]), 1, 2) if len(told) > 1 else (0, 2)
+            said = (*told, pronoun)
+            made += [replace(tokens[at + place], text=word) for place, word in zip(places, said, strict=True)]
+            at += 3
+        else:
+            made.append(tokens[at])
+            at += 1
     return made
 
 

@@ -16,6 +16,7 @@ from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.paraphrase import plainer, reordered
@@ -33,6 +34,8 @@ TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
 CLOSE = 0.13
 """Readings that differ by less in cost are both told."""
+_TELLING = lexicon.COPULAS | lexicon.VERBS | {key[0] for key, link in LINKS.items() if link.finite}
+"""Verbs of clauses."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
@@ -179,11 +182,16 @@ def _copied(world: World) -> World:
 
 
 def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:
-    """`tokens` cut after every stop."""
+    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other."""
     made: list[list[Token]] = [[]]
-    for token in tokens:
-        made[-1].append(token)
-        if token.text == ".":
+    for at, token in enumerate(tokens):
+        words = [each.text for each in tokens[at + 1 : at + 5]]
+        # "Two buckets: the green one holds three balls, the red one is empty."
+        clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in _TELLING
+        told = token.text == "," and any(each.text in _TELLING for each in made[-1])
+        begins = clause and (token.text == ":" or told)
+        made[-1].append(replace(token, text=".") if begins else token)
+        if token.text == "." or begins:
             made.append([])
     return [sentence for sentence in made if len(sentence) > 1]
 

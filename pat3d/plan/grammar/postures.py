@@ -12,7 +12,7 @@ from pat3d.plan.scene_plan import PostureKind
 POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
-    r"|on (?:its|their) sides?(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
+    r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
     r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
@@ -50,10 +50,15 @@ def is_held(posture: str, *, lies: bool) -> bool:
     return held and (not lies or kind_of(posture) == "upside_down")
 
 
+def stands_on_edge(posture: str) -> bool:
+    """Whether `posture` says of what lies by nature that it stands on one of its narrow faces."""
+    return re.search(r"upright|on end|edge|side", posture.lower()) is not None
+
+
 def kind_of(posture: str) -> PostureKind:
     """What kind of posture `posture` is."""
     words = posture.lower()
-    if "upright" in words or words == "on end":
+    if "upright" in words or words == "on end" or "edge" in words:
         return "upright"
     if re.search(r"upside|bottom|face[ -]?down|inverted|overturned|flipped|turned over|head", words):
         return "upside_down"

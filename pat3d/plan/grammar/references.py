@@ -21,6 +21,11 @@ _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "talle
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
 
+def _told_apart(group: Group) -> bool:
+    """Whether members of `group` are told by their colours."""
+    return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
+
+
 class References(Pronouns):
     """Resolves the phrases of one sentence."""
 
@@ -201,11 +206,16 @@ class References(Pronouns):
         whole = next((group for group in groups if len(group.items) > count and group.height == 1), None)
         if whole is None:
             whole = next((group for group in groups if len(group.items) >= count), None)
+            tall = next((group for group in groups if where and len(group.items) > count), None)
+            if tall is not None:
+                return self._at(tall.items, where, phrase)
             return list(whole.items[:count]) if whole is not None else []
         if where:
             return self._at(whole.items, where, phrase)
         if rest:
-            return list(whole.items[len(whole.items) - count :])
+            free = [item for item in whole.items if world.support(item) is None] or whole.items
+            count = count if phrase.count or phrase.head == "other" else len(free)
+            return list(free[len(free) - count :])
         world.telling = whole.items[count:]
         return list(whole.items[:count])
 
@@ -239,9 +249,17 @@ class References(Pronouns):
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
                 return own[:count] if phrase.count is not None or not phrase.plural else own
+        if phrase.definite and words.colours:
+            # "Two buckets: the green one holds three balls, the red one is empty": of those told by colour.
+            groups = sorted(groups, key=lambda group: not _told_apart(group))
         whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
         if whole is None:
             return []
+        told = next((group for group in self._world.groups[::-1] if group.modifiers.colours), None)
+        anew = phrase.determined and not phrase.definite and len(whole.items) == 1 and not colours_of(whole.items[0])
+        if words.colours and anew and told is not None and told is not whole:
+            # "a red ball in the left box and a blue one in the right box": of what has another colour.
+            whole = told
         if (
             words.palette
             or (not phrase.determined and phrase.count is None)
