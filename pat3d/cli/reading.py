@@ -53,7 +53,7 @@ def planner_of(options: argparse.Namespace) -> Planner:
     if options.planner == "llm":
         from pat3d.plan.llm.planner import LLMPlanner
 
-        return LLMPlanner(chat(), options.allow_proxies, options.libraries)
+        return LLMPlanner(chat(), options.allow_proxies, options.libraries, composes=not options.allow_proxies)
     kind = AskingPlanner if getattr(options, "ask", False) else GrammarPlanner
     return kind(options.allow_proxies, vocabulary=known_names(options.libraries))
 

@@ -36,7 +36,7 @@ MAX_DEPTH = 12
 _LENGTH = {
     "description": "a number, a parameter, or a sum of multiples of parameters such as {h: 1, r: -0.5, plus: 0.01}",
     "anyOf": [
-        {"type": "number", "minimum": -LARGEST, "maximum": LARGEST},
+        {"type": "number", "minimum": -1000, "maximum": 1000},
         {"type": "string", "pattern": "^[a-z][a-z0-9_]{0,30}$"},
         {
             "type": "object",
@@ -109,6 +109,12 @@ VERBS: dict[str, Any] = {
     ),
     "tray": _record({"size": _TRIPLE, "wall": _LENGTH, "floor": _LENGTH}, {"flare": _LENGTH}),
     "join": {**_list(_SHAPE, 1, 200), "description": "shapes of one colour"},
+    "cut": {**_record({"of": _SHAPE, "holes": _list(_SHAPE, 1, 100)}),
+            "description": "holes that are only seen: the convex parts stay whole"},
+    "dressed": {**_record({"looks": _SHAPE, "parts": _SHAPE}),
+                "description": "the look of one shape with the convex parts of another, which contains it"},
+    "wrap": {**_SHAPE, "description": "a convex shape with one part of 18 sides around it"},
+    "ball": {**_LENGTH, "description": "radius of a ball that lies on a flat of its convex part, on z = 0"},
     "use": {"type": "string", "description": "a shape of `shapes`"},
 }  # fmt: skip
 """What a shape is made by; exactly one in each shape."""
@@ -155,6 +161,7 @@ REGION = _record(
         "rectangle": {**_PAIR, "description": "full sizes along x and y"},
         "at": {**_TRIPLE, "description": "centre of the floor"},
         "height": _LENGTH,
+        "enclosed": {"type": "boolean", "description": "Whether something above limits what goes there."},
         "cavity": _record(
             {"inner": _PROFILE},
             {"levels": _list(_LENGTH, 0, 16), "segments": _SEGMENTS},
@@ -181,7 +188,7 @@ SCHEMA: dict[str, Any] = {
                 "propertyNames": {"pattern": "^[a-z][a-z0-9_]{0,30}$", "not": {"const": "plus"}},
                 "additionalProperties": {
                     "anyOf": [
-                        {"type": "number", "minimum": -LARGEST, "maximum": LARGEST},
+                        {"type": "number", "minimum": -1000, "maximum": 1000},
                         _record(
                             {"value": _LENGTH},
                             {

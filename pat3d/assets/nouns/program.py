@@ -10,15 +10,19 @@ from typing import Any
 import numpy as np
 
 from pat3d.assets.catalogue.common import cavity, height, length
+from pat3d.assets.catalogue.joinery import cut, dressed, wrapped
 from pat3d.assets.catalogue.registry import RGB, Build, Entry, Style
 from pat3d.assets.colours import COLOURS, find_colour
 from pat3d.assets.nouns.language import LARGEST, MAX_COPIES, MAX_DEPTH, MAX_HULLS, MAX_SHAPES, SCHEMA, VERBS
 from pat3d.assets.nouns.verbs import MADE, stepped
 from pat3d.assets.rounded import merged
 from pat3d.assets.shapes import Shape
-from pat3d.errors import AssetError, Pat3dError, SpecError
+from pat3d.errors import Pat3dError, SpecError
 from pat3d.scene.asset import Region
 from pat3d.scene.yaml_source import Place, Source, nearest, read_yaml, validate
+
+WITHIN = ("cut", "dressed", "wrap")
+"""Verbs of other shapes, besides `join`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +30,8 @@ class Program:
     """A valid noun; whether its shapes join is found when it is made."""
 
     source: Source
+    text: str
+    """As written."""
     entry: Entry
 
 
@@ -41,6 +47,7 @@ def read_noun(path: Path) -> Program:
     _check(source, document)
     return Program(
         source=source,
+        text=path.read_text(encoding="utf-8"),
         entry=Entry(
             noun=document["noun"],
             recipe=lambda style: build(source, style),
@@ -106,6 +113,13 @@ def _check_shape(
     if verb == "join":
         for at, child in enumerate(shape["join"]):
             _check_shape(source, (*place, "join", at), child, known, named, depth + 1)
+    elif verb == "wrap":
+        _check_shape(source, (*place, "wrap"), shape["wrap"], known, named, depth + 1)
+    elif verb in WITHIN:
+        for key, child in shape[verb].items():
+            for at, one in enumerate(child if isinstance(child, list) else [child]):
+                where = (*place, verb, key, at) if isinstance(child, list) else (*place, verb, key)
+                _check_shape(source, where, one, known, named, depth + 1)
     elif verb == "use":
         if shape["use"] not in named:
             raise source.error(
@@ -211,6 +225,8 @@ class _Maker:
                 made = merged([self._shape(one, (*place, "join", at)) for at, one in enumerate(said["join"])])
             elif verb == "use":
                 made = self._shapes[said["use"]]
+            elif verb in WITHIN:
+                made = self._within(verb, said[verb], place)
             else:
                 made = MADE[verb](self._numbers(said[verb]))
             for step in said.get("then", ()):
@@ -231,9 +247,20 @@ class _Maker:
         ) as error:
             text = " ".join(str(error).split())[:160]
             raise self._source.error(place, f"this {verb} cannot be made: {text}") from error
+        if np.abs(made.solid.bounding_box()).max(initial=0.0) > LARGEST and made.hulls:
+            raise self._source.error(place, f"this {verb} reaches further than {LARGEST:g} m from the origin.")
         if made.solid.is_empty():
             raise self._source.error(place, f"this {verb} is empty: nothing is left, or a size is not positive.")
         return made
+
+    def _within(self, verb: str, said: Any, place: Place) -> Shape:
+        """A verb of other shapes."""
+        if verb == "cut":
+            holes = [self._shape(one, (*place, "cut", "holes", at)) for at, one in enumerate(said["holes"])]
+            return cut(self._shape(said["of"], (*place, "cut", "of")), *holes)
+        if verb == "dressed":
+            return dressed(*(self._shape(said[key], (*place, "dressed", key)) for key in ("looks", "parts")))
+        return wrapped(self._shape(said, (*place, "wrap")))
 
     def _spend(self, count: int, place: Place) -> None:
         self._left -= count
@@ -256,10 +283,9 @@ class _Maker:
         if isinstance(value, str):
             return self._values[value]
         if isinstance(value, dict):
-            found = sum(factor * (1.0 if name == "plus" else self._values[name]) for name, factor in value.items())
-            if abs(found) > LARGEST:
-                raise AssetError(f"a length of {found:g} m; at most {LARGEST:g} are made.")
-            return float(found)
+            return float(
+                sum(factor * (1.0 if name == "plus" else self._values[name]) for name, factor in value.items())
+            )
         return value
 
     def _point(self, value: Sequence[Any]) -> tuple[float, float, float]:
@@ -279,6 +305,7 @@ class _Maker:
             floor=self._point(said["at"]),
             half_size=(float(half[0]), float(half[1])),
             height=float(self._length(said["height"])) if "height" in said else float("inf"),
+            enclosed=said.get("enclosed", False),
         )
 
 

@@ -96,5 +96,5 @@ class OwnNouns:
 def keep(program: Program, source: str = OWN) -> str:
     """Keep a noun under its name, in place of an earlier one of that name; returns what plans call it."""
     key = slug(program.entry.noun)
-    write_text(noun_folder(source) / f"{key}.yaml", program.source.path.read_text(encoding="utf-8"))
+    write_text(noun_folder(source) / f"{key}.yaml", program.text)
     return f"{source}{APART}{key}"

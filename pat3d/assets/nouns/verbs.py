@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from pat3d.assets import rounded, shapes
+from pat3d.assets.catalogue.joinery import resting_ball
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError
 
@@ -81,6 +82,7 @@ MADE: Mapping[str, Callable[[Any], Shape]] = {
     "hollow": lambda said: rounded.hollow(
         _rising(said["outer"]), _rising(said["inner"]), said.get("levels", ()), int(said.get("segments", 12))
     ),
+    "ball": lambda said: resting_ball(said),
     "tray": lambda said: shapes.tray(*said["size"], said["wall"], said["floor"], said.get("flare", 0.0)),
 }
 """What makes a shape of every verb's numbers, but for `join` and `use`."""

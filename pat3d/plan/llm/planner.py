@@ -22,6 +22,8 @@ MAX_CHARACTERS = 4000
 """Of a prompt."""
 MAX_NAME = 80
 """Characters of an object's name."""
+MAX_COMPOSED = 5
+"""Nouns that are composed for one prompt."""
 PROXY = "box"
 _SCALE = (0.05, 20.0)
 _TASK = re.compile(r"sort|(pick|unload):([^:]+)|(place|stack):([^:]+):([^:]+)")
@@ -39,9 +41,19 @@ class Answer:
 class LLMPlanner:
     """Plans prompts of any language with the model that `chat` asks."""
 
-    def __init__(self, chat: Chat, allow_proxies: bool = False, libraries: Sequence[str] = ()) -> None:
-        """Ask `chat`; with `allow_proxies` plain boxes stand in for what catalogue and `libraries` lack."""
-        self._chat, self._libraries = chat, libraries
+    def __init__(
+        self, chat: Chat, allow_proxies: bool = False, libraries: Sequence[str] = (), *, composes: bool = False
+    ) -> None:
+        """Ask `chat`; what catalogue and `libraries` lack becomes a plain box, or the model composes it.
+
+        Args:
+            chat: the model.
+            allow_proxies: plain boxes stand in for what nothing has.
+            libraries: to take objects from before the catalogue.
+            composes: the model describes what nothing has in the shape language, and it is kept.
+        """
+        self._chat, self._libraries, self._composes = chat, libraries, composes
+        self._composed: dict[str, str] = {}
         self._proxies = allow_proxies
         self._cost: dict[str, int] = {}
 
@@ -52,6 +64,7 @@ class LLMPlanner:
             PromptError: the prompt is empty or too long, or names what the catalogue lacks.
             ModelError: the model gives no plan that can be made.
         """
+        self._composed = {}
         return self._ask(prompt, self._messages(prompt))
 
     def revise(self, prompt: str, plan: ScenePlan, faults: Sequence[str]) -> ScenePlan:
@@ -74,7 +87,13 @@ class LLMPlanner:
     def record(self) -> dict[str, Any]:
         """What the report says: the model, and what the last plan has cost."""
         settings = self._chat.settings
-        return {"planner": "llm", "model": settings.name, "server": settings.server, **self._cost}
+        return {
+            "planner": "llm",
+            "model": settings.name,
+            "server": settings.server,
+            **self._cost,
+            **({"composed": self._composed} if self._composed else {}),
+        }
 
     def _messages(self, prompt: str) -> list[Message]:
         if not prompt.strip():
@@ -104,6 +123,8 @@ class LLMPlanner:
         before = self._chat.usage.as_dict()
         answer = self._chat.ask(messages, shape, made=made)
         self._cost = {name: count - before[name] for name, count in self._chat.usage.as_dict().items()}
+        if answer.missing and self._composes and not self._composed:
+            return self._composing(prompt, answer.missing, messages, before)
         if answer.missing:
             words = ", ".join(f'"{word}"' for word in answer.missing)
             raise PromptError(
@@ -111,6 +132,20 @@ class LLMPlanner:
                 "build, or accept a plain box with --allow-proxies."
             )
         return _noted(answer.plan)
+
+    def _composing(
+        self, prompt: str, missing: Sequence[str], messages: list[Message], before: Mapping[str, int]
+    ) -> ScenePlan:
+        """The plan of `prompt` once the model has composed what is `missing`; `before` is what was used before it."""
+        from pat3d.plan.llm.composing import compose
+
+        for words in missing[:MAX_COMPOSED]:
+            self._composed[words] = compose(self._chat, words)
+        self.__dict__.pop("_names", None)
+        plan = self._ask(prompt, [*self._messages(prompt), *messages[2:]])
+        self._cost = {name: count - before[name] for name, count in self._chat.usage.as_dict().items()}
+        told = tuple(f'"{words}": the model composed {noun}; look at it.' for words, noun in self._composed.items())
+        return replace(plan, notes=(*plan.notes, *told))
 
     @cached_property
     def _names(self) -> Mapping[str, Sequence[str]]:
