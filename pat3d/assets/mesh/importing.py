@@ -75,6 +75,8 @@ def import_mesh(
 ) -> Asset:
     """Read, repair, weigh and decompose a mesh file.
 
+    The same file with the same arguments is the same asset, whose files a scene and its exports hold once.
+
     Args:
         path: an OBJ, STL, PLY, OFF, GLB or glTF file.
         name: noun of the asset; the file's stem where None.
@@ -104,8 +106,7 @@ def import_mesh(
         *map(str, (name, units, scale, size, up, density, mass, material, friction, parts, thickness, cache_dir)),
     )
     if key in _imported:
-        # A copy, since objects that share an asset share its files.
-        return replace(_imported[key])
+        return _imported[key]
     seconds = DECOMPOSITION_SECONDS if cpu_limit is None else cpu_limit
     budget = CpuBudget(seconds)
     loaded = load_mesh(path, texture_root=texture_root)
@@ -160,7 +161,7 @@ def import_mesh(
             "lifted": float(lift[2]),
         },
     )
-    return replace(_imported[key])
+    return _imported[key]
 
 
 def _moved(part: ConvexPart, offset: NDArray[np.float64]) -> ConvexPart:
