@@ -85,7 +85,8 @@ class Spec:
 
     def make_objects(self, seed: int, progress: Progress, budget: CpuBudget) -> tuple[UnplacedObject, ...]:
         """The assets, in the order of the specification."""
-        found = []
+        found: list[UnplacedObject] = []
+        same: dict[int, tuple[Asset, Asset]] = {}
         # Of what carries one thing together, the same noun is the same thing: a pyramid needs cans of one height.
         together = built_together([obj["name"] for obj in self.objects], self.relations)
         for number, obj in enumerate(self.objects):
@@ -93,11 +94,13 @@ class Spec:
             name: str = obj["name"]
             own = derived_seed(seed, together.get(name, name))
             try:
-                asset = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
+                made = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
             except (AssetError, PromptError) as error:
                 key = "mesh" if "mesh" in obj else "noun"
                 place = ("objects", number, key)
                 raise self.source.error(place, f'"{obj["name"]}": {error}') from error
+            # One asset is stored once. What was made is kept beside it, so that its identity is not used again.
+            _, asset = same.setdefault(id(made), (made, _timeless(made)))
             mass = asset.mass_properties.mass
             if not LIGHTEST <= mass <= HEAVIEST:
                 key = next((key for key in ("mass", "density", "mesh") if key in obj), "noun")
@@ -127,13 +130,9 @@ class Spec:
         # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
         home = self.source.path.parent.resolve()
         root = home if path.resolve().is_relative_to(home) else None
-        asset = import_mesh(
+        return import_mesh(
             path, texture_root=root, cpu_limit=cpu_limit, **{key: obj[key] for key in keys if key in obj}
         )
-        record = dict(asset.provenance)
-        # How long it took, and whether it was cached, is no property of the scene.
-        record["parts"] = {key: value for key, value in record["parts"].items() if key not in ("seconds", "cached")}
-        return replace(asset, provenance=record)
 
 
 def load_spec(path: str | os.PathLike[str]) -> Spec:
@@ -244,6 +243,15 @@ def _pose(source: Source, number: int, entry: Mapping[str, Any]) -> Pose:
         return Pose.from_yaw(math.radians(entry.get("yaw_degrees", 0.0)), (x, y, z))
     except SpecError as error:
         raise source.error(place, str(error)) from error
+
+
+def _timeless(asset: Asset) -> Asset:
+    """`asset` without how long its parts took and whether they were cached, which are no properties of a scene."""
+    parts = asset.provenance.get("parts")
+    if not isinstance(parts, Mapping):
+        return asset
+    kept = {key: value for key, value in parts.items() if key not in ("seconds", "cached")}
+    return replace(asset, provenance={**asset.provenance, "parts": kept})
 
 
 def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:

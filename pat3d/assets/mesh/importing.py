@@ -94,6 +94,8 @@ def import_mesh(
 ) -> Asset:
     """Read, repair, weigh and decompose a mesh file.
 
+    The same file with the same arguments is the same asset, whose files a scene and its exports hold once.
+
     Args:
         path: an OBJ, STL, PLY, OFF, GLB or glTF file.
         name: noun of the asset; the file's stem where None.
@@ -128,8 +130,7 @@ def import_mesh(
         *map(str, (name, units, scale, size, up, density, mass, material, friction, how, thickness, cache_dir)),
     )
     if key in _imported:
-        # A copy, since objects that share an asset share its files.
-        return replace(_imported[key])
+        return _imported[key]
     budget = CpuBudget(cpu_limit)
     loaded = load_mesh(path, texture_root=texture_root)
     axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
@@ -160,7 +161,7 @@ def import_mesh(
         "up": axis,
     }
     _imported[key] = replace(made, provenance={**source, **made.provenance})
-    return replace(_imported[key])
+    return _imported[key]
 
 
 def asset_of(
