@@ -153,6 +153,7 @@ def import_mesh(
             "scale": used_scale,
             "up": axis,
             "notes": list(loaded.notes),
+            **({"surface": dict(loaded.surface)} if loaded.surface else {}),
             "watertight": fixed.watertight,
             "repairs": list(fixed.repairs),
             "volume_source": fixed.volume_source,
