@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pat3d.assets.materials import surface_of
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Scene
 from pat3d.scene.naming import unique_slugs
@@ -41,6 +42,6 @@ def ground_size(scene: Scene) -> tuple[float, float, float]:
 
 def write_meshes(asset: Asset, folder: Path) -> None:
     """Write the textured mesh and every part of one asset into `folder`."""
-    write_visual(asset.visual, folder)
+    write_visual(asset.visual, folder, surface=surface_of(asset))
     for number, part in enumerate(asset.parts):
         (folder / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")

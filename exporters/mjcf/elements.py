@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pat3d.assets.materials import surface_of
 from pat3d.exporters.common.frames import text
 from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.rotations import principal_frame
@@ -66,7 +67,20 @@ def add_defaults(root: ET.Element) -> None:
 def declare_files(asset: Asset, name: str, assets: ET.Element, *, as_mesh: bool) -> None:
     """Declare the files of one asset; those of its boxes where they are meshes."""
     ET.SubElement(assets, "texture", name=name, type="2d", file=f"{name}.png")
-    ET.SubElement(assets, "material", name=name, texture=name, specular="0.2", shininess="0.3")
+    surface = surface_of(asset)
+    material = ET.SubElement(
+        assets,
+        "material",
+        name=name,
+        texture=name,
+        # What MuJoCo's own renderer draws with; others read the two that follow.
+        specular=text(0.2 + 0.6 * surface.metallic),
+        shininess=text(round(0.65 * (1.0 - surface.roughness), 4)),
+        roughness=text(surface.roughness),
+        metallic=text(surface.metallic),
+    )
+    if surface.opacity < 1.0:
+        material.set("rgba", text(1.0, 1.0, 1.0, surface.opacity))
     ET.SubElement(assets, "mesh", VISUAL_MESH, name=f"{name}_visual", file=f"{name}/visual.obj")
     for number, part in enumerate(asset.parts):
         if part.box is None or as_mesh:

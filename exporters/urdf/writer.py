@@ -26,6 +26,7 @@ from typing import Any
 
 import numpy as np
 
+from pat3d.assets.materials import surface_of
 from pat3d.exporters.common.folder import export_folder
 from pat3d.exporters.common.frames import principal_axes, rpy_of, text
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names, ground_size, stored_assets, write_meshes
@@ -115,7 +116,7 @@ def _link(asset: Asset, name: str, meshes: str = "") -> ET.Element:
     ET.SubElement(visual, "origin", xyz="0 0 0", rpy="0 0 0")
     ET.SubElement(ET.SubElement(visual, "geometry"), "mesh", filename=f"{meshes}visual.obj")
     material = ET.SubElement(visual, "material", name=f"{name}_surface")
-    ET.SubElement(material, "color", rgba="1 1 1 1")
+    ET.SubElement(material, "color", rgba=f"1 1 1 {surface_of(asset).opacity:g}")
     for number in range(len(asset.parts)):
         collision = ET.SubElement(link, "collision", name=f"part_{number:03d}")
         _geometry(collision, f"{meshes}{part_file(number)}")

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.assets.materials import surface_of
 from pat3d.exporters.usd.engine_schemas import extend_body, extend_collider, extend_material
 from pat3d.exporters.usd.openusd import (
     Gf,
@@ -39,6 +40,7 @@ from pat3d.geometry.mass import MassProperties
 from pat3d.geometry.normals import corner_normals, triangle_areas, unit_normals
 from pat3d.geometry.rotations import principal_frame
 from pat3d.scene.asset import Asset, VisualMesh
+from pat3d.scene.asset import Surface as Look
 from pat3d.scene.obj_files import write_texture
 
 GUIDE_COLOUR = (0.4, 0.6, 0.9)
@@ -78,7 +80,7 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False) -
     materials = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("materials")).GetPath()
     # Named by the asset: importers that keep pictures by their file name would give all objects the same.
     write_texture(asset.visual.texture, path.parent / f"{name}.png")
-    look = textured_material(stage, materials.AppendChild("visual"), f"./{name}.png")
+    look = textured_material(stage, materials.AppendChild("visual"), f"./{name}.png", surface_of(asset))
     visual = _visual(stage, root.GetPath().AppendChild("visual"), asset.visual)
     UsdShade.MaterialBindingAPI.Apply(visual).Bind(look)
     friction = physics_material(stage, materials.AppendChild("physics"), asset.material.friction)
@@ -217,10 +219,10 @@ def _apart(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
     return points
 
 
-def textured_material(stage: Stage, path: PrimPath, texture: str) -> Surface:
-    """A UsdPreviewSurface that takes its colour from the image at `texture`, relative to the layer."""
+def textured_material(stage: Stage, path: PrimPath, texture: str, look: Look) -> Surface:
+    """A UsdPreviewSurface of `look` that takes its colour from the image at `texture`, relative to the layer."""
     material = UsdShade.Material.Define(stage, path)
-    surface = plain_surface(stage, material, roughness=0.55)
+    surface = plain_surface(stage, material, look)
     reader = UsdShade.Shader.Define(stage, path.AppendChild("st"))
     reader.CreateIdAttr("UsdPrimvarReader_float2")
     reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
@@ -237,12 +239,14 @@ def textured_material(stage: Stage, path: PrimPath, texture: str) -> Surface:
     return material
 
 
-def plain_surface(stage: Stage, material: Surface, *, roughness: float) -> Prim:
-    """The UsdPreviewSurface of `material`, not metallic."""
+def plain_surface(stage: Stage, material: Surface, look: Look) -> Prim:
+    """The UsdPreviewSurface of `material`, without a colour."""
     surface = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("surface"))
     surface.CreateIdAttr("UsdPreviewSurface")
-    surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(roughness)
-    surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(0.0)
+    surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(look.roughness)
+    surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(look.metallic)
+    if look.opacity < 1.0:
+        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(look.opacity)
     material.CreateSurfaceOutput().ConnectToSource(surface.CreateOutput("surface", Sdf.ValueTypeNames.Token))
     return surface
 

@@ -34,6 +34,7 @@ from pat3d.exporters.usd.engine_schemas import extend_joint, extend_margin, exte
 from pat3d.exporters.usd.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 from pat3d.geometry.contacts import find_contacts
 from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Surface
 from pat3d.scene.model import Attachment, Scene
 from pat3d.scene.physics import GRAVITY, ground_friction
 
@@ -111,7 +112,7 @@ def _surroundings(stage: Stage, scene: Scene) -> None:
     )
     bind_physics(box, physics_material(stage, materials.AppendChild("physics"), friction))
     look = UsdShade.Material.Define(stage, materials.AppendChild("visual"))
-    colour = plain_surface(stage, look, roughness=0.9).CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
+    colour = plain_surface(stage, look, Surface(roughness=0.9)).CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
     colour.Set(Gf.Vec3f(0.56, 0.54, 0.51))
     corners = side * np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
     normals = np.tile([0.0, 0.0, 1.0], (1, 4, 1))

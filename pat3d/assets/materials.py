@@ -1,4 +1,4 @@
-"""Materials by name: density and friction.
+"""Materials by name: density, friction, and how they look.
 
 Densities are mid-range handbook values (CRC Handbook of Chemistry and Physics, 97th ed., section 15;
 Ashby, Materials Selection in Mechanical Design, 4th ed., appendix A). Foam, plush, foliage and
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from pat3d.errors import AssetError
 
 if TYPE_CHECKING:
-    from pat3d.scene.asset import Material
+    from pat3d.scene.asset import Asset, Material, Surface
 
 _TABLE: dict[str, tuple[float, float]] = {
     "wood": (650.0, 0.45),
@@ -51,6 +51,38 @@ _TABLE: dict[str, tuple[float, float]] = {
     "foliage": (150.0, 0.5),
     "electronics": (1600.0, 0.4),
 }
+
+_SURFACES: dict[str, tuple[float, float, float]] = {
+    "wood": (0.6, 0.0, 1.0),
+    "bamboo": (0.6, 0.0, 1.0),
+    "cork": (0.9, 0.0, 1.0),
+    "cardboard": (0.85, 0.0, 1.0),
+    "paper": (0.8, 0.0, 1.0),
+    "ceramic": (0.25, 0.0, 1.0),
+    "porcelain": (0.15, 0.0, 1.0),
+    "stone": (0.7, 0.0, 1.0),
+    "glass": (0.05, 0.0, 0.5),
+    "metal": (0.35, 1.0, 1.0),
+    "steel": (0.3, 1.0, 1.0),
+    "iron": (0.55, 1.0, 1.0),
+    "aluminium": (0.35, 1.0, 1.0),
+    "brass": (0.3, 1.0, 1.0),
+    "plastic": (0.4, 0.0, 1.0),
+    "rubber": (0.9, 0.0, 1.0),
+    "foam": (0.95, 0.0, 1.0),
+    "fabric": (0.9, 0.0, 1.0),
+    "cotton": (0.9, 0.0, 1.0),
+    "wool": (0.95, 0.0, 1.0),
+    "plush": (1.0, 0.0, 1.0),
+    "leather": (0.6, 0.0, 1.0),
+    "upholstery": (0.9, 0.0, 1.0),
+    "wicker": (0.8, 0.0, 1.0),
+    "bread": (0.9, 0.0, 1.0),
+    "cake": (0.9, 0.0, 1.0),
+    "fruit": (0.4, 0.0, 1.0),
+    "foliage": (0.7, 0.0, 1.0),
+}
+"""Roughness, metallic and opacity [-] of materials whose look says what they are."""
 
 MATERIAL_WORDS: dict[str, str] = {
     "wooden": "wood", "oak": "wood", "pine": "wood", "walnut": "wood", "mahogany": "wood", "teak": "wood",
@@ -94,6 +126,19 @@ def material(name: str) -> Material:
 
     density, friction = _TABLE[name]
     return Material(name=name, density=density, friction=friction)
+
+
+def surface_of(asset: Asset) -> Surface:
+    """How the surface of `asset` looks beside its colour: by its file where that says, else by its material."""
+    from pat3d.scene.asset import Surface
+
+    roughness, metallic, opacity = _SURFACES.get(asset.material.name, (0.55, 0.0, 1.0))
+    said = asset.provenance.get("surface") or {}
+    return Surface(
+        roughness=float(said.get("roughness", roughness)),
+        metallic=float(said.get("metallic", metallic)),
+        opacity=float(said.get("opacity", opacity)),
+    )
 
 
 def material_names() -> tuple[str, ...]:

@@ -36,6 +36,24 @@ class Material:
             raise AssetError(f'material "{self.name}": friction must not be negative, got {self.friction}.')
 
 
+@dataclass(frozen=True, kw_only=True)
+class Surface:
+    """How light meets a surface, beside its colour; the parameters of UsdPreviewSurface and of glTF's materials."""
+
+    roughness: float = 0.55
+    """[-], 0 for a mirror."""
+    metallic: float = 0.0
+    """[-], 1 for a metal."""
+    opacity: float = 1.0
+    """[-], 0 for what is not seen."""
+
+    def __post_init__(self) -> None:
+        for name in ("roughness", "metallic", "opacity"):
+            value = getattr(self, name)
+            if not 0.0 <= value <= 1.0:
+                raise AssetError(f"the {name} of a surface must be from 0 to 1, got {value}.")
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisualMesh:
     """A closed triangle mesh with one texture."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pat3d.errors import ExportError
 from pat3d.geometry.normals import corner_normals
-from pat3d.scene.asset import VisualMesh
+from pat3d.scene.asset import Surface, VisualMesh
 
 MAX_FILE_BYTES = 256 * 2**20
 MAX_FACES = 2_000_000
@@ -24,18 +24,22 @@ _OBJ_TEXT: WeakKeyDictionary[VisualMesh, str] = WeakKeyDictionary()
 """OBJ text of the meshes in use: several formats and the scene folder write the same."""
 
 
-def write_visual(mesh: VisualMesh, folder: Path, *, texture: str = "texture.png") -> Path:
+def write_visual(
+    mesh: VisualMesh, folder: Path, *, texture: str = "texture.png", surface: Surface | None = None
+) -> Path:
     """Write `mesh` as visual.obj, visual.mtl and its texture into `folder`; returns the OBJ's path.
 
     Args:
         mesh: what to write.
         folder: made if missing.
         texture: path of the PNG relative to `folder`.
+        surface: roughness, metallic and opacity for readers of the PBR extension of MTL; not said where None.
     """
     folder.mkdir(parents=True, exist_ok=True)
     write_texture(mesh.texture, folder / texture)
+    more = "" if surface is None else f"Pr {surface.roughness:g}\nPm {surface.metallic:g}\nd {surface.opacity:g}\n"
     (folder / "visual.mtl").write_text(
-        f"newmtl surface\nKa 1 1 1\nKd 1 1 1\nKs 0.1 0.1 0.1\nNs 20\nmap_Kd {texture}\n", encoding="utf-8"
+        f"newmtl surface\nKa 1 1 1\nKd 1 1 1\nKs 0.1 0.1 0.1\nNs 20\n{more}map_Kd {texture}\n", encoding="utf-8"
     )
     path = folder / "visual.obj"
     path.write_text(visual_obj(mesh, material_library="visual.mtl"), encoding="utf-8")

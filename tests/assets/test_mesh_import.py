@@ -510,3 +510,28 @@ def test_all_pieces_of_a_mesh_share_one_budget_of_time(tmp_path, monkeypatch):
     import_mesh(path, cache_dir=tmp_path / "cache", decomposition_limit=100.0)
     assert given[:3] == [100.0, 60.0, 20.0]
     assert all(rest == parts.LEAST_SECONDS for rest in given[3:])
+
+
+def test_the_surface_that_a_glb_says_is_kept_and_what_is_not_is_told(write):
+    from PIL import Image
+
+    from pat3d.assets.materials import surface_of
+
+    mesh = trimesh.creation.box((0.1, 0.1, 0.1))
+    # Green is roughness, blue metallic.
+    both = Image.new("RGB", (8, 8), (0, 51, 204))
+    mesh.visual = trimesh.visual.TextureVisuals(
+        uv=mesh.vertices[:, :2],
+        material=trimesh.visual.material.PBRMaterial(
+            metallicRoughnessTexture=both, normalTexture=Image.new("RGB", (8, 8), (128, 128, 255))
+        ),
+    )
+    asset = import_mesh(write(mesh, "box.glb"), parts="box", material="wood")
+    surface = surface_of(asset)
+    assert surface.roughness == pytest.approx(0.2, abs=0.01)
+    assert surface.metallic == pytest.approx(0.8, abs=0.01)
+    assert surface.opacity == 1.0
+    assert any("normal map" in note for note in asset.provenance["notes"])
+    plain = import_mesh(write(_box(), "box.stl"), parts="box", material="wood")
+    assert surface_of(plain).roughness == 0.6
+    assert surface_of(import_mesh(write(_box(), "box.stl"), parts="box", material="steel")).metallic == 1.0

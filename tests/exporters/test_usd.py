@@ -460,3 +460,20 @@ def test_lights_are_in_physical_units_and_have_a_choice_for_omniverse(scene, tmp
     assert 0.5 < lit() < 1.0
     stage.GetPrimAtPath("/World/Lights").GetVariantSets().GetVariantSet("lighting").SetVariantSelection("omniverse")
     assert lit() > 500.0
+
+
+def test_steel_is_metallic_and_glass_is_seen_through(tmp_path):
+    scene = scene_of(
+        placed("steel pan", make("pan", material="steel"), (0, 0, GAP)),
+        placed("glass", make("glass", material="glass"), (0.5, 0, GAP)),
+    )
+    stage = Usd.Stage.Open(str(write_usd(scene, tmp_path / "u")))
+    pan, glass = (
+        UsdShade.Shader(stage.GetPrimAtPath(f"/World/{name}/materials/visual/surface"))
+        for name in ("steel_pan", "glass")
+    )
+    assert pan.GetInput("metallic").Get() == 1.0
+    assert not pan.GetInput("opacity")
+    assert glass.GetInput("metallic").Get() == 0.0
+    assert 0.0 < glass.GetInput("opacity").Get() < 1.0
+    assert glass.GetInput("roughness").Get() < 0.1

@@ -226,6 +226,7 @@ def asset_of(
         regions=find_regions(convex),
         provenance={
             "notes": list(loaded.notes),
+            **({"surface": dict(loaded.surface)} if loaded.surface else {}),
             "watertight": fixed.watertight,
             "repairs": list(fixed.repairs),
             "volume_source": fixed.volume_source,

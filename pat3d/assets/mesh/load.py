@@ -7,7 +7,7 @@ import json
 import mmap
 import os
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.mesh.texture import Patch, pack
+from pat3d.assets.mesh.texture import Patch, pack, surface_said
 from pat3d.errors import AssetError
 
 FORMATS = ("obj", "stl", "ply", "off", "glb", "gltf")
@@ -36,6 +36,8 @@ class LoadedMesh:
     """Per face corner in [0, 1], v up, shape (faces, 3, 2)."""
     texture: NDArray[np.uint8]
     """RGB, row 0 at the top, shape (height, width, 3)."""
+    surface: Mapping[str, float] = field(default_factory=dict)
+    """Roughness, metallic and opacity [-] of the largest piece, as far as the file says."""
     notes: tuple[str, ...] = field(default=())
     """What was left out or changed while reading."""
     files: tuple[Path, ...] = ()
@@ -87,8 +89,16 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
             f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad}: {vertices[bad]}).'
         )
     uv, texture = pack([patch for _, _, patch in patches], notes)
+    pieces = [one for one in scene.geometry.values() if isinstance(one, trimesh.Trimesh) and len(one.faces)]
+    surface = surface_said(max(pieces, key=lambda one: len(one.faces)), notes)
     return LoadedMesh(
-        vertices=vertices, faces=faces, uv=uv, texture=texture, notes=tuple(notes), files=(path, *resolver.opened)
+        vertices=vertices,
+        faces=faces,
+        uv=uv,
+        texture=texture,
+        surface=surface,
+        notes=tuple(dict.fromkeys(notes)),
+        files=(path, *resolver.opened),
     )
 
 

@@ -50,6 +50,10 @@ class Patch:
                 if image.size[0] * image.size[1] > MAX_PIXELS:
                     notes.append(f"a texture of {image.size[0]} x {image.size[1]} texels was too large to read")
                 elif np.isfinite(uv).all():
+                    if max(image.size) > MAX_SIDE:
+                        notes.append(f"a texture of {image.size[0]} x {image.size[1]} texels was scaled to {MAX_SIDE}")
+                    if image.mode in ("RGBA", "LA"):
+                        notes.append("the transparency of a texture was left out")
                     image.thumbnail((MAX_SIDE, MAX_SIDE))
                     texels = np.asarray(image.convert("RGB"), dtype=np.uint8)
                     if tint is not None and (tint < 255).any():
@@ -67,6 +71,38 @@ class Patch:
     def mirrored(self) -> Patch:
         """The same look for faces whose corner order is reversed."""
         return replace(self, uv=self.uv[:, ::-1])
+
+
+def surface_said(geometry: Any, notes: list[str]) -> dict[str, float]:
+    """Roughness, metallic and opacity [-] that a trimesh mesh's material says, means where a map says them."""
+    material = getattr(geometry.visual, "material", None)
+    if hasattr(material, "materials"):
+        material = material.materials[0]
+    said: dict[str, float] = {}
+    both = getattr(material, "metallicRoughnessTexture", None)
+    for name, channel in (("roughness", 1), ("metallic", 2)):
+        factor = getattr(material, f"{name}Factor", None)
+        if both is not None and both.size[0] * both.size[1] <= MAX_PIXELS:
+            mean = float(np.asarray(both.convert("RGB").resize((64, 64)), dtype=np.float64)[:, :, channel].mean()) / 255
+            factor = mean * (1.0 if factor is None else float(factor))
+        if factor is not None and np.isfinite(factor):
+            said[name] = float(np.clip(factor, 0.0, 1.0))
+    base = getattr(material, "baseColorFactor", None)
+    if getattr(material, "alphaMode", None) == "BLEND" and base is not None and len(base) == 4:
+        alpha = float(base[3])
+        said["opacity"] = float(np.clip(alpha / 255.0 if np.asarray(base).dtype.kind in "ui" else alpha, 0.0, 1.0))
+    dissolve = (getattr(material, "kwargs", None) or {}).get("d")
+    if dissolve is not None:
+        said["opacity"] = float(np.clip(np.ravel(np.asarray(dissolve, dtype=np.float64))[0], 0.0, 1.0))
+    for attribute, what in (
+        ("normalTexture", "a normal map was left out"),
+        ("occlusionTexture", "an occlusion map was left out"),
+        ("emissiveTexture", "an emission map was left out"),
+        ("metallicRoughnessTexture", "of a metallic-roughness map the means were taken"),
+    ):
+        if getattr(material, attribute, None) is not None:
+            notes.append(what)
+    return said
 
 
 def pack(patches: list[Patch], notes: list[str]) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
