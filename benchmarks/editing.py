@@ -5,7 +5,7 @@ r"""How long a scene takes to come to rest again after one edit, and to be verif
     python benchmarks/editing.py scenes/ten [--repeats 3]
 
 Ten objects. Every edit starts from the scene in the folder. "edit" is reading the words and laying out, "settle" the
-simulator, "proof" the whole verification with 5 s of MuJoCo. Wall time, and processor time of all threads, which a
+simulator, "verify" the whole verification with 5 s of MuJoCo. Wall time, and processor time of all threads, which a
 busy machine does not change much. The simulator's kernels are loaded before the clock starts, as in a program that
 stays open. "moved" is the farthest that anything went that the edit did not touch and that rests on nothing touched.
 """
@@ -66,9 +66,9 @@ def timed(scene: EditableScene, edit: tuple[str, str]) -> dict[str, tuple[float,
     watch = Stopwatch()
     done = edited.settle()
     both = watch.read()
-    proof = (both[0] - rest[0], both[1] - rest[1])
+    verify = (both[0] - rest[0], both[1] - rest[1])
     still = untouched(edited, done)
-    return {"edit": laid, "settle": rest, "proof": proof, "moved": (still, still)}
+    return {"edit": laid, "settle": rest, "verify": verify, "moved": (still, still)}
 
 
 def untouched(edited: EditableScene, done: EditableScene) -> float:
@@ -88,7 +88,7 @@ def main() -> None:
     scene = load(options.scene)
     applied(scene, [EDITS[0]]).settle()
     print(f"{len(scene.scene.objects)} objects; median of {options.repeats}; wall / processor seconds")
-    print(f"{'edit':52} {'edit':>11} {'settle':>11} {'proof':>11} {'moved mm':>9}")
+    print(f"{'edit':52} {'edit':>11} {'settle':>11} {'verify':>11} {'moved mm':>9}")
     rows = []
     for edit in EDITS:
         try:
@@ -98,11 +98,11 @@ def main() -> None:
             continue
         row = {key: tuple(statistics.median(run[key][at] for run in runs) for at in range(2)) for key in runs[0]}
         rows.append(row)
-        cells = " ".join(f"{row[key][0]:5.2f}/{row[key][1]:5.2f}" for key in ("edit", "settle", "proof"))
+        cells = " ".join(f"{row[key][0]:5.2f}/{row[key][1]:5.2f}" for key in ("edit", "settle", "verify"))
         print(f"{' '.join(edit):52} {cells} {row['moved'][0]:9.1g}")
     for name, keys, goal in (
         ("to rest", ("edit", "settle"), GOALS[0]),
-        ("verified", ("edit", "settle", "proof"), GOALS[1]),
+        ("verified", ("edit", "settle", "verify"), GOALS[1]),
     ):
         wall, cpu = (statistics.median(sum(row[key][at] for key in keys) for row in rows) for at in range(2))
         print(f"median {name}: {wall:.2f} s wall, {cpu:.2f} s processor (goal {goal:g} s)")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 FLOORS = (
     ("cli", "the pat3d command"),
+    ("mcp_server", "tools and resources for other programs"),
     ("policies_eval", "policies, paired episodes, statistics, datasets"),
     ("envs", "robots, tasks, suites, GPU worlds"),
     ("generation", "the stages in order, attempts, the report"),

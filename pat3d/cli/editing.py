@@ -76,10 +76,10 @@ def edit(options: argparse.Namespace) -> int:
         done = scene.settle(device=options.device, progress=progress)
         out = Path(options.out if options.out is not None else options.folder)
         written = done.save(out, progress=progress)
-    proven = done.proven
-    if proven is None:
+    verified = done.verified
+    if verified is None:
         return 1
-    seconds = dict(proven.clock.seconds)
+    seconds = dict(verified.clock.seconds)
     if options.json:
         from pat3d.generation.facts import edited_facts, outcome_facts
 
@@ -91,10 +91,10 @@ def edit(options: argparse.Namespace) -> int:
             exports=written.exports,
             seconds=seconds["total"],
         )
-        print_facts(edited_facts(outcome, done.edits, proven.changes))
+        print_facts(edited_facts(outcome, done.edits, verified.changes))
     else:
         target = console()
-        show_changes(target, done.edits, proven.changes)
+        show_changes(target, done.edits, verified.changes)
         show_parity(target, written.exports)
         target.print(f"\n{seconds['total']:.1f} s in all; written to: {out}", markup=False, soft_wrap=True)
     return verdict(written.failures)

@@ -178,8 +178,14 @@ class _Arranger:
         """`placed`, all that stands on `home` or is it, with what has several carriers there."""
         placed = list(placed)
         for name, carriers in self.spans.items():
-            if self.parents[name] == home:
+            if self.parents[name] != home:
+                continue
+            if name not in self.fixed:
                 placed.append(put_across(self._across(name), carriers, placed, gap=self.gap))
+            elif home == GROUND:
+                placed.append(self._across(name).shifted(np.array(self.fixed[name].position)))
+            else:
+                placed.append(self._pinned(name, home))
         return placed
 
     def _across(self, name: str) -> Group:

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 INSTRUCTIONS = """\
 PAT3D makes manipulation scenes that do not move when a simulator loads them. Read a sentence with plan, make the scene
 with generate, change it with edit, look at it with render, and write it for simulators with export. Objects rest on one
-another; every scene is proved to be in equilibrium and free of intersections before it is kept. Name scenes by letters,
+another; every scene is verified, in equilibrium and free of intersections, before it is kept. Name scenes by letters,
 digits, "-" and "_"."""
 
 SceneName = Annotated[str, Field(description="name of a scene in the folder", max_length=64)]
@@ -145,7 +145,7 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
             steps = [(step.verb, step.words) for step in edits]
             done = applied(load(root.scene(name)), steps).settle(progress=progress)
             written = done.save(target, progress=progress)
-            if done.proven is None:
+            if done.verified is None:
                 raise ToolError("nothing was edited.")
             facts = outcome_facts(
                 done.scene,
@@ -153,9 +153,9 @@ def _add_making(made: MCPServer, root: Root, jobs: Jobs) -> None:
                 failures=written.failures,
                 verification=written.verification,
                 exports=written.exports,
-                seconds=done.proven.clock.seconds["total"],
+                seconds=done.verified.clock.seconds["total"],
             )
-            return edited_facts(facts, done.edits, done.proven.changes)
+            return edited_facts(facts, done.edits, done.verified.changes)
 
         return await jobs.run(ctx, work)
 

@@ -143,6 +143,10 @@ def moved_to(draft: Draft, name: str, where: str, planner: Planner) -> Draft:
 
 
 def _read(scene: Scene, phrase: str, planner: Planner, *, first_is_new: bool = False) -> _Read:
+    # Planners read "the book", not "the book 2"; a phrase names one of a kind by its number.
+    numbered = {name: re.sub(r" \d+$", "", name) for name in _numbered_names(scene, phrase)}
+    for name, base in numbered.items():
+        phrase = re.sub(rf"\b{re.escape(name)}\b", base, phrase, flags=re.IGNORECASE)
     plan = planner.plan(phrase)
     groups: dict[str, list[str]] = {}
     for obj in plan.objects:
@@ -154,9 +158,19 @@ def _read(scene: Scene, phrase: str, planner: Planner, *, first_is_new: bool = F
         if not definite:
             new += members
             continue
-        found = chosen(scene, said, planner, several=True)
+        named = [name for name, base in numbered.items() if re.search(rf"\b{re.escape(base)}$", said, re.IGNORECASE)]
+        if len(named) > 1:
+            raise EditError(f'"{phrase}" names {", ".join(named)}; name one of a kind by its number at a time.')
+        found = tuple(named) or chosen(scene, said, planner, several=True)
         there |= dict.fromkeys(members, found)
     return _Read(plan=plan, new=tuple(new), there=there)
+
+
+def _numbered_names(scene: Scene, phrase: str) -> list[str]:
+    """Names such as "book 2" that `phrase` says, the longest first."""
+    numbered = [obj.name for obj in scene.objects if re.search(r" \d+$", obj.name)]
+    said = [name for name in numbered if re.search(rf"\b{re.escape(name)}\b", phrase, re.IGNORECASE)]
+    return sorted(said, key=len, reverse=True)
 
 
 def _is_definite(said: str, phrase: str) -> bool:

@@ -31,7 +31,7 @@ _POSTURE_WORDS = {"upright": "upright", "upside down": "upside_down", "on its si
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Proven:
+class Verified:
     """A scene that came to rest after edits and passed every check."""
 
     settled: SettledScene
@@ -55,7 +55,7 @@ class EditableScene:
     draft: Draft
     edits: tuple[Edit, ...] = ()
     """Since `before`."""
-    proven: Proven | None = None
+    verified: Verified | None = None
     """Of the scene as it is, where it was settled since the last edit."""
     planner: Planner | None = None
     """Reads words; the offline grammar where None."""
@@ -68,7 +68,7 @@ class EditableScene:
     @property
     def changes(self) -> Changes | None:
         """What the edits changed; None where they are not settled."""
-        return None if self.proven is None else self.proven.changes
+        return None if self.verified is None else self.verified.changes
 
     def remove(self, what: str) -> EditableScene:
         """Take objects away; what they carried comes down.
@@ -205,7 +205,7 @@ class EditableScene:
             EditError: it does not come to rest, something topples, or a check fails; the message says why.
             SimulationError: it cannot be simulated.
         """
-        if self.proven is not None:
+        if self.verified is not None:
             return self
         if not self.edits:
             raise EditError("nothing was edited; there is nothing to settle. Nothing was written.")
@@ -219,8 +219,8 @@ class EditableScene:
         if failures := verification.failures:
             more = f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""
             raise EditError(f"the edited scene fails its verification: {failures[0]}{more} Nothing was written.")
-        proven = Proven(settled=rest, verification=verification, changes=changes, clock=clock)
-        return replace(self, draft=Draft(scene=scene), proven=proven)
+        verified = Verified(settled=rest, verification=verification, changes=changes, clock=clock)
+        return replace(self, draft=Draft(scene=scene), verified=verified)
 
     def save(self, out: str | os.PathLike[str] | None = None, *, progress: Progress = silent) -> Rewritten:
         """Write the scene folder, with the formats of the one it came from; what waits is settled first.
@@ -234,18 +234,18 @@ class EditableScene:
             ExportError: the folder cannot be written.
         """
         target = check_target(out if out is not None else self.folder)
-        proven = self.proven
-        if proven is None:
+        verified = self.verified
+        if verified is None:
             return self.settle(progress=progress).save(target, progress=progress)
         return rewrite(
             self.scene,
-            proven.settled,
+            verified.settled,
             source=self.folder,
             target=target,
-            clock=proven.clock,
+            clock=verified.clock,
             progress=progress,
-            verification=proven.verification,
-            more={"edits": {"list": [str(edit) for edit in self.edits], **proven.changes.as_dict()}},
+            verification=verified.verification,
+            more={"edits": {"list": [str(edit) for edit in self.edits], **verified.changes.as_dict()}},
         )
 
     @property
@@ -264,9 +264,9 @@ class EditableScene:
     ) -> EditableScene:
         made = Edit(verb=verb, said=said, objects=names)
         start = self
-        if self.proven is not None:
+        if self.verified is not None:
             # What was settled is the scene that further edits begin with.
-            start = replace(self, before=self.scene, draft=Draft(scene=self.scene), edits=(), proven=None)
+            start = replace(self, before=self.scene, draft=Draft(scene=self.scene), edits=(), verified=None)
         try:
             draft = change(start.draft)
         except LayoutError as error:

@@ -6,7 +6,7 @@ contact distances of the end of settling, where what carries the same load as be
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -77,7 +77,6 @@ def settled(
         EditError: it does not come to rest, something topples, or what an edit asks for does not hold.
         SimulationError: it cannot be simulated.
     """
-    held = {str(one.relation) for one in relations_at_rest(before) if one.holds}
     start = _from_here(draft.scene)
     found = _let_fall(start, draft.touched, device, progress)
     scene = found.of(start)
@@ -88,7 +87,7 @@ def settled(
         )
     scene = _where_loose_things_lie(draft, scene)
     _require_standing(draft, start, scene)
-    scene, broke = _judged(draft, scene, held)
+    scene, broke = _judged(draft, scene, relations_at_rest(before))
     changes = Changes(
         added=tuple(obj.name for obj in scene.objects if obj.name not in _names(before)),
         removed=tuple(obj.name for obj in before.objects if obj.name not in _names(scene)),
@@ -146,10 +145,11 @@ def _require_standing(draft: Draft, start: Scene, scene: Scene) -> None:
             )
 
 
-def _judged(draft: Draft, scene: Scene, held: set[str]) -> tuple[Scene, tuple[str, ...]]:
+def _judged(draft: Draft, scene: Scene, before: Sequence[RelationResult]) -> tuple[Scene, tuple[str, ...]]:
     """`scene` without the relations beside one another that its edits broke, and a line for each of them."""
     results = relations_at_rest(scene)
     asked = {str(one) for one in draft.asked}
+    faulty = {str(one.relation) for one in before if not one.holds}
     broken: list[RelationResult] = []
     for one in results:
         if one.holds:
@@ -157,9 +157,11 @@ def _judged(draft: Draft, scene: Scene, held: set[str]) -> tuple[Scene, tuple[st
         line = f"{one.relation} ({one.detail})"
         if str(one.relation) in asked:
             raise EditError(f"what was asked for does not hold at rest: {line}. Nothing was written.")
+        if str(one.relation) in faulty and (isinstance(one.relation, Posture) or one.relation.supports):
+            raise EditError(f"the scene did not hold before it was edited: {line}. Nothing was written.")
         if isinstance(one.relation, Posture) or one.relation.supports:
             raise EditError(f"the edited scene does not stay as it was: {line}. Nothing was written.")
-        if str(one.relation) in held:
+        if str(one.relation) not in faulty:
             broken.append(one)
     gone = {one.relation for one in broken}
     kept = replace(

@@ -120,21 +120,19 @@ def _candidates(scene: Scene, text: str, planner: Planner) -> list[SceneObject]:
     Raises:
         EditError: nothing.
     """
-    words = _content(text)
-    found = [obj for obj in scene.objects if _fits(obj, words)]
+    found = _called(scene, text)
     return found or [scene[name] for name in _by_relation(scene, text, planner, every=True)]
 
 
 def _by_words(scene: Scene, text: str, planner: Planner) -> tuple[str, ...]:
-    words = _content(text)
-    found = [obj for obj in scene.objects if _fits(obj, words)]
+    words, found = _content(text), _called(scene, text)
     if len(found) > 1 and not _is_plural(text, found):
         exact = [obj for obj in found if _content(_unnumbered(obj.name)) == words]
         found = exact if len(exact) == 1 else found
         if len(found) > 1:
             raise EditError(
-                f'"{text}" may be {_listed([obj.name for obj in found])}: say which, as in "the left {text}", '
-                'or "all". Nothing was written.'
+                f'"{text}" may be {_listed([obj.name for obj in found])}: say which, as in '
+                f'"the left {text.removeprefix("the ")}", or "all". Nothing was written.'
             )
     return tuple(obj.name for obj in found)
 
@@ -182,6 +180,22 @@ def _stands(scene: Scene, relation: Relation, head: str, mark: str, other: str) 
         return parent in carriers_of(child, scene.relations)
     assets, poses = ({obj.name: getattr(obj, what) for obj in scene.objects} for what in ("asset", "pose"))
     return relation_holds(Relation(child=child, kind=relation.kind, parent=parent), assets, poses)
+
+
+def _called(scene: Scene, text: str) -> list[SceneObject]:
+    """Objects of which all words are said; those that are what the last word says (a pen holder is no pen), if any."""
+    words = _content(text)
+    found = [obj for obj in scene.objects if _fits(obj, words)]
+    return [obj for obj in found if any(words[-1] in (head, plural(head)) for head in _heads(obj))] or found
+
+
+def _heads(obj: SceneObject) -> set[str]:
+    """What `obj` is in one word each: "holder" for a pen holder."""
+    from pat3d.assets import catalogue
+
+    entry = catalogue.find(obj.asset.noun)
+    names = (_unnumbered(obj.name), obj.asset.noun, *(entry.synonyms if entry is not None else ()))
+    return {name.casefold().split()[-1] for name in names}
 
 
 def _is_like(obj: SceneObject, plan: ScenePlan, name: str) -> bool:

@@ -14,7 +14,10 @@ from pat3d.cli.main import main
 from pat3d.errors import EditError, LayoutError, PromptError
 from pat3d.generation.editing.draft import Draft
 from pat3d.generation.editing.resettling import Changes, settled
+from pat3d.generation.editing.selecting import chosen
 from pat3d.geometry.mass import mass_properties
+from pat3d.geometry.pose import Pose
+from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.scene.history import Edit
 from pat3d.scene.model import Scene
 
@@ -86,6 +89,26 @@ def test_a_mug_is_added_on_top_of_the_stack_and_everything_else_stays(desk):
     assert height(done.scene, "coffee mug") == pytest.approx(top, abs=1e-3)
     assert max(one.mm for one in done.changes.moved.values()) < UNMOVED
     assert not any("assumed" in note for note in done.changes.notes)
+
+
+def test_one_of_a_kind_is_named_by_its_number(desk):
+    scene = desk.remove("book 3").add("a pen on the book 2").scene
+    assert scene.parent("pen") == "book 2"
+
+
+def test_a_pen_holder_is_no_pen(desk):
+    scene = desk.remove("all books").add("a pencil holder on the desk").add("a pen on the desk").scene
+    assert chosen(scene, "the pen", GrammarPlanner()) == ("pen",)
+    assert chosen(scene, "the pencil holder", GrammarPlanner()) == ("pencil holder",)
+
+
+def test_a_support_that_did_not_hold_before_is_told_so(desk):
+    vase = desk.scene["vase"]
+    away = replace(vase, pose=Pose(position=(5.0, 0.0, 1e-5)))
+    faulty = replace(desk.scene, objects=tuple(away if obj is vase else obj for obj in desk.scene.objects))
+    scene = replace(desk, before=faulty, draft=Draft(scene=faulty))
+    with pytest.raises(EditError, match="did not hold before"):
+        at_rest(scene.fix("desk"))
 
 
 def test_what_is_moved_takes_along_what_it_carries(desk):
