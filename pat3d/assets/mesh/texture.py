@@ -75,7 +75,7 @@ class Patch:
 
 def surface_said(geometry: Any, notes: list[str]) -> dict[str, float]:
     """Roughness, metallic and opacity [-] that a trimesh mesh's material says, means where a map says them."""
-    material = getattr(geometry.visual, "material", None)
+    material: Any = getattr(geometry.visual, "material", None)
     if hasattr(material, "materials"):
         material = material.materials[0]
     said: dict[str, float] = {}

@@ -216,9 +216,10 @@ class EditableScene:
             rest, scene, changes = settled(self.draft, self.before, device=name, progress=progress)
         with tempfile.TemporaryDirectory(prefix="pat3d-edit-") as scratch, clock("verification"):
             verification = verify(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
-        if failures := verification.failures:
-            more = f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""
-            raise EditError(f"the edited scene fails its verification: {failures[0]}{more} Nothing was written.")
+        if verification.failures:
+            first, *others = verification.failures
+            more = f" (and {len(others)} more)" if others else ""
+            raise EditError(f"the edited scene fails its verification: {first}{more} Nothing was written.")
         verified = Verified(settled=rest, verification=verification, changes=changes, clock=clock)
         return replace(self, draft=Draft(scene=scene), verified=verified)
 
