@@ -50,6 +50,8 @@ class Request:
     `pat3d.envs.robots.arms.default_robot`."""
     least_tilt: float = LEAST_TILT
     """Tilt of the ground [degrees], whichever way, that every scene has to stand."""
+    stable: bool = False
+    """Without scenes in which something rests on its round side, from where it may roll."""
     picture: int = 320
     """Width of the scenes' pictures [pixel]; 0 for none."""
     device: str = "cpu"
@@ -93,6 +95,7 @@ class Request:
             "device": self.device,
             # Suites that ask for no more than all scenes do are named by the same request as ever.
             **({"least_tilt": self.least_tilt} if self.least_tilt != LEAST_TILT else {}),
+            **({"stable": True} if self.stable else {}),
         }
 
     @staticmethod
@@ -112,6 +115,7 @@ class Request:
             and isinstance(data.get("robot"), str)
             and isinstance(data.get("device", "cpu"), str)
             and isinstance(data.get("least_tilt", LEAST_TILT), int | float)
+            and isinstance(data.get("stable", False), bool)
         )
         if not good:
             raise SuiteError(f"{where}: the suite's request is damaged: {json.dumps(data)[:200]}")
@@ -124,6 +128,7 @@ class Request:
             picture=data["picture"],
             device=data.get("device", "cpu"),
             least_tilt=float(data.get("least_tilt", LEAST_TILT)),
+            stable=data.get("stable", False),
         )
 
     def task_of(self, place: int) -> str:

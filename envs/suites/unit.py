@@ -96,6 +96,9 @@ class Making:
         """Kind of fault and what is wrong; empty for a scene that is now in the suite."""
         request, place, candidate, made = self._request, self._place, self._candidate, self._draft
         reason, message, placement = _fault(attempt), "; ".join(attempt.failures), ""
+        rolls = _rolling(attempt) if request.stable and not reason else ()
+        if rolls:
+            reason, message = "rolling", f"on the round side, from where it may roll: {', '.join(rolls)}"
         with self.clock("task"):
             if not reason and attempt.checked is not None:
                 try:
@@ -129,6 +132,12 @@ def _fault(attempt: Attempt) -> str:
     if not verification.mujoco.passed:
         return "MuJoCo"
     return "equilibrium" if not verification.certificate.passed else "relations"
+
+
+def _rolling(attempt: Attempt) -> tuple[str, ...]:
+    """Objects that rest on their round side."""
+    support = attempt.checked.verification.certificate.support if attempt.checked is not None else None
+    return tuple(name for name, rolls in support.rolling.items() if rolls != "stable") if support else ()
 
 
 def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:

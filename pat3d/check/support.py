@@ -73,12 +73,19 @@ class Support:
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """A line for every object that true surfaces do not hold."""
-        return tuple(
+        """A line for every object that true surfaces do not hold, or that rolls off what it lies on."""
+        lines = [
             f'"{name}" is held only by convex parts that stick out: the surfaces themselves do not carry it'
             + (f", {'; '.join(map(str, worst[:MENTIONED]))}." if worst else ".")
             for name, worst in self.unsupported.items()
-        )
+        ]
+        lines += [
+            f'"{name}" rests in one point, from where its round surface rolls off; only flat sides of convex parts '
+            "hold it."
+            for name, rolls in self.rolling.items()
+            if rolls == "unstable"
+        ]
+        return tuple(lines)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json."""

@@ -39,6 +39,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         objects="objects of a scene",
         robot="that must be able to do the tasks",
         least_tilt=LEAST_TILT,
+        stable="without scenes in which something rests on its round side, from where it may roll",
         device="where scenes settle; on a GPU, many side by side",
         picture="width of the scenes' pictures; 0 for none",
     ),

@@ -163,7 +163,11 @@ def test_a_ball_is_marked_as_neutral_on_a_table_and_as_rolling_off_another_ball(
     support = certify(on_table, margin=True).support
     assert dict(support.rolling) == {"ball": "neutral"}
     on_ball = scene_of(placed("under", block, (0, 0, 0), fixed=True), placed("ball", block, (0, 0, 0.06 + GAP)))
-    assert dict(certify(on_ball, margin=True).support.rolling) == {"ball": "unstable"}
+    certificate = certify(on_ball, margin=True)
+    assert dict(certificate.support.rolling) == {"ball": "unstable"}
+    assert not certificate.passed
+    assert any('"ball" rests in one point' in line for line in certificate.unreal)
+    assert certify(on_table, margin=True).passed
 
 
 def test_an_egg_lies_on_its_side_and_a_box_does_not_roll():

@@ -26,6 +26,7 @@ from pat3d.envs.suites.check import check_suite  # noqa: E402
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SuiteFolder, checksum_of_document  # noqa: E402
 from pat3d.envs.suites.generate import generate  # noqa: E402
 from pat3d.envs.suites.page import page  # noqa: E402
+from pat3d.envs.suites.request import Request  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.envs.suites.worker_pool import WorkerPool  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
@@ -371,6 +372,20 @@ def test_a_scene_that_mujoco_cannot_compile_is_rejected_and_its_worker_goes_on(t
     assert answers[0]["reason"] == "simulation"
     assert "insufficient memory" in json.dumps(json.loads(folder.rejection(0, 0).read_text()))
     assert len(calls) >= 2
+
+
+@pytest.mark.slow
+def test_a_stable_suite_rejects_what_rests_on_its_round_side(tmp_path):
+    """A lemon lies on the table of this candidate, which is verified, and may roll."""
+    from pat3d.envs.suites.unit import make_unit
+
+    request = Request(scenes=20, picture=0, stable=True)
+    assert Request.from_dict(request.as_dict(), "here") == request
+    folder = SuiteFolder(tmp_path / "one")
+    answer = make_unit(folder, request, 15, 0)
+    assert answer["reason"] == "rolling"
+    assert "lemon" in json.loads(folder.rejection(15, 0).read_text())["message"]
+    assert make_unit(folder, replace(request, stable=False), 15, 0)["reason"] == ""
 
 
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
