@@ -31,18 +31,15 @@ def mujoco(path: Path) -> dict[str, Any]:
 
 
 def mjx(path: Path) -> dict[str, Any]:
-    """Put on a device and stepped once, compiled by XLA."""
-    import jax
+    """Put on a device, which is where MJX refuses what it does not know; XLA takes minutes to compile a step."""
     import mujoco as package
     from mujoco import mjx as xla  # pyright: ignore[reportMissingImports]
 
     model = package.MjModel.from_xml_path(str(path))
     there = xla.put_model(model)
-    data = jax.jit(xla.step)(there, xla.make_data(there))
-    if not math.isfinite(float(data.qpos.sum())):
-        raise ValueError("the state is not finite after a step")
+    xla.make_data(model)
     free = [int(model.jnt_bodyid[k]) for k in range(model.njnt) if model.jnt_type[k] == package.mjtJoint.mjJNT_FREE]
-    mass = float(sum(there.body_mass[body] for body in free))
+    mass = float(sum(float(there.body_mass[body]) for body in free))
     return {"version": metadata.version("mujoco-mjx"), "bodies": len(free), "mass": mass}
 
 

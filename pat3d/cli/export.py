@@ -27,6 +27,13 @@ _MESHES = "meshes only"
 _MESH_OPTIONS = (
     option("--mass", "mass of the object", type=float, metavar="KG", group=_MESHES, rival="weight"),
     option("--density", "density of the closed surface", type=float, metavar="KG/M3", group=_MESHES, rival="weight"),
+    option(
+        "--masses",
+        "CSV file of the masses of a folder of meshes, a row each: name,kg",
+        metavar="TABLE.csv",
+        group=_MESHES,
+        rival="weight",
+    ),
     option("--material", "for density and friction", metavar="NAME", group=_MESHES, shown="plastic"),
     option("--friction", "friction coefficient", type=float, metavar="MU", group=_MESHES, shown="the material's"),
     option("--units", "of the file: m, cm, mm, in", metavar="UNIT", group=_MESHES, shown="m"),
@@ -84,6 +91,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
     pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
+    pat3d export scans/ --masses masses.csv --out assets               with a row "mug,0.31" for scans/mug.obj
     pat3d export scans/ --material ceramic --units mm --out assets     every mesh of a folder
     """,
 )
@@ -157,18 +165,21 @@ def _meshes(
     source: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str, mesh: dict[str, Any]
 ) -> int:
     from pat3d.generation.asset_export import export_asset, mesh_files
+    from pat3d.generation.masses import read_masses
 
     files = mesh_files(source)
     several = not source.is_file()
+    masses = read_masses(Path(mesh.pop("masses")), set(files.values())) if "masses" in mesh else {}
     made: list[ExportedAsset] = []
     refused: list[Pat3dError] = []
     with watch(console(stderr=True)) as progress:
         for number, (path, name) in enumerate(files.items()):
             if several:
                 progress(Event(stage="exporting", detail=name, step=number, steps=len(files)))
+            own = {**mesh, "mass": masses[name]} if name in masses else mesh
             try:
                 folder = out / name if several else out
-                made.append(export_asset(path, folder, formats, progress=progress, usd=usd, name=name, **mesh))
+                made.append(export_asset(path, folder, formats, progress=progress, usd=usd, name=name, **own))
                 if "urdf" in formats and mesh_paths != MESH_PATHS[0]:
                     set_mesh_paths(folder / "urdf", mesh_paths)
                     record_checksums(folder)

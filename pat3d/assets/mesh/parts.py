@@ -59,6 +59,9 @@ MAX_HULLS = 80
 ROOM = 7 / 8
 """Share of them that the decomposition may use; the rest is for cutting those that few faces do not fit."""
 
+PASSES = 3
+"""Most times that parts which had to grow are cut once more."""
+
 MAX_HULL_CUTS = 16
 """Convex parts that a mesh may have that is to be one hull: 64 faces do not fit a large round one."""
 
@@ -176,20 +179,19 @@ def _contained(
 
     Where parts had to grow, few faces may not fit them any more; these are cut once again.
     """
-    done = fitted(pieces, limit, most)
-    made = cover([one.points for one in done], points, triangles, parts=[one.part for one in done])
-    apart = [Fitted(points=hull, part=part).excess > limit for hull, part in zip(made.hulls, made.parts, strict=True)]
-    if not any(apart) or len(made.parts) >= most:
-        return made
-    kept = [k for k, wide in enumerate(apart) if not wide]
-    again = fitted([made.hulls[k] for k, wide in enumerate(apart) if wide], limit, most - len(kept))
-    last = cover(
-        [made.hulls[k] for k in kept] + [one.points for one in again],
-        points,
-        triangles,
-        parts=[made.parts[k] for k in kept] + [one.part for one in again],
-    )
-    return replace(last, before=made.before)
+    kept: list[Fitted] = []
+    wide = pieces
+    before: float | None = None
+    for _ in range(PASSES):
+        done = kept + fitted(wide, limit, most - len(kept))
+        made = cover([one.points for one in done], points, triangles, parts=[one.part for one in done])
+        before = made.before if before is None else before
+        grown = [Fitted(points=hull, part=part) for hull, part in zip(made.hulls, made.parts, strict=True)]
+        kept = [one for one in grown if one.excess <= limit]
+        wide = [one.points for one in grown if one.excess > limit]
+        if not wide or len(grown) >= most:
+            break
+    return replace(made, before=before)
 
 
 def covering_parts(fixed: Repaired, hulls: Sequence[NDArray[np.float64]]) -> Parts:
