@@ -75,13 +75,13 @@ class Piece:
         )
 
 
-def flat(count: int, rgb: Sequence[float]) -> Patch:
+def flat(count: int, rgb: Sequence[float] | Points) -> Patch:
     """The look of `count` faces of one colour in [0, 1]."""
     colour = np.round(np.clip(np.asarray(rgb[:3], dtype=np.float64), 0.0, 1.0) * 255.0).astype(np.uint8)
     return Patch(uv=np.zeros((count, 3, 2)), colours=np.tile(colour, (count, 1)))
 
 
-def primitive(kind: str, sizes: Sequence[float], rgb: Sequence[float]) -> Piece:
+def primitive(kind: str, sizes: Sequence[float], rgb: Sequence[float] | Points) -> Piece:
     """A box (full sizes), sphere (radius), ellipsoid (semi-axes), cylinder or capsule (radius, length) at the origin.
 
     Raises:

@@ -33,6 +33,7 @@ from pat3d.assets.library.store import Entry
 from pat3d.assets.materials import material
 from pat3d.assets.mesh.cover import outside
 from pat3d.assets.mesh.importing import METRES, TO_Z_UP, Placing, asset_of
+from pat3d.assets.mesh.parts import PartsMethod
 from pat3d.assets.rounded import circumscribed
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
@@ -225,7 +226,11 @@ def _made(
         )
         given = None
     asset = make(parts=given if given is not None else settings.get("parts", "coacd"))
-    for instead, told in (("hull", "one convex hull"), ([_wrapped(placing.apply(body.mesh.vertices))], "a plain wrap")):
+    others: tuple[tuple[PartsMethod | list[Points], str], ...] = (
+        ("hull", "one convex hull"),
+        ([_wrapped(placing.apply(body.mesh.vertices))], "a plain wrap"),
+    )
+    for instead, told in others:
         fits = (asset.size <= extents + SWOLLEN * extents.max()).all()
         if fits and (asset.provenance["parts"].get("sticks_out") or 0.0) <= STICKS_OUT:
             break
