@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from pat3d.assets.catalogue import lookup
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.nouns.source import OwnNouns
 from pat3d.assets.source import CATALOGUE, AssetSource, Candidate, Known, candidates
@@ -18,9 +19,7 @@ class Catalogue:
 
     def nouns(self) -> Sequence[Known]:
         """Every entry."""
-        from pat3d.assets import catalogue
-
-        return [Known(noun=one.noun, names=(one.noun, *one.synonyms), like=one.noun) for one in catalogue.entries()]
+        return [Known(noun=one.noun, names=(one.noun, *one.synonyms), like=one.noun) for one in lookup.entries()]
 
     def find(self, phrase: str) -> Sequence[Candidate]:
         """Entries by their names."""
@@ -41,9 +40,7 @@ class Catalogue:
         adjectives: Iterable[str] = (),
     ) -> Asset:
         """What the recipe of `noun` makes."""
-        from pat3d.assets import catalogue
-
-        return catalogue.make(noun, seed=seed, scale=scale, colours=colours, material=material, adjectives=adjectives)
+        return lookup.make(noun, seed=seed, scale=scale, colours=colours, material=material, adjectives=adjectives)
 
 
 def source_of(noun: str) -> AssetSource:
