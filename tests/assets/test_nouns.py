@@ -164,10 +164,10 @@ def test_a_wrong_program_is_refused_where_it_is_wrong(tmp_path, old, new, words)
         ("{cylinder: {radius: -0.1, height: 0.1}}", "cylinder"),
         ("{hull: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}", "hull"),
         ("{hollow: {outer: [[0.1, 0], [0.1, 0]], inner: [[0.05, 0.01], [0.05, 0.1]]}}", "cannot be made: z must"),
-        ("{box: [30, 1, 1]}", "further than 20 m"),
+        ("{box: [50, 1, 1]}", "further than 20 m"),
         ("{box: [0.1, 0.1, 0.1], then: [{cut_below: 0.2}]}", "empty"),
         ("{box: [0.01, 0.01, 0.01], then: [{line: {count: 200, step: [0.1, 0, 0]}}, "
-         "{line: {count: 200, step: [0, 0.1, 0]}}]}", "convex parts"),
+         "{line: {count: 200, step: [0, 0.1, 0]}}]}", "copies counted"),
     ],
 )  # fmt: skip
 def test_numbers_that_make_nothing_are_told_by_line(tmp_path, shape, words):

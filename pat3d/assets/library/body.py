@@ -81,7 +81,7 @@ def flat(count: int, rgb: Sequence[float] | Points) -> Patch:
     return Patch(uv=np.zeros((count, 3, 2)), colours=np.tile(colour, (count, 1)))
 
 
-def primitive(kind: str, sizes: Sequence[float], rgb: Sequence[float]) -> Piece:
+def primitive(kind: str, sizes: Sequence[float], rgb: Sequence[float] | Points) -> Piece:
     """A box (full sizes), sphere (radius), ellipsoid (semi-axes), cylinder or capsule (radius, length) at the origin.
 
     Raises:

@@ -222,10 +222,11 @@ def _made(
         )
         given = None
     asset = make(parts=given if given is not None else Decomposing(method=settings.get("parts", "coacd")))
-    for instead, told in (
+    others: tuple[tuple[Decomposing | list[Points], str], ...] = (
         (Decomposing(method="hull"), "one convex hull"),
         ([_wrapped(placing.apply(body.mesh.vertices))], "a plain wrap"),
-    ):
+    )
+    for instead, told in others:
         fits = (asset.size <= extents + SWOLLEN * extents.max()).all()
         if fits and (asset.provenance["parts"].get("sticks_out") or 0.0) <= STICKS_OUT:
             break

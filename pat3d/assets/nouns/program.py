@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial import QhullError
 
 from pat3d.assets.catalogue.common import cavity, height, length
 from pat3d.assets.catalogue.joinery import cut, dressed, wrapped
 from pat3d.assets.catalogue.registry import RGB, Build, Entry, Style
 from pat3d.assets.colours import COLOURS, find_colour
-from pat3d.assets.nouns.language import LARGEST, MAX_COPIES, MAX_DEPTH, MAX_HULLS, MAX_SHAPES, SCHEMA, VERBS
+from pat3d.assets.nouns.language import LARGEST, MAX_DEPTH, MAX_HULLS, MAX_SHAPES, SCHEMA, VERBS
 from pat3d.assets.nouns.verbs import MADE, stepped
 from pat3d.assets.rounded import merged
 from pat3d.assets.shapes import Shape
@@ -232,7 +233,7 @@ class _Maker:
             for step in said.get("then", ()):
                 (name,) = step
                 if name in ("line", "circle"):
-                    self._spend(step[name]["count"], place)
+                    self._spend(step[name]["count"] * max(1, len(made.hulls)), place)
                 value = step[name] if name in ("turn", "mirror") else self._numbers(step[name])
                 made = stepped(made, name, value)
         except SpecError:
@@ -244,6 +245,7 @@ class _Maker:
             ZeroDivisionError,
             FloatingPointError,
             np.linalg.LinAlgError,
+            QhullError,
         ) as error:
             text = " ".join(str(error).split())[:160]
             raise self._source.error(place, f"this {verb} cannot be made: {text}") from error
@@ -264,7 +266,7 @@ class _Maker:
 
     def _spend(self, count: int, place: Place) -> None:
         self._left -= count
-        if self._left < 0 or count > MAX_COPIES:
+        if self._left < 0:
             raise self._source.error(place, f"more than {MAX_SHAPES} shapes, copies counted.")
 
     def _numbers(self, value: Any) -> Any:

@@ -18,6 +18,10 @@ def _triple(point: Any) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
+def _three(said: Mapping[str, Any]) -> tuple[float, float, float]:
+    return _triple(said["size"])
+
+
 def _triples(points: Any) -> list[tuple[float, float, float]]:
     return [_triple(point) for point in points]
 
@@ -64,8 +68,8 @@ def _lathe(said: Mapping[str, Any]) -> Shape:
 
 MADE: Mapping[str, Callable[[Any], Shape]] = {
     "box": lambda said: shapes.box(*said),
-    "soft_box": lambda said: shapes.soft_box(*_triple(said["size"]), said["radius"]),
-    "slab": lambda said: rounded.slab(*_triple(said["size"]), said["corner"]),
+    "soft_box": lambda said: shapes.soft_box(*_three(said), radius=said["radius"]),
+    "slab": lambda said: rounded.slab(*_three(said), corner=said["corner"]),
     "taper": lambda said: rounded.taper(tuple(said["bottom"]), tuple(said["top"]), said["height"]),
     "frustum": lambda said: shapes.frustum(said["bottom"], said["top"], said["height"], _sides(said, 16)),
     "cylinder": lambda said: shapes.cylinder(said["radius"], said["height"], _sides(said, 16)),
@@ -88,7 +92,9 @@ MADE: Mapping[str, Callable[[Any], Shape]] = {
         _rising(said["outer"]), _rising(said["inner"]), said.get("levels", ()), int(said.get("segments", 12))
     ),
     "ball": lambda said: resting_ball(said),
-    "tray": lambda said: shapes.tray(*_triple(said["size"]), said["wall"], said["floor"], said.get("flare", 0.0)),
+    "tray": lambda said: shapes.tray(
+        *_three(said), wall=said["wall"], floor=said["floor"], flare=said.get("flare", 0.0)
+    ),
 }
 """What makes a shape of every verb's numbers, but for `join` and `use`."""
 

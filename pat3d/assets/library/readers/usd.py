@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,19 @@ from pat3d.assets.library.readers.xml import GRAY
 from pat3d.assets.mesh.load import MAX_BYTES, MAX_FACES
 from pat3d.assets.mesh.texture import MAX_SIDE, Patch
 from pat3d.errors import AssetError
+from pat3d.geometry.rotations import matrix_of
+
+
+def pxr_module(name: str) -> Any:
+    """A module of OpenUSD, whose types no checker knows.
+
+    Raises:
+        AssetError: usd-core is not installed.
+    """
+    try:
+        return import_module(f"pxr.{name}")
+    except ImportError as error:
+        raise AssetError("USD files are read with usd-core: pip install 'pat3d[usd]'.") from error
 
 
 def read_usd(path: Path, root: Path) -> Body:
@@ -22,10 +36,7 @@ def read_usd(path: Path, root: Path) -> Body:
     Raises:
         AssetError: usd-core is missing, the file is damaged, it has joints that move, or nothing is to be seen.
     """
-    try:
-        from pxr import Tf, Usd, UsdGeom, UsdPhysics
-    except ImportError as error:
-        raise AssetError("USD files are read with usd-core: pip install 'pat3d[usd]'.") from error
+    Tf, Usd, UsdGeom, UsdPhysics = (pxr_module(name) for name in ("Tf", "Usd", "UsdGeom", "UsdPhysics"))
     try:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
@@ -85,7 +96,7 @@ def _transformed(piece: Piece, matrix: Points) -> Piece:
 
 
 def _piece(prim: Any, root: Path, notes: list[str], files: list[Path]) -> Piece | None:
-    from pxr import UsdGeom
+    UsdGeom = pxr_module("UsdGeom")
 
     colours = UsdGeom.Gprim(prim).GetDisplayColorAttr().Get()
     rgb = tuple(colours[0]) if colours else GRAY
@@ -107,7 +118,7 @@ def _piece(prim: Any, root: Path, notes: list[str], files: list[Path]) -> Piece 
 
 
 def _mesh(prim: Any, rgb: Any, root: Path, notes: list[str], files: list[Path]) -> Piece | None:
-    from pxr import UsdGeom
+    UsdGeom = pxr_module("UsdGeom")
 
     mesh = UsdGeom.Mesh(prim)
     points, counts = mesh.GetPointsAttr().Get(), mesh.GetFaceVertexCountsAttr().Get()
@@ -140,7 +151,7 @@ def _mesh(prim: Any, rgb: Any, root: Path, notes: list[str], files: list[Path]) 
 
 
 def _coordinates(prim: Any, index: Any, corners: Any) -> Points | None:
-    from pxr import UsdGeom
+    UsdGeom = pxr_module("UsdGeom")
 
     for name in ("st", "st0", "UVMap", "map1"):
         primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar(name)
@@ -156,7 +167,7 @@ def _coordinates(prim: Any, index: Any, corners: Any) -> Points | None:
 
 def _look(prim: Any, root: Path, files: list[Path], notes: list[str]) -> tuple[Any, Any]:
     """The picture and the colour of the preview material that is bound, each None where there is none."""
-    from pxr import UsdShade
+    UsdShade = pxr_module("UsdShade")
 
     material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
     surface = material.ComputeSurfaceSource()[0] if material else None
@@ -177,7 +188,8 @@ def _look(prim: Any, root: Path, files: list[Path], notes: list[str]) -> tuple[A
 
 def _picture(said: Any, root: Path, files: list[Path], notes: list[str]) -> Any:
     from PIL import Image
-    from pxr import Ar
+
+    Ar = pxr_module("Ar")
 
     where = said.resolvedPath or said.path
     outer = Path(where.split("[")[0]).resolve()
@@ -198,9 +210,7 @@ def _picture(said: Any, root: Path, files: list[Path], notes: list[str]) -> Any:
 
 def _inertial(prims: list[Any], cache: Any, unit: float, kilograms: float) -> Inertial | None:
     """Of the prim that gives a mass, in metres and kilograms."""
-    from pxr import UsdPhysics
-
-    from pat3d.geometry.rotations import matrix_of
+    UsdPhysics = pxr_module("UsdPhysics")
 
     for prim in prims:
         if not prim.HasAPI(UsdPhysics.MassAPI):
@@ -226,7 +236,7 @@ def _inertial(prims: list[Any], cache: Any, unit: float, kilograms: float) -> In
 
 
 def _friction(prims: list[Any]) -> float | None:
-    from pxr import UsdPhysics
+    UsdPhysics = pxr_module("UsdPhysics")
 
     for prim in prims:
         if prim.HasAPI(UsdPhysics.MaterialAPI):

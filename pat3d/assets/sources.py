@@ -4,12 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from pat3d.assets.catalogue import lookup
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.nouns.source import OwnNouns
-from pat3d.assets.source import CATALOGUE, AssetSource, Candidate
-from pat3d.assets.sources.recipes import Catalogue
+from pat3d.assets.source import CATALOGUE, AssetSource, Candidate, Known, candidates
 from pat3d.scene.asset import Asset
 from pat3d.scene.naming import APART
+
+
+class Catalogue:
+    """The recipes of `pat3d.assets.catalogue` as a source."""
+
+    name = CATALOGUE
+
+    def nouns(self) -> Sequence[Known]:
+        """Every entry."""
+        return [Known(noun=one.noun, names=(one.noun, *one.synonyms), like=one.noun) for one in lookup.entries()]
+
+    def find(self, phrase: str) -> Sequence[Candidate]:
+        """Entries by their names."""
+        return candidates(self, phrase)
+
+    def digest(self, noun: str) -> str:
+        """Nothing: recipes change with the version of the program."""
+        return ""
+
+    def make(
+        self,
+        noun: str,
+        *,
+        seed: int = 0,
+        scale: float = 1.0,
+        colours: Iterable[str] = (),
+        material: str | None = None,
+        adjectives: Iterable[str] = (),
+    ) -> Asset:
+        """What the recipe of `noun` makes."""
+        return lookup.make(noun, seed=seed, scale=scale, colours=colours, material=material, adjectives=adjectives)
 
 
 def source_of(noun: str) -> AssetSource:
