@@ -216,7 +216,8 @@ class EditableScene:
             rest, scene, changes = settled(self.draft, self.before, device=name, progress=progress)
         with tempfile.TemporaryDirectory(prefix="pat3d-edit-") as scratch, clock("verification"):
             verification = verify(scene, write_mjcf(scene, Path(scratch) / "mjcf"), progress)
-        if failures := verification.failures:
+        failures = list(verification.failures)
+        if failures:
             more = f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""
             raise EditError(f"the edited scene fails its verification: {failures[0]}{more} Nothing was written.")
         verified = Verified(settled=rest, verification=verification, changes=changes, clock=clock)
