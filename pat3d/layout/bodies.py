@@ -33,6 +33,10 @@ class Body:
         counts = [len(part.vertices) for part in asset.parts]
         self.starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
         """First vertex of every part, shape (parts,)."""
+        self.part_corners = [
+            slice(int(first), int(first) + count) for first, count in zip(self.starts, counts, strict=True)
+        ]
+        """Vertices of every part in `vertices`."""
         corners = np.concatenate([part.vertices[part.faces] for part in asset.parts])
         self.normals: Array = unit_normals(corners)
         """Outward unit normals of all faces, shape (faces, 3), asset frame."""
@@ -89,6 +93,10 @@ class Placed:
     def high(self) -> Array:
         """Upper corner of the bounding box [m], shape (3,)."""
         return self.vertices.max(axis=0)
+
+    def part_vertices(self, index: int) -> Array:
+        """Vertices of part `index` [m], shape (n, 3), world frame."""
+        return self.vertices[self.body.part_corners[index]]
 
     @property
     def centre_of_mass(self) -> Array:

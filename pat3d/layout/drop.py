@@ -1,7 +1,9 @@
 """Lowering a body onto others until a gap remains: conservative advancement along the vertical.
 
-Two convex parts at distance d with unit separating normal n cannot come nearer than `gap` before
-moving (d - gap) / |n_z| towards each other along z, so steps of that length never pass through.
+Two convex parts that are s apart along a unit vector n cannot come nearer than `gap` before moving (s - gap) / |n_z|
+towards each other along z, so steps of that length never pass through. n is the direction between the closest points
+that fcl finds, or z itself, whichever allows more; s is measured on the vertices, since fcl's own distance of nearly
+parallel faces can be a millimetre too large.
 """
 
 from __future__ import annotations
@@ -46,11 +48,13 @@ def fall(body: Placed, obstacles: Sequence[Placed], *, floor: float, gap: float,
             closest = part_distance(here.part(i), other.part(j))
             if closest.distance <= 0.0:
                 return max(0.0, moved - gap)
+            normal = (closest.second - closest.first) / closest.distance
             # Towards the other body is positive.
-            toward = sign * (closest.second[2] - closest.first[2]) / closest.distance
+            toward = sign * normal[2]
             if toward <= 1e-6:
                 continue
-            step = min(step, (closest.distance - gap) / toward)
+            apart = (other.part_vertices(j) @ normal).min() - (here.part_vertices(i) @ normal).max()
+            step = min(step, max((float(apart) - gap) / toward, float(between) - gap))
         if step <= TOLERANCE:
             return max(0.0, moved + min(step, 0.0))
         moved += step

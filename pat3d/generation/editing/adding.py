@@ -163,6 +163,14 @@ def _read(scene: Scene, phrase: str, planner: Planner, *, first_is_new: bool = F
             raise EditError(f'"{phrase}" names {", ".join(named)}; name one of a kind by its number at a time.')
         found = tuple(named) or chosen(scene, said, planner, several=True)
         there |= dict.fromkeys(members, found)
+    meant = {name for found in there.values() for name in found}
+    unread = [name for name in numbered if name not in meant]
+    if unread:
+        raise EditError(
+            f'"{unread[0]}" was not read as something that is there: "a {numbered[unread[0]]} next to the '
+            f'{numbered[unread[0]]}" is one to a planner. Name another landmark, or move it there after. Nothing was '
+            "written."
+        )
     return _Read(plan=plan, new=tuple(new), there=there)
 
 

@@ -178,6 +178,7 @@ def test_what_lay_in_a_bowl_comes_down_when_the_bowl_is_taken(desk):
         ("add", ("a zorblax on the desk",), PromptError, "zorblax"),
         ("add", ("the vase",), EditError, "nothing new"),
         ("add", ("a mug on the piano",), EditError, "piano"),
+        ("add", ("an apple next to the apple 1",), EditError, "apple 1"),
         ("remove", ("teapot",), EditError, "The scene has: book 1"),
         ("move", ("vase", "somewhere nice"), EditError, "Valid: "),
         ("turn", ("vase", "a bit"), EditError, "90 degrees"),
