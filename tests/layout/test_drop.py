@@ -80,7 +80,7 @@ def test_blocks_that_are_turned_a_little_keep_their_gap(seed):
     blocks, _, _ = stack(seed % 20)
     rng = np.random.default_rng(seed)
     turn, more = rng.uniform(-np.pi, np.pi), rng.uniform(-0.1, 0.1)
-    lower = place("block 1", blocks["block 1"], Pose.from_yaw(turn))
+    lower = place("block 1", blocks["block 1"], Pose.from_yaw(turn, (0.0, 0.0, 0.0)))
     upper = place("block 2", blocks["block 2"], Pose.from_yaw(turn + more, (*rng.uniform(-0.03, 0.03, 2), 0.0)))
     upper = upper.shifted(np.array([0.0, 0.0, lower.high[2] - upper.low[2] + GAP]))
     fallen = fall(upper, [lower], floor=-math.inf, gap=GAP)
