@@ -24,6 +24,8 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
 """What an object may lie on that is a part of itself, and how it is turned then."""
+_UNHEARD = 0.8
+"""What a reading costs in which nothing is said of so many of them."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -137,6 +139,12 @@ class Interpreter(Placing):
                 self._world.note(f'not understood: "{chunk.text}"')
             if chunk.kind != "noun":
                 continue
+            pieces = chunk.phrase if chunk.phrase is not None and chunk.phrase.kind == "pieces" else None
+            counted = pieces is not None and pieces.count is not None and pieces.modifiers == NO_MODIFIERS
+            if counted and at not in heard and at not in self._said.bound and at not in self._handled:
+                # "Five cans: two on a tray, three on a bench": that all five are on the bench leaves out the three.
+                self._world.note(f'not understood: "{chunk.text}"')
+                self._said.cost += _UNHEARD
             speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
             if speaks and not self._said.ref(at) and at not in self._said.bound and at not in self._handled:
                 self._world.note(f'not understood: "{chunk.text}"')
