@@ -1,9 +1,9 @@
 """How do things stand on the surfaces of generated scenes: how far spread, how near to the axes?
 
-python benchmarks/arrangement.py --prompts benchmarks/tabletops.txt benchmarks/prompts.txt --seeds 0 1 2
+python -m benchmarks.arrangement --prompts benchmarks/tabletops.txt benchmarks/prompts.txt --seeds 0 1 2
 
 Layouts alone are made, nothing settles. What is measured are things of at most 0.6 m that stand upright on something,
-side by side with others or not; what is in containers and stacks is left out.
+side by side with others or not. The directions of rows, other arrangements and place settings are not counted.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ LARGEST = 0.6
 """Of what is measured [m]."""
 REACH = 0.42
 """Half of the surface that counts, at most [m]."""
+TABLEWARE = frozenset({"plate", "fork", "knife", "spoon", "glass", "wine glass", "cup", "mug", "napkin"})
+"""Nouns of place settings, which have their directions."""
 AXIS = 10.0
 """[degrees]"""
 
@@ -46,15 +48,23 @@ class Measured:
         """Area of the hull of the middles of three or more, against what counts."""
         self.failed: list[str] = []
 
-    def add(self, assets: dict[str, Asset], poses: dict[str, Pose], parents: dict[str, str], inside: set[str]) -> None:
-        """One layout."""
+    def add(
+        self,
+        assets: dict[str, Asset],
+        poses: dict[str, Pose],
+        parents: dict[str, str],
+        inside: set[str],
+        exact: set[str],
+    ) -> None:
+        """One layout; what is `inside` something is left out, of what stands `exact` the direction."""
         shared: dict[str, list[np.ndarray]] = defaultdict(list)
         for name, asset in assets.items():
             size, rotation = asset.size, poses[name].rotation
             if float(size.max()) > LARGEST or name in inside or rotation[2, 2] < 0.99:
                 continue
             yaw = math.degrees(math.atan2(rotation[1, 0], rotation[0, 0])) % 90.0
-            self.yaws.append(min(yaw, 90.0 - yaw))
+            if name not in exact:
+                self.yaws.append(min(yaw, 90.0 - yaw))
             shared[parents[name]].append(np.array(poses[name].position[:2]))
         for surface, points in shared.items():
             half = np.full(2, REACH)
@@ -83,6 +93,17 @@ class Measured:
             f"layouts refused: {len(self.failed)}",
             *self.failed,
         ]
+
+
+def _laid(assets: dict[str, Asset], parents: dict[str, str]) -> set[str]:
+    """What lies where plates and cutlery lie."""
+    found = set()
+    for surface in set(parents.values()):
+        own = {name for name, parent in parents.items() if parent == surface}
+        nouns = {assets[name].noun for name in own}
+        if "plate" in nouns and nouns & {"fork", "knife", "spoon"}:
+            found |= {name for name in own if assets[name].noun in TABLEWARE}
+    return found
 
 
 def _hull(points: np.ndarray) -> np.ndarray:
@@ -118,7 +139,8 @@ def main() -> None:
                     continue
                 parents = {name: parent_of(name, request.relations) for name in assets}
                 inside = {rel.child for rel in request.relations if rel.kind in ("in", "hangs_from")}
-                measured.add(assets, dict(layout.poses), parents, inside)
+                exact = {name for one in request.arrangements for name in one.objects} | _laid(assets, parents)
+                measured.add(assets, dict(layout.poses), parents, inside, exact)
         print(path.name, *measured.lines(), sep="\n  ")
 
 

@@ -133,3 +133,8 @@ def test_what_is_on_a_head_stays_on_it():
     plan = PLANNER.plan("A plush elephant with three hats stacked on its head.")
     assert "hat 1 on plush elephant" in map(str, plan.relations)
     assert not plan.turned()
+
+
+def test_what_is_inserted_where_it_may_be_said_of_several_things_is_refused():
+    with pytest.raises(PromptError, match="next to it"):
+        PLANNER.plan("A frying pan with two eggs and, next to it, a pepper mill.")

@@ -45,15 +45,22 @@ class Cutter(Asides):
             if told == (len(self._made.unread), len(self._made.aside)):
                 passed = (self._tokens[at] for at in range(before, self._at) if at not in self._read)
                 held = self._word(-2) in ("holding", "holds", "hold", "held")
-                self._made.unread += [
+                words = [
                     token.text for token in passed if self._means_something(token) or (held and token.text == "up")
                 ]
+                self._made.unread += [self._in_context(word) for word in words]
         if len(self._made.chunks) > MAX_CHUNKS:
             raise PromptError(
                 f"a sentence of {len(self._made.chunks)} phrases and relations is too long; at most {MAX_CHUNKS} are "
                 "read. Say it in several sentences."
             )
         return self._made
+
+    def _in_context(self, word: str) -> str:
+        """A verb that is left out with what it is said of, since it may have related that to something."""
+        last = self._last
+        verb = word.endswith(("ing", "ed")) or word in _HANGING
+        return f'{word}" after "{last.text}' if verb and last is not None and last.kind == "noun" else word
 
     def _step(self) -> None:
         token = self._tokens[self._at]
@@ -121,7 +128,7 @@ class Cutter(Asides):
             return self._quality()
         if word in lexicon.VERBS and not (self._opens and follower == "of") and not self._names(word, follower):
             if word in _HANGING:
-                self._made.unread.append(word)
+                self._made.unread.append(self._in_context(word))
             return self._add("verb")
         if self._meaningless(word, follower):
             return self._drop()

@@ -13,17 +13,16 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, read_modifiers
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.plausible import LARGE
-from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.world import Item, Step, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
-_ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
-"""What an object may lie on that is a part of itself, and how it is turned then."""
+_UNHEARD = 0.8
+"""What a reading costs in which nothing is said of so many of them."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -137,6 +136,12 @@ class Interpreter(Placing):
                 self._world.note(f'not understood: "{chunk.text}"')
             if chunk.kind != "noun":
                 continue
+            pieces = chunk.phrase if chunk.phrase is not None and chunk.phrase.kind == "pieces" else None
+            counted = pieces is not None and pieces.count is not None and pieces.modifiers == NO_MODIFIERS
+            if counted and at not in heard and at not in self._said.bound and at not in self._handled:
+                # "Five cans: two on a tray, three on a bench": that all five are on the bench leaves out the three.
+                self._world.note(f'not understood: "{chunk.text}"')
+                self._said.cost += _UNHEARD
             speaks = chunk.phrase is not None and chunk.phrase.kind == "pieces" and at in heard
             if speaks and not self._said.ref(at) and at not in self._said.bound and at not in self._handled:
                 self._world.note(f'not understood: "{chunk.text}"')
@@ -307,17 +312,6 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
-
-    def _lies_on(self, phrase: Phrase, children: list[Item], parents: list[Item]) -> bool:
-        """Read "two cups, one of them on its head": of what has no head it says how it is turned."""
-        own = phrase.kind == "part" and phrase.possessive and phrase.said in _ON_ITS
-        likely, noun = self._world.likely, self._world.noun(parents[0])
-        headless = likely.level(noun) or likely.hollow(noun) or self._world.is_a(parents[0], lexicon.NARROW)
-        if not own or not (headless or set(children) <= set(parents)):
-            return False
-        for item in children:
-            item.told = item.told.marked_as(read_modifiers([token_text(_ON_ITS[phrase.said])]))
-        return True
 
     def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
         """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""

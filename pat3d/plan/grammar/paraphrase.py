@@ -22,6 +22,8 @@ _NEGATIONS = frozenset({
     "wasn't", "weren't", "hasn't", "haven't",
 })  # fmt: skip
 _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
+_HAVING = frozenset({"with", "has", "have", "holds", "hold", "holding", "contains", "contain", "containing", "carries"})
+"""Words after which a list is of what something has."""
 _MIDDLES = ("centre", "center", "middle")
 _ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
 """Ordinals after "every"."""
@@ -49,6 +51,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _without(tokens, _SILENT)
     _refuse_negations(tokens)
     tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
+    _refuse_inserted(text, tokens)
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(_plain_words(_kinds(tokens, nouns), nouns), nouns))
 
@@ -138,6 +141,21 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
         else:
             made.append(token)
     return made
+
+
+def _refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
+    """Raises: PromptError: "with two eggs and, next to it, a mill" leaves open what "it" is, and what is in what."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
+        end = at + 2 + size
+        inserted = size and words[end] in ("it", "them") and words[end + 1] == ","
+        if inserted and set(words[:at]) & _HAVING:
+            said = text[tokens[at + 2].start : tokens[end].end]
+            raise PromptError(
+                f'"{said}" (word {tokens[at + 2].number}) is inserted where it may be said of several things. Say it '
+                'in a sentence of its own: "Next to the pan is a pepper mill."'
+            )
 
 
 def _its_places(tokens: Sequence[Token]) -> list[Token]:

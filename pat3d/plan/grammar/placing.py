@@ -8,11 +8,17 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
+from pat3d.plan.grammar.modifiers import read_modifiers
 from pat3d.plan.grammar.objects import Maker, multiply, recount
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
+
+_ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
+"""What an object may lie on that is a part of itself, and how it is turned then."""
 
 
 class Placing:
@@ -124,6 +130,17 @@ class Placing:
             if items := self._said.ref(self._said.clauses[start][0]):
                 return items
         return self._world.subject
+
+    def _lies_on(self, phrase: Phrase, children: list[Item], parents: list[Item]) -> bool:
+        """Read "two cups, one of them on its head": of what has no head it says how it is turned."""
+        own = phrase.kind == "part" and phrase.possessive and phrase.said in _ON_ITS
+        likely, noun = self._world.likely, self._world.noun(parents[0])
+        headless = likely.level(noun) or likely.hollow(noun) or self._world.is_a(parents[0], lexicon.NARROW)
+        if not own or not (headless or set(children) <= set(parents)):
+            return False
+        for item in children:
+            item.told = item.told.marked_as(read_modifiers([token_text(_ON_ITS[phrase.said])]))
+        return True
 
     def _formed(self, at: int, heads: Sequence[int]) -> None:
         chunk = self._chunks[at]

@@ -12,8 +12,8 @@ from pat3d.plan.scene_plan import PostureKind
 POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
-    r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down|bottom[ -]up"
-    r"|face[ -](?:down|up)|on end|upright|inverted"
+    r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down"
+    r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
     r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
