@@ -102,7 +102,7 @@ def yourdfpy(path: Path) -> dict[str, Any]:
 
 
 def _yourdfpy(package: Any, file: Path) -> float:
-    robot = package.URDF.load(str(file), load_collision_meshes=True)
+    robot = package.URDF.load(str(file), build_collision_scene_graph=True, load_collision_meshes=True)
     if not robot.validate():
         raise ValueError(f"{file.name}: {robot.errors[:2]}")
     (link,) = robot.link_map.values()

@@ -58,7 +58,7 @@ READERS = tuple(
         ("MuJoCo 4.0", "mjcf", "scene.xml", "mujoco", ("mujoco==4.0.0",)),
         ("MJX", "mjcf", "scene_mjx.xml", "mjx", ("mujoco-mjx==3.17.0",)),
         ("MuJoCo Warp", "mjcf", "scene.xml", "mujoco_warp", ("mujoco-warp==3.17.0",)),
-        ("dm_control", "mjcf", "scene.xml", "dm_control", ("dm_control",)),
+        ("dm_control", "mjcf", "scene.xml", "dm_control", ("dm_control", "mujoco<4")),
         ("robosuite", "mjcf", "scene.xml", "robosuite", OURS),
         ("yourdfpy", "urdf", "manifest.json", "yourdfpy", ("yourdfpy==0.0.60",)),
         ("Pinocchio", "urdf", "manifest.json", "pinocchio", ("pin==4.1.0",)),
