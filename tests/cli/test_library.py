@@ -1,0 +1,45 @@
+"""`pat3d library` from adding a folder to removing its index."""
+
+import pytest
+
+from pat3d.cli.main import main
+from tests.assets.things_to_index import DOOR, URDF
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "kitchen_sponge.urdf").write_text(URDF)
+    (tmp_path / "in" / "door.urdf").write_text(DOOR)
+    return tmp_path / "in"
+
+
+def test_a_folder_is_added_listed_shown_and_removed(folder, capsys):
+    assert main(["library", "add", str(folder), "--name", "lab", "--workers", "1", "--no-pictures"]) == 0
+    told = capsys.readouterr().out
+    assert "lab: 1 objects ready" in told
+    assert "refused: door.urdf: it has joints that move (hinge)" in told
+    page = (folder.parent / "data" / "libraries" / "lab" / "index.html").read_text()
+    assert "lab/kitchen_sponge" in page
+    assert "joints that move" in page
+    assert main(["library", "list"]) == 0
+    assert f"lab: 1 objects, 1 refused, of {folder}" in capsys.readouterr().out
+    assert main(["library", "show", "lab/sponge"]) == 0
+    told = capsys.readouterr().out
+    assert "0.25 kg, from URDF" in told
+    assert "URDF says so" in told
+    assert main(["plan", "a lab sponge on a tray", "--libraries", "lab"]) == 0
+    assert "lab sponge" in capsys.readouterr().out
+    assert main(["library", "remove", "lab"]) == 0
+    assert sorted(path.name for path in folder.iterdir()) == ["door.urdf", "kitchen_sponge.urdf"]
+
+
+def test_what_is_not_there_is_told(folder, capsys):
+    assert main(["library", "show", "nothing"]) == 2
+    assert main(["library", "add", str(folder / "nowhere"), "--name", "lab"]) == 2
+    assert main(["library", "add", str(folder), "--name", "Lab"]) == 2
+    told = capsys.readouterr().err
+    assert "no library" in told
+    assert "is no folder" in told
+    assert "is no name for a library" in told
