@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.config import RENDER_MODES, Source, TabletopConfig, configured
-from pat3d.envs.grasping.placement import Placement, place
+from pat3d.envs.grasping.remembered import placed
+from pat3d.envs.grasping.standing import Placement
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
@@ -225,7 +226,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         name = task.spec if isinstance(task, Task) else str(task or "")
         key = (loaded.checksum, name)
         if key not in self._kept:
-            chosen, placement = choose(loaded.scene, task, self.config.arms)
+            chosen, placement = choose(loaded.scene, task, self.config.arms, loaded.checksum)
             world = compose(loaded.scene, loaded.mjcf, make_robot(placement.robot or self.config.arms), placement)
             self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self.config.sleep))
             if len(self._kept) > _KEPT_WORLDS:
@@ -272,22 +273,29 @@ def _again(
     return made
 
 
-def choose(scene: Scene, task: str | Task | None, robot: str) -> tuple[Task, Placement]:
-    """The task and where the robot stands for it; without a task the scene's own, else the first possible pick."""
+def choose(scene: Scene, task: str | Task | None, robot: str, checksum: str | None = None) -> tuple[Task, Placement]:
+    """The task and where the robot stands for it; without a task the scene's own, else the first possible pick.
+
+    Args:
+        scene: at rest.
+        task: what to do.
+        robot: one arm or two.
+        checksum: of the files that MuJoCo loads for the scene, by which a placement is remembered; None to search.
+    """
     task = scene.task if task is None else task
     if task is not None:
         if not isinstance(task, Task | str):
             raise EnvironmentSetupError(f'a task is text such as "pick:red mug", or a task, not {type(task).__name__}.')
         chosen = task if isinstance(task, Task) else parse_task(task)
         chosen.check(scene)
-        return chosen, place(scene, robot, chosen.needs(scene))
+        return chosen, placed(scene, checksum, robot, chosen.needs(scene))
     reasons = []
     for obj in scene.objects:
         if obj.fixed:
             continue
         chosen = Pick(target=obj.name)
         try:
-            return chosen, place(scene, robot, chosen.needs(scene))
+            return chosen, placed(scene, checksum, robot, chosen.needs(scene))
         except TaskError as error:
             reasons.append(str(error))
     raise TaskError("nothing in the scene can be picked: " + " ".join(reasons))

@@ -128,7 +128,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         else:
             default = DEFAULT_TASK if config.scene is None and config.task is None else config.task
             loaded, given = load(config.scene), default
-        self.task, placement = choose(loaded.scene, given, config.arms)
+        self.task, placement = choose(loaded.scene, given, config.arms, loaded.checksum)
         world = compose(loaded.scene, loaded.mjcf, make_robot(config.arms), placement)
         if not _present(device):
             raise EnvironmentSetupError(f'there is no device "{device}" here; vectorization_mode="async" runs on CPUs.')

@@ -15,7 +15,7 @@ from pat3d.plan.grammar.planner import GrammarPlanner
 @pytest.fixture(autouse=True)
 def placed(monkeypatch):
     """The robot stands anywhere: what is tested is which task is chosen."""
-    monkeypatch.setattr(module, "place", lambda scene, robot, needs: None)
+    monkeypatch.setattr(module, "placed", lambda scene, checksum, robot, needs: None)
 
 
 def test_a_scene_s_own_task_is_chosen_where_none_is_given(breakfast):
