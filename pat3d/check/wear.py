@@ -2,8 +2,8 @@
 
 What tips over the edge of a face presses on that edge alone, and sinks in there. By the time it presses on so little it
 has turned, and its weight is further out than on a rigid floor. Five bricks whose weights are 2 mm inside of the edges
-under them tip at 0.77 (MuJoCo) and 0.85 (Drake) of the tilt at which rigid ones do; with 1 mm they fall untilted in
-Newton, Drake and Bullet.
+under them tip at 0.77 (MuJoCo) and 0.85 (Drake) of the tilt at which rigid ones do; with 1 mm they fall nearly
+untilted in Newton's XPBD, Drake and Bullet.
 """
 
 from __future__ import annotations
