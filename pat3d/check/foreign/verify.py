@@ -217,7 +217,8 @@ def overlaps(model: Any, data: Any, who: Owners) -> tuple[ForeignOverlap, ...]:
         bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom]
         # What only mechanisms and the world do to one another is not the layout's.
         if contact.dist < -LISTED and max(who.of_body[bodies]) >= 0:
-            pair = tuple(sorted(who.label(body) for body in bodies))
+            first, second = sorted(who.label(body) for body in bodies)
+            pair = first, second
             found[pair] = max(found.get(pair, 0.0), -float(contact.dist))
     deepest = sorted(found.items(), key=lambda item: -item[1])
     return tuple(ForeignOverlap(first=first, second=second, depth_mm=1e3 * depth) for (first, second), depth in deepest)
