@@ -207,7 +207,7 @@ def test_a_reset_compiles_and_plans_nothing_again(env, monkeypatch):
     def refuse(*arguments: object) -> None:
         raise AssertionError
 
-    for module, name in (("env", "compose"), ("env", "place"), ("env", "load")):
+    for module, name in (("env", "compose"), ("env", "placed"), ("env", "load")):
         monkeypatch.setattr(f"pat3d.envs.{module}.{name}", refuse)
     monkeypatch.setattr(mujoco, "mj_forward", lambda *given: passes.append(1) or forward(*given))
     env.reset()

@@ -73,6 +73,9 @@ class Having(Judging):
                 ) / (len(things) * len(owners)) + 0.25 * sum(
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
+        if link.manner == "of" and placed and self._phrase(owners[0]).kind not in HEADLESS:
+            # "a bowl of apples in the middle", "a cup of pens next to it": what is said last is said of the bowl.
+            cost += 2.0
         if link.manner == "of" and left:
             cost += 0.6 * any(self._phrase(head).determined for head in modifier.heads[1:])
             cost += (
