@@ -171,7 +171,7 @@ def banana(style: Style) -> Build:
     path = arc(bend, 35, 145, 29)
     t = np.linspace(-1, 1, 29)
     radius = r * np.clip(1.0 - 0.35 * np.abs(t) ** 4 - 0.42 * np.clip(np.abs(t) - 0.8, 0, 1) / 0.2, 0.2, 1)
-    body = tube(np.column_stack([path, radius]), radius, 5)
+    body = tube(np.column_stack([path, radius]), radius, 7)
     stem = tube(np.column_stack([arc(bend, 29, 36, 4), np.full(4, 0.009)]), 0.0042, 1)
     tips = join(
         box(0.02, 0.1, 0.1).moved(x=path[-1, 0], y=path[-1, 1] - 0.045),
