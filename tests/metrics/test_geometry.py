@@ -192,11 +192,13 @@ def test_r_by_ftetwild_is_absent_or_right():
     assert found.remeshed.pairs > found.delivered.pairs
 
 
-def test_ftetwild_keeps_surfaces_and_their_edge_length():
+def test_ftetwild_keeps_surfaces_and_their_edge_length_and_leaves_no_file(tmp_path, monkeypatch):
     pytest.importorskip("pytetwild")
+    monkeypatch.chdir(tmp_path)
     subject = replace(two_cubes(0.2), bodies=two_cubes(0.2).bodies[:1])
     ((vertices, faces),) = remeshed(subject)
     solid = trimesh.Trimesh(vertices, faces)
     assert solid.is_watertight
     assert solid.volume == pytest.approx(1e-3, rel=5e-3)
     assert 0.5 < solid.edges_unique_length.mean() / (EDGE * subject.diagonal) < 1.5
+    assert not list(tmp_path.iterdir())

@@ -44,7 +44,8 @@ def _remeshed(body: Body, edge: float, envelope: float) -> Surface:
         # -P keeps the worker's folder off the module path, where our file names could shadow others.
         command = [sys.executable, "-P", str(remesh_worker.__file__), str(source), str(target)]
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS)
+            # fTetWild leaves a file in its working directory.
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, cwd=folder)
         except subprocess.TimeoutExpired:
             raise CheckError(f'fTetWild did not remesh "{body.name}" within {SECONDS:g} s.') from None
         if done.returncode or not target.is_file():
