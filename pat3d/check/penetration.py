@@ -59,10 +59,10 @@ class PenetrationReport:
     """Pairs within a millimetre that do not intersect."""
     afloat: tuple[str, ...]
     """Fixed objects that nothing is within a millimetre of: the user fixed them, and no force holds them."""
-    ratio: float
-    """R: volume shared by pairs of visual meshes over the volume of all objects [-].
+    volume_ratio: float
+    """Volume shared by pairs of visual meshes over the volume of all objects [-].
 
-    This is our definition: the sum over unordered pairs of objects of the volume of the intersection of
+    The sum over unordered pairs of objects of the volume of the intersection of
     their closed visual meshes, divided by the sum of the objects' volumes. Zero if and only if no two solids overlap.
     """
 
@@ -125,7 +125,7 @@ def penetration(scene: Scene) -> PenetrationReport:
         visuals=tuple(seen),
         gaps=tuple(gaps),
         afloat=tuple(obj.name for obj in objects if obj.fixed and obj.name not in near),
-        ratio=shared / total,
+        volume_ratio=shared / total,
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from pat3d.check.certificate import Certificate, certify
 from pat3d.check.loads import Load, carried_loads
-from pat3d.check.metrics import displacement, share_still
+from pat3d.check.metrics.drift import mean_drift, share_still
 from pat3d.check.penetration import PenetrationReport, penetration
 from pat3d.check.settle import SettleReport, settle_in_mujoco
 from pat3d.layout.predicates import RelationResult, check_arranged, check_relations
@@ -89,7 +89,7 @@ class Verification:
             "penetration": self.penetration.as_dict(),
             "mujoco": self.mujoco.as_dict(),
             "settings": "MuJoCo with the options of mjcf/scene.xml; for others see: pat3d check --settings all",
-            "displacement_m": displacement(self.mujoco),
+            "mean_drift_m": mean_drift(self.mujoco),
             "share_still": share_still(self.mujoco),
             **({"loads": [load.as_dict() for load in self.loads]} if self.loads else {}),
             "relations": {

@@ -148,7 +148,7 @@ def show_verification(target: Console, scene: Scene, verification: Verification)
         "equilibrium": f"unbalanced by at most {certificate.worst:.0e} of the weight at friction "
         f"{certificate.friction:g}{margin}",
         "intersections": f"{len(overlaps.hulls)} pairs of hulls, {len(overlaps.visuals)} of surfaces; "
-        f"R = {overlaps.ratio:.2g}",
+        f"{overlaps.volume_ratio:.2g} of the volume shared",
         "MuJoCo": f"{mujoco.version}, {mujoco.seconds:g} s: at most {mujoco.worst_mm:.3f} mm and "
         f"{mujoco.worst_degrees:.3f} degrees{_creep(mujoco)}; {len(mujoco.warnings)} warnings",
         "relations": f"{len(held)} of {len(verification.relations)} hold",

@@ -59,6 +59,7 @@ def doctor(options: argparse.Namespace) -> int:
         _egl(table)
         _engines(table)
         _model(table)
+        _metrics(table)
     from pat3d.scene.cache import cache_root
 
     table.add("ok", "mesh cache", _folder(cache_root()))
@@ -168,6 +169,18 @@ def _model(table: Table) -> None:
     key = "a key from the environment" if settings.key else f"no key ({' or '.join(KEYS)})"
     looks = f", pictures by {settings.vision}" if settings.vision else ""
     table.add("ok", "language model", f"{settings.name} on {settings.server}{looks}, with {key}")
+
+
+def _metrics(table: Table) -> None:
+    """Report which columns of the paper's table `pat3d metrics` can fill."""
+    from pat3d.check.metrics.remeshing import can_remesh
+
+    if can_remesh():
+        table.add("ok", "metrics", "D, R on delivered meshes, R on meshes of fTetWild")
+    else:
+        table.add(
+            "no", "metrics", "D, R on delivered meshes; pip install 'pat3d[metrics]' adds R on meshes of fTetWild"
+        )
 
 
 def _egl(table: Table) -> None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pat3d.scene.model import Scene
 
 FORMAT = "pat3d-report"
-VERSION = 2
+VERSION = 3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -10,7 +10,7 @@ from tests.scenes import GAP, asset_of, placed, scene_of, tower
 def test_a_settled_tower_overlaps_nowhere_and_its_gaps_are_listed():
     report = penetration(tower(4))
     assert report.passed
-    assert report.ratio == 0.0
+    assert report.volume_ratio == 0.0
     assert len(report.gaps) == 4
     np.testing.assert_allclose([gap.distance for gap in report.gaps], GAP, rtol=1e-9)
 
@@ -25,7 +25,7 @@ def test_overlapping_boxes_are_found_with_their_depth_and_volume(depth):
     assert {hull.first, hull.second} == {"low", "high"}
     assert hull.depth == pytest.approx(depth, rel=1e-6, abs=1e-12)
     assert visual.volume == pytest.approx(0.07 * 0.08 * depth, rel=1e-4)
-    assert report.ratio == pytest.approx(0.07 * 0.08 * depth / 2e-3, rel=1e-4)
+    assert report.volume_ratio == pytest.approx(0.07 * 0.08 * depth / 2e-3, rel=1e-4)
 
 
 def test_hulls_may_overlap_where_the_round_shapes_they_contain_do_not():
@@ -35,7 +35,7 @@ def test_hulls_may_overlap_where_the_round_shapes_they_contain_do_not():
     assert len(report.hulls) == 1
     assert report.hulls[0].depth > 1e-5
     assert not report.visuals
-    assert report.ratio == 0.0
+    assert report.volume_ratio == 0.0
 
 
 def test_a_small_object_swallowed_by_a_large_one_is_found():

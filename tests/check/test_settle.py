@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pat3d.assets.shapes import box, cylinder, vessel
-from pat3d.check.metrics import displacement, share_still
+from pat3d.check.metrics.drift import mean_drift, share_still
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import CheckError
 from pat3d.exporters.mjcf.writer import write_mjcf
@@ -63,7 +63,7 @@ def test_a_falling_object_is_reported_with_its_fall(tmp_path):
     assert report.worst_mm == pytest.approx(1226, rel=0.01)
     assert not report.passed
     assert share_still(report) == 0.5
-    assert displacement(report) == pytest.approx(report.worst_mm / 2e3, rel=1e-3)
+    assert mean_drift(report) == pytest.approx(report.worst_mm / 2e3, rel=1e-3)
 
 
 def test_a_tipping_object_is_reported_in_degrees(tmp_path):

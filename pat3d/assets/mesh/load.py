@@ -8,7 +8,7 @@ import mmap
 import os
 import struct
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,39 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
         AssetError: no such file, an unknown format, over the limits, or no usable triangles.
     """
     path = Path(path)
+    scene, resolver = _read(path, texture_root)
+    notes = list(resolver.refused)
+    patches = [patch for _, patch in _patches(path, scene, notes)]
+    pieces = [one for one in scene.geometry.values() if len(getattr(one, "faces", ()))]
+    surface = surface_said(max(pieces, key=lambda one: len(one.faces)), notes) if pieces else {}
+    return replace(_merged(path, patches, notes, resolver), surface=surface)
+
+
+def load_objects(path: str | os.PathLike[str]) -> list[tuple[str, LoadedMesh]]:
+    """Read a file as `load_mesh` does, and return the name and mesh of every node with triangles.
+
+    Returns:
+        Sorted by name, all in the file's world frame.
+
+    Raises:
+        AssetError: as for `load_mesh`.
+    """
+    path = Path(path)
+    scene, resolver = _read(path, None)
+    notes = list(resolver.refused)
+    objects: dict[str, list[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]] = {}
+    for node, patch in _patches(path, scene, notes):
+        parent = str(scene.graph.transforms.parents.get(node, ""))
+        # trimesh hangs the primitives of a mesh under its node, named after it with six letters more.
+        primitive = parent and node[:-6] == f"{parent}_"
+        objects.setdefault(parent if primitive else node, []).append(patch)
+    if not objects:
+        raise AssetError(f'"{path}" holds no triangles.')
+    return [(name, _merged(path, patches, notes, resolver)) for name, patches in sorted(objects.items())]
+
+
+def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any, Any]:
+    """The scene graph of a file, and the reader of the files beside it."""
     kind = path.suffix.lower().lstrip(".")
     if kind not in FORMATS:
         raise AssetError(f'"{path}" is not of a known mesh format. Valid: {", ".join(FORMATS)}.')
@@ -74,8 +107,13 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
         # Parsers raise whatever a malformed file makes them hit; the user needs one line.
         text = " ".join(str(error).split())[:200]
         raise AssetError(f'"{path}" cannot be read as {kind.upper()}: {type(error).__name__} {text}.') from error
-    notes = list(resolver.refused)
-    patches = list(_patches(path, scene, notes))
+    return scene, resolver
+
+
+def _merged(
+    path: Path, patches: list[tuple[NDArray[np.float64], NDArray[np.int64], Patch]], notes: list[str], resolver: Any
+) -> LoadedMesh:
+    """One mesh of several, with one texture."""
     if not patches:
         raise AssetError(f'"{path}" holds no triangles.')
     counts = np.cumsum([0] + [len(vertices) for vertices, _, _ in patches])
@@ -88,15 +126,12 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
         raise AssetError(
             f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad}: {vertices[bad]}).'
         )
-    uv, texture = pack([patch for _, _, patch in patches], notes)
-    pieces = [one for one in scene.geometry.values() if isinstance(one, trimesh.Trimesh) and len(one.faces)]
-    surface = surface_said(max(pieces, key=lambda one: len(one.faces)), notes)
+    uv, texture = pack([look for _, _, look in patches], notes)
     return LoadedMesh(
         vertices=vertices,
         faces=faces,
         uv=uv,
         texture=texture,
-        surface=surface,
         notes=tuple(dict.fromkeys(notes)),
         files=(path, *resolver.opened),
     )
@@ -104,8 +139,8 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
 
 def _patches(
     path: Path, scene: Any, notes: list[str]
-) -> Iterator[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]:
-    """World vertices, faces and look of every mesh node."""
+) -> Iterator[tuple[str, tuple[NDArray[np.float64], NDArray[np.int64], Patch]]]:
+    """Name of every mesh node, with its world vertices, faces and look."""
     import trimesh
 
     total = 0
@@ -128,7 +163,7 @@ def _patches(
             faces = faces[:, ::-1]
         else:
             patch = Patch.of(geometry, notes)
-        yield vertices @ transform[:3, :3].T + transform[:3, 3], faces, patch
+        yield str(node), (vertices @ transform[:3, :3].T + transform[:3, 3], faces, patch)
 
 
 def _check_size(path: Path, kind: str) -> None:

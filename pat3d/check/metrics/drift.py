@@ -1,14 +1,14 @@
-"""Scalar scores of a scene, for tables."""
+"""How far the objects of a delivered scene drift, in one number."""
 
 from __future__ import annotations
 
 from pat3d.check.settle import SettleReport
 
 
-def displacement(report: SettleReport) -> float:
-    """D: how far an engine moves the objects of a delivered scene, on average [m].
+def mean_drift(report: SettleReport) -> float:
+    """How far an engine moves the objects of a delivered scene, on average [m].
 
-    This is our definition: the mean over the free objects of the largest distance of the centre of mass from where
+    The mean over the free objects of the largest distance of the centre of mass from where
     it was delivered, at any time of the run. Zero for a scene of fixed objects.
     """
     if not report.objects:
