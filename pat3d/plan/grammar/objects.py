@@ -36,7 +36,8 @@ class Maker:
         Raises:
             PromptError: the noun is unknown and proxies are not allowed, or the count is impossible.
         """
-        phrase = self._ordered(world, phrase)
+        phrase, whole = self._ordered(world, phrase), phrase
+        ordered = phrase is not whole
         noun, said, proxy = phrase.noun, phrase.said, False
         if phrase.kind == "unknown" and not noun:
             noun, said, proxy = self._proxy(world, phrase)
@@ -51,7 +52,8 @@ class Maker:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:
             world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
-        if self._nouns.own(noun) or not noun.startswith("mesh/"):
+        if not ordered:
+            # The prompt of a mesh server has the adjectives too.
             self.note_adjectives(world, phrase)
         if phrase.cycle:
             stand_in = dict.fromkeys(phrase.cycle[at % len(phrase.cycle)] for at in range(count))
