@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from pat3d.assets.catalogue import lookup
+from pat3d.assets.generated.source import MeshServers
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.nouns.source import OwnNouns
 from pat3d.assets.source import CATALOGUE, AssetSource, Candidate, Known, candidates
@@ -62,6 +63,8 @@ def source_named(name: str) -> AssetSource:
     """
     if name == CATALOGUE:
         return Catalogue()
+    if name == MeshServers.name:
+        return MeshServers()
     return OwnNouns(name) if name in OwnNouns.NAMES else LibrarySource(name)
 
 

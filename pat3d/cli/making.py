@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
-from pat3d.cli.reading import CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
+from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS, VIEWS
 from pat3d.generation.settings import DEVICES, Settings
@@ -48,6 +48,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     PROXIES,
     PLANNER,
     LIBRARIES,
+    ASSETS,
     CRITIC,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
@@ -57,6 +58,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     pat3d generate "a red mug on a wooden table" --out scenes/mug
     pat3d generate "a bowl of three apples next to a stack of four books" --out scenes/desk --seed 3
     pat3d generate "the YCB drill beside a sugar box on a tray" --libraries ycb --out scenes/drill
+    pat3d generate "a teapot dinosaur on a plate" --assets mesh:http://127.0.0.1:8080 --out scenes/tea
     pat3d generate --planner llm --critic "una taza roja sobre la mesa" --out scenes/taza
     pat3d generate --prompts prompts.txt --out scenes      one a line; the same command goes on where it stopped
     """,

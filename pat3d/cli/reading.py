@@ -17,6 +17,7 @@ from pat3d.plan.scene_plan import Planner, ScenePlan
 from pat3d.plan.telling import tell
 
 if TYPE_CHECKING:
+    from pat3d.assets.generated.orders import Orders
     from pat3d.plan.llm.chat import Chat
     from pat3d.plan.llm.critic import Critic
 
@@ -28,6 +29,12 @@ LIBRARIES = option(
     nargs="+",
     metavar="NAME",
     default=(),
+)
+ASSETS = option(
+    "--assets",
+    "a server of SGLang (/v1/meshes) or Hunyuan3D (api_server.py) makes what neither libraries nor catalogue have; its "
+    "key is PAT3D_MESH_KEY, pictures to make meshes of lie in PAT3D_MESH_PICTURES",
+    metavar="mesh:URL",
 )
 PLANNERS = ("grammar", "llm")
 PLANNER = option(
@@ -49,13 +56,25 @@ def planner_of(options: argparse.Namespace) -> Planner:
 
     Raises:
         ModelError: it is a language model, and none is set up.
+        AssetError: `--assets` names no server.
     """
+    orders = _orders(options.assets)
     if options.planner == "llm":
         from pat3d.plan.llm.planner import LLMPlanner
 
-        return LLMPlanner(chat(), options.allow_proxies, options.libraries, composes=not options.allow_proxies)
+        composes = not options.allow_proxies
+        return LLMPlanner(chat(), options.allow_proxies, options.libraries, composes=composes, orders=orders)
     kind = AskingPlanner if getattr(options, "ask", False) else GrammarPlanner
-    return kind(options.allow_proxies, vocabulary=known_names(options.libraries))
+    return kind(options.allow_proxies, vocabulary=known_names(options.libraries), orders=orders)
+
+
+def _orders(assets: str | None) -> Orders | None:
+    """What `--assets` says; the module that knows waits for numpy, so it is not asked for nothing."""
+    if assets is None:
+        return None
+    from pat3d.assets.generated.orders import orders_of
+
+    return orders_of(assets)
 
 
 def critic_of(options: argparse.Namespace) -> Critic | None:
@@ -85,6 +104,7 @@ def chat() -> Chat:
     PROXIES,
     PLANNER,
     LIBRARIES,
+    ASSETS,
     JSON,
     examples="""
     pat3d plan "a laptop, a mouse and two glasses on a desk"
@@ -111,8 +131,10 @@ def plan(options: argparse.Namespace) -> int:
 class AskingPlanner:
     """Asks on the terminal where a sentence has two readings that are nearly as likely."""
 
-    def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
-        self._planner = GrammarPlanner(allow_proxies, vocabulary=vocabulary)
+    def __init__(
+        self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None, orders: Orders | None = None
+    ) -> None:
+        self._planner = GrammarPlanner(allow_proxies, vocabulary=vocabulary, orders=orders)
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt` as the user means it.

@@ -28,7 +28,7 @@ from pat3d.assets.library.guess import (
     unit_of,
 )
 from pat3d.assets.library.readers.inertials import fault
-from pat3d.assets.library.resting import TOGETHER, Rest, resting_poses
+from pat3d.assets.library.resting import resting_poses, standing
 from pat3d.assets.library.store import Entry
 from pat3d.assets.materials import material
 from pat3d.assets.mesh.cover import outside
@@ -46,9 +46,6 @@ LEAST_MASS, MOST_MASS = 1e-4, 1e4
 
 DENSITIES = (15.0, 12_000.0)
 """Effective densities [kg/m^3] between which a mass is believed without a doubt: foam and lead."""
-
-LEVEL, LEANING = 0.1, 30.0
-"""Tilts [degrees] below which an object counts as resting as it is, and as leaning towards its nearest rest."""
 
 MISSED = 0.05
 """Share of the longest side by which a picture may reach beyond its collision shapes for them to be meant for it."""
@@ -186,7 +183,7 @@ def _made(
     turn = np.array(TO_Z_UP[axis_of(up)], dtype=np.float64)
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T * metres
     rests = resting_poses(used)
-    turn, told = _standing(turn, rests, up)
+    turn, told = (turn, "") if up.source == "given" else standing(turn, rests)
     doubts += [told] if told else []
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T
     low, high = used.min(axis=0), used.max(axis=0)
@@ -299,21 +296,6 @@ def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> t
         return guess, METRES[settings["units"]]
     guess = guess_unit(body, typical)
     return guess, body.metres if body.metres is not None else METRES[unit_of(guess)]
-
-
-def _standing(turn: Points, rests: tuple[Rest, ...], up: Guess) -> tuple[Points, str]:
-    """`turn` followed by what brings the object to rest, and a doubt where that is no small correction."""
-    if not rests or up.source == "given":
-        return turn, ""
-    nearest = min(rests, key=lambda rest: rest.tilt)
-    if nearest.tilt < LEVEL:
-        return turn, ""
-    # Nearly every object is meant to stand as its file has it, so the nearest rest counts before the likeliest.
-    chosen = nearest if nearest.tilt < LEANING else rests[0]
-    turned = np.array(chosen.rotation) @ turn
-    if chosen.tilt < TOGETHER:
-        return turned, ""
-    return turned, f"pose: it does not rest as its file has it; turned by {chosen.tilt:.0f} degrees to where it does"
 
 
 def _material(settings: Mapping[str, Any], like: str) -> tuple[str, bool]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,9 @@ MOST_POINTS = 400
 
 TOGETHER = 10.0
 """Poses whose up axes differ by less [degrees] are one."""
+
+LEVEL, LEANING = 0.1, 30.0
+"""Tilts [degrees] below which an object counts as resting as it is, and as leaning towards its nearest rest."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,6 +81,26 @@ def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
             rest = Rest(rotation=rotation.tolist(), quat_wxyz=quat_of(rotation), tilt=tilt, probability=share)
             found.append(rest)
     return tuple(sorted(found, key=lambda rest: -rest.probability))
+
+
+def standing(turn: Points, rests: Sequence[Rest]) -> tuple[Points, str]:
+    """`turn`, shape (3, 3), followed by what brings the object to rest, and a doubt where that is no small correction.
+
+    Args:
+        turn: from the file's frame to the one in which the file has it upright.
+        rests: resting poses in that frame.
+    """
+    if not rests:
+        return turn, ""
+    nearest = min(rests, key=lambda rest: rest.tilt)
+    if nearest.tilt < LEVEL:
+        return turn, ""
+    # Nearly every object is meant to stand as its file has it, so the nearest rest counts before the likeliest.
+    chosen = nearest if nearest.tilt < LEANING else rests[0]
+    turned = np.array(chosen.rotation) @ turn
+    if chosen.tilt < TOGETHER:
+        return turned, ""
+    return turned, f"pose: it does not rest as its file has it; turned by {chosen.tilt:.0f} degrees to where it does"
 
 
 def _to_z(direction: Points) -> Points:

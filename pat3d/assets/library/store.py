@@ -24,7 +24,7 @@ VERSION = 2
 """Of what is kept; another one is made again."""
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,39}")
-RESERVED = frozenset({"catalogue", "own", "composed"})
+RESERVED = frozenset({"catalogue", "own", "composed", "mesh"})
 """Names of other sources."""
 
 

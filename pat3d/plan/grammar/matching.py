@@ -33,7 +33,7 @@ def position(phrase: Phrase) -> str:
 def same_noun(group: Group, phrase: Phrase) -> bool:
     """Whether `phrase` names what `group` is."""
     if phrase.kind == "unknown":
-        return group.proxy and group.said == phrase.head
+        return group.phrase.kind == "unknown" and group.said.split()[-1] in (phrase.head, *singulars(phrase.head))
     return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
 
 

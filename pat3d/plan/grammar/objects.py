@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import difflib
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pat3d.assets.colours import COLOURS
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import MAX_OBJECTS, Group, Item, World
+
+if TYPE_CHECKING:
+    # Who reads a sentence without a server waits for no numpy.
+    from pat3d.assets.generated.orders import Orders
 
 _SOFT_ALREADY = ("pillow", "cushion", "floor cushion", "blanket", "towel")
 
@@ -19,9 +25,10 @@ _SOFT_ALREADY = ("pillow", "cushion", "floor cushion", "blanket", "towel")
 class Maker:
     """Makes the groups of one scene."""
 
-    def __init__(self, nouns: Nouns, *, allow_proxies: bool) -> None:
+    def __init__(self, nouns: Nouns, *, allow_proxies: bool, orders: Orders | None = None) -> None:
         self._nouns = nouns
         self._allow_proxies = allow_proxies
+        self._orders = orders
 
     def make(self, world: World, phrase: Phrase, *, filling: bool = False, kind: Group | None = None) -> Group:
         """A new group for `phrase`, of the generic `kind` where it lists one ("plush toys, including ...").
@@ -29,8 +36,10 @@ class Maker:
         Raises:
             PromptError: the noun is unknown and proxies are not allowed, or the count is impossible.
         """
+        phrase, whole = self._ordered(world, phrase), phrase
+        ordered = phrase is not whole
         noun, said, proxy = phrase.noun, phrase.said, False
-        if phrase.kind == "unknown":
+        if phrase.kind == "unknown" and not noun:
             noun, said, proxy = self._proxy(world, phrase)
         count, height = self._count(world, phrase, filling)
         group = Group(
@@ -43,7 +52,9 @@ class Maker:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:
             world.note(f'"{phrase.substance}" of "{phrase.words}" is left out: it is no rigid body.')
-        self.note_adjectives(world, phrase)
+        if not ordered:
+            # The prompt of a mesh server has the adjectives too.
+            self.note_adjectives(world, phrase)
         if phrase.cycle:
             stand_in = dict.fromkeys(phrase.cycle[at % len(phrase.cycle)] for at in range(count))
             assumed = f"{count} assumed: " if phrase.count is None or phrase.vague else ""
@@ -72,6 +83,35 @@ class Maker:
         if idle:
             world.note(f"not modelled: {', '.join(idle)} of {said}")
 
+    def _ordered(self, world: World, phrase: Phrase) -> Phrase:
+        """`phrase` with the noun of an order where a server is to make what no source has, or has without a part of it.
+
+        "A teapot dinosaur" is no dinosaur, and no source has the whole.
+        """
+        if self._orders is None or phrase.kind not in ("object", "unknown") or phrase.cycle:
+            return phrase
+        words = phrase.modifiers.adjectives
+        if phrase.kind == "unknown":
+            if self.no_thing(phrase.head):
+                return phrase
+            named = tuple(word for word in words if not is_modifier(word))
+            several = phrase.plural or (phrase.count or 1) > 1 or not phrase.determined
+            head = (singulars(phrase.head) or (phrase.head,))[0] if several else phrase.head
+        else:
+            named, head = tuple(word for word in words if self._is_thing(word)), phrase.said
+            if not named:
+                return phrase
+        order = self._orders.order(" ".join((*named, head)))
+        self._nouns.learn(order.noun, order.like)
+        world.note(self._orders.told(order))
+        left = tuple(word for word in words if word not in named)
+        modifiers = replace(phrase.modifiers, adjectives=left)
+        return replace(phrase, noun=order.noun, said=order.words, modifiers=modifiers)
+
+    def _is_thing(self, word: str) -> bool:
+        """Whether `word`, before another noun, names a thing of its own."""
+        return self._nouns.match([word]) is not None and not is_modifier(word) and word not in lexicon.SUBSTANCES
+
     def _proxy(self, world: World, phrase: Phrase) -> tuple[str, str, bool]:
         if self._allow_proxies:
             world.note(f'"{phrase.head}" (word {phrase.number}) is not in the catalogue: a plain box stands in.')
@@ -85,15 +125,7 @@ class Maker:
             return PromptError(
                 f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
             )
-        tables = (
-            lexicon.VERBS,
-            lexicon.PARTICIPLES,
-            lexicon.ADVERBS,
-            lexicon.DIRECTIONS,
-            lexicon.POSITIONS,
-            lexicon.COPULAS,
-        )
-        if any(word in table for table in tables) or word in lexicon.SAID_OTHERWISE or len(word) == 1:
+        if self.no_thing(word):
             return PromptError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
                 'the table. A spoon is to the left of the mug."'
@@ -104,6 +136,20 @@ class Maker:
             f'"{word}" is not in the catalogue (word {number}). {hint} Bring a mesh of '
             "your own with pat3d build, or accept a plain box with --allow-proxies."
         )
+
+    @staticmethod
+    def no_thing(word: str) -> bool:
+        """Whether `word` is none that names things, so that the sentence was not understood."""
+        tables = (
+            lexicon.VERBS,
+            lexicon.PARTICIPLES,
+            lexicon.ADVERBS,
+            lexicon.DIRECTIONS,
+            lexicon.POSITIONS,
+            lexicon.COPULAS,
+            lexicon.MEALS,
+        )
+        return any(word in table for table in tables) or word in lexicon.SAID_OTHERWISE or len(word) == 1
 
     def _count(self, world: World, phrase: Phrase, filling: bool) -> tuple[int, int]:
         """Objects, and objects in a stack."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
@@ -28,6 +29,9 @@ from pat3d.plan.scene_plan import ScenePlan
 from pat3d.plan.telling import tell
 from pat3d.scene.relations import Relation
 
+if TYPE_CHECKING:
+    from pat3d.assets.generated.orders import Orders
+
 MAX_CHARACTERS = 2000
 """Length of the longest prompt."""
 TRIED = 6
@@ -45,13 +49,19 @@ class GrammarPlanner:
     With `allow_proxies` an unknown noun becomes a plain box, said so in the plan's notes, instead of an error.
     """
 
-    def __init__(self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None) -> None:
-        """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`."""
+    def __init__(
+        self, allow_proxies: bool = False, *, vocabulary: Vocabulary | None = None, orders: Orders | None = None
+    ) -> None:
+        """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`.
+
+        With `orders`, a mesh server is to make what has no noun.
+        """
         if vocabulary is None:
             vocabulary = catalogue_names()
         self._nouns = Nouns(vocabulary)
         self._likely = Plausible(self._nouns)
-        self._maker = Maker(self._nouns, allow_proxies=allow_proxies)
+        self._maker = Maker(self._nouns, allow_proxies=allow_proxies, orders=orders)
+        self._orders = orders
 
     def plan(self, prompt: str) -> ScenePlan:
         """Plan `prompt`.
@@ -101,6 +111,8 @@ class GrammarPlanner:
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
         plan, names = finish(prompt, world, self._nouns)
+        if self._orders is not None:
+            self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
 

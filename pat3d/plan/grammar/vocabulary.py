@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -61,7 +61,7 @@ class Nouns:
         self._vocabulary = vocabulary
         self._classes: dict[Any, frozenset[str]] = {}
         # What a library calls "ycb/mug" is judged as a mug is.
-        self._kin: Mapping[str, str] = getattr(vocabulary, "kin", {})
+        self._kin: dict[str, str] = dict(getattr(vocabulary, "kin", {}))
         self.joined = frozenset(
             tuple(name.split()) for name in vocabulary.names() if {"of", "and", "in", "on", "with"} & set(name.split())
         )
@@ -113,6 +113,11 @@ class Nouns:
                 return found, frozenset({position, last})
         found = self.match(words[-1:])
         return None if found is None else (found, frozenset({last}))
+
+    def learn(self, noun: str, like: str) -> None:
+        """`noun`, which a server is to make, is judged as the catalogue's `like` is (empty for none)."""
+        if like:
+            self._kin[noun] = like
 
     def of_class(self, noun: str, table: tuple[str, ...]) -> bool:
         """Whether catalogue noun `noun` is what one of the names in `table` means."""

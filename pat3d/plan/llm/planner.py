@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import AnswerError, PromptError, SpecError
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
@@ -17,6 +17,9 @@ from pat3d.plan.llm.schema import Shape
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES, Arrangement
 from pat3d.scene.relations import GROUND
+
+if TYPE_CHECKING:
+    from pat3d.assets.generated.orders import Orders
 
 MAX_CHARACTERS = 4000
 """Of a prompt."""
@@ -42,7 +45,13 @@ class LLMPlanner:
     """Plans prompts of any language with the model that `chat` asks."""
 
     def __init__(
-        self, chat: Chat, allow_proxies: bool = False, libraries: Sequence[str] = (), *, composes: bool = False
+        self,
+        chat: Chat,
+        allow_proxies: bool = False,
+        libraries: Sequence[str] = (),
+        *,
+        composes: bool = False,
+        orders: Orders | None = None,
     ) -> None:
         """Ask `chat`; what catalogue and `libraries` lack becomes a plain box, or the model composes it.
 
@@ -51,8 +60,10 @@ class LLMPlanner:
             allow_proxies: plain boxes stand in for what nothing has.
             libraries: to take objects from before the catalogue.
             composes: the model describes what nothing has in the shape language, and it is kept.
+            orders: a mesh server makes what nothing has, and the model composes nothing.
         """
-        self._chat, self._libraries, self._composes = chat, libraries, composes
+        self._chat, self._libraries, self._orders = chat, libraries, orders
+        self._composes = composes or orders is not None
         self._composed: dict[str, str] = {}
         self._proxies = allow_proxies
         self._cost: dict[str, int] = {}
@@ -92,7 +103,7 @@ class LLMPlanner:
             "model": settings.name,
             "server": settings.server,
             **self._cost,
-            **({"composed": self._composed} if self._composed else {}),
+            **({("ordered" if self._orders else "composed"): self._composed} if self._composed else {}),
         }
 
     def _messages(self, prompt: str) -> list[Message]:
@@ -139,12 +150,20 @@ class LLMPlanner:
         """The plan of `prompt` once the model has composed what is `missing`; `before` is what was used before it."""
         from pat3d.plan.llm.composing import compose
 
+        orders, told = self._orders, list[str]()
         for words in missing[:MAX_COMPOSED]:
-            self._composed[words] = compose(self._chat, words)
+            if orders is not None:
+                order = orders.order(words)
+                self._composed[words] = order.noun
+                told.append(orders.told(order))
+            else:
+                self._composed[words] = compose(self._chat, words)
+                told.append(f'"{words}": the model composed {self._composed[words]}; look at it.')
+        if orders is not None:
+            orders.keep(self._composed.values())
         self.__dict__.pop("_names", None)
         plan = self._ask(prompt, [*self._messages(prompt), *messages[2:]])
         self._cost = {name: count - before[name] for name, count in self._chat.usage.as_dict().items()}
-        told = tuple(f'"{words}": the model composed {noun}; look at it.' for words, noun in self._composed.items())
         return replace(plan, notes=(*plan.notes, *told))
 
     @cached_property
@@ -155,7 +174,8 @@ class LLMPlanner:
         from pat3d.plan.grammar.names import known_names
 
         known = known_names(self._libraries)
-        nouns = {found.noun for name in known.names() if (found := known.find(name)) is not None}
+        ordered = self._orders.names().values() if self._orders is not None else ()
+        nouns = {*ordered} | {found.noun for name in known.names() if (found := known.find(name)) is not None}
         return {
             "PlannedObject.noun": sorted(nouns),
             "PlannedObject.colours": sorted(COLOURS),
