@@ -19,6 +19,7 @@ ENABLES = {
     "ray": "suites made by a cluster",
     "models": "sentences read, and pictures judged, by a language model",
     "mcp": "tools for other programs, by the Model Context Protocol",
+    "studio": "scenes in the browser, to look at and edit",
     "gpu": "thousands of scenes at once on a GPU",
     "all": "all of these",
 }
