@@ -19,6 +19,7 @@ FLOORS = (
     ("envs",),
     ("policies_eval",),
     ("mcp_server",),
+    ("studio",),
     ("cli",),
     ("__main__",),
 )

@@ -60,7 +60,7 @@ def _bytes(scene: Scene) -> bytes:
         else:
             there.add(name)
             made.add_geometry(
-                _mesh(obj.asset, name),
+                textured_mesh(obj.asset, name),
                 geom_name=name,
                 node_name=obj.name,
                 parent_node_name=ROOT,
@@ -73,7 +73,8 @@ def _bytes(scene: Scene) -> bytes:
     return data
 
 
-def _mesh(asset: Asset, name: str) -> Any:
+def textured_mesh(asset: Asset, name: str) -> Any:
+    """The visual mesh of `asset` with its texture, for trimesh, in the asset frame [m]; `name` is its material's."""
     import trimesh
     from PIL import Image
     from trimesh.visual import TextureVisuals

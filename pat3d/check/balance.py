@@ -98,13 +98,15 @@ class Group:
         self.members = members
         self.contacts = len(contacts)
         self.source = source
+        self.frames = _frames(contacts.normals)
+        """Of every contact, columns (normal, tangent, tangent), shape (contacts, 3, 3)."""
         self.exported = np.min(bodies.friction[contacts.bodies], axis=1) if self.contacts else np.zeros(0)
         """Of every contact, the lower coefficient [-] of its two bodies; engines take that or a larger one."""
         self._weight = bodies.weight[members]
         rows = {body: 6 * k for k, body in enumerate(members)}
         pairs = np.concatenate([contacts.bodies, anchors.bodies]).tolist()
         points = np.concatenate([contacts.points, anchors.points])
-        frames = np.concatenate([_frames(contacts.normals), np.tile(np.eye(3), (len(anchors.bodies), 1, 1))])
+        frames = np.concatenate([self.frames, np.tile(np.eye(3), (len(anchors.bodies), 1, 1))])
         self._forces = np.zeros((6 * len(members), 3 * len(pairs)))
         # One unit of force is the load of the lighter body of a pair, so that pens on a table stay visible.
         unit = np.array([min(bodies.weight[b] for b in pair if b in rows) for pair in pairs])
@@ -117,6 +119,8 @@ class Group:
                 self._forces[row : row + 3, column : column + 3] = force
                 arm = (point - bodies.centre[body]) / bodies.size[body]
                 self._forces[row + 3 : row + 6, column : column + 3] = np.cross(arm, force, axisb=0, axisc=0)
+        self.unit = unit[: self.contacts]
+        """Of every contact, the weight of the lighter body [N], shape (contacts,)."""
         # What hangs swings and comes back, where its anchor is above it: while the ground tilts it hangs as if clamped.
         clamped = [k for k, (child, _) in enumerate(anchors.bodies) if anchors.points[k, 2] > bodies.centre[child, 2]]
         self._torques = np.zeros((6 * len(members), 3 * len(clamped)))
@@ -157,6 +161,23 @@ class Group:
         Returns:
             In weights of the lighter body of each contact, shape (contacts,); None where nothing balances.
         """
+        found = self._least(friction, tolerance)
+        return None if found is None else np.maximum(found[: 3 * self.contacts : 3], 0.0)
+
+    def contact_forces(self, friction: NDArray[np.float64], tolerance: float) -> NDArray[np.float64] | None:
+        """Forces [N] on the first body of every contact, those of `least_forces` with what friction adds.
+
+        Returns:
+            In the world frame, inside the friction cones, shape (contacts, 3); None where nothing balances.
+        """
+        found = self._least(friction, tolerance)
+        if found is None:
+            return None
+        inside = _inside_cones(found[: 3 * self.contacts]).reshape(-1, 3) * self.unit[:, None]
+        inside[:, 1:] *= friction[:, None]
+        return np.einsum("kij,kj->ki", self.frames, inside)
+
+    def _least(self, friction: NDArray[np.float64], tolerance: float) -> NDArray[np.float64] | None:
         still = np.tile([*DOWN, 0.0, 0.0, 0.0], len(self.members))
         matrix = self._with(friction)
         weights = np.zeros(matrix.shape[1])
@@ -164,7 +185,7 @@ class Group:
         found = _solve(matrix, still, (np.zeros(len(still)), 1.0), self.contacts, 0.5 * tolerance, weights)
         if found is None or self._left(matrix, still, found[0]).max() > tolerance:
             return None
-        return np.maximum(found[0][: 3 * self.contacts : 3], 0.0)
+        return found[0]
 
     def closing(self, chosen: NDArray[np.int64]) -> float:
         """Least rate at which contacts `chosen` close in the motion of the bodies that closes all of them most.

@@ -24,6 +24,7 @@ COMMANDS = {
     "catalogue": ("catalogue", "what can be made, with pictures"),
     "library": ("library", "folders of other people's objects, indexed, to make scenes from"),
     "suite": ("suites", "scenes with tasks by the thousand, in splits, for training and testing policies"),
+    "studio": ("studio", "a scene in the browser: look at it, move and add objects, settle, save, make another"),
     "mcp": ("machines", "let other programs plan, make, edit, check and export scenes, by the Model Context Protocol"),
     "doctor": ("doctor", "what works on this computer, and what would enable more; every part does a real step"),
     "evaluate": ("evaluation", "let a policy do episodes, and report its success rate and failures"),

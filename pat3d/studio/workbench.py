@@ -1,0 +1,142 @@
+"""One session that several browsers share: changes one at a time, long work in a thread that can be cancelled."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from pat3d.errors import EditError, Pat3dError
+from pat3d.progress import Event, Progress
+from pat3d.studio.session import Session
+
+Change = Callable[[Session | None], Session | None]
+Work = Callable[[Session | None, Progress], tuple[Session | None, str]]
+"""Takes minutes; returns the new session and what to say of it."""
+
+
+class CancelledError(Exception):
+    """Somebody does not want the work any more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Status:
+    """What the studio does and what came of the last thing."""
+
+    said: str = ""
+    """What came of it, in words."""
+    failed: bool = False
+    working: str = ""
+    """Name of the work that is going on; empty for none."""
+    stage: str = ""
+    share: float | None = None
+    """Of the stage that is done [-]; None where nobody knows."""
+
+
+class Workbench:
+    """Holds the session; every method may be called from any thread."""
+
+    def __init__(self, session: Session | None, changed: Callable[[], None] = lambda: None) -> None:
+        """Begin with `session`; `changed` is called after the session or the status changed, from whichever thread."""
+        self.changed = changed
+        self._lock = threading.Lock()
+        self._session, self._status = session, Status()
+        self._thread: threading.Thread | None = None
+        self._cancel = threading.Event()
+
+    @property
+    def session(self) -> Session | None:
+        """As it is now; None where no scene was opened or made."""
+        return self._session
+
+    @property
+    def status(self) -> Status:
+        """As it is now."""
+        return self._status
+
+    def do(self, change: Change, said: str = "") -> bool:
+        """Change the session at once; whether it could be changed. Where not, the status says why."""
+        with self._lock:
+            if self._status.working:
+                self._status = replace(
+                    self._status, said=f"{self._status.working} is going on: wait for it or cancel it.", failed=True
+                )
+                done = False
+            else:
+                done = self._tried(lambda: (change(self._session), said))
+        self.changed()
+        return done
+
+    def start(self, name: str, work: Work) -> bool:
+        """Begin long work in a thread; False where other work goes on. What fails or is cancelled changes nothing."""
+        with self._lock:
+            free = not self._status.working
+            if free:
+                self._cancel = threading.Event()
+                self._status = Status(working=name, stage="beginning")
+                self._thread = threading.Thread(target=self._run, args=(name, work), daemon=True, name="pat3d studio")
+                self._thread.start()
+        if free:
+            self.changed()
+        return free
+
+    def cancel(self) -> None:
+        """Ask the work that is going on to end; it does so at its next step."""
+        self._cancel.set()
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait for the work that is going on; whether it has ended."""
+        thread = self._thread
+        if thread is not None:
+            thread.join(seconds)
+        return thread is None or not thread.is_alive()
+
+    def _run(self, name: str, work: Work) -> None:
+        before, cancel = self._session, self._cancel
+
+        def tell(event: Event) -> None:
+            if cancel.is_set():
+                raise CancelledError
+            step, steps = event.step, event.steps
+            share = None if step is None or not steps else min(1.0, (step + 1) / steps)
+            words = f"{event.stage}: {event.detail}" if event.detail else event.stage
+            counted = words if step is None else f"{words}, step {step + 1}"
+            self._status = replace(self._status, stage=counted, share=share)
+            self.changed()
+
+        def ended() -> tuple[Session | None, str]:
+            try:
+                return work(before, tell)
+            except CancelledError:
+                return before, f"{name} was cancelled; nothing changed."
+
+        # Outside the lock, so that the session can be looked at; nothing else changes it while work is going on.
+        self._tried(ended)
+        self.changed()
+
+    def _tried(self, step: Callable[[], tuple[Session | None, str]]) -> bool:
+        try:
+            session, said = step()
+        except Pat3dError as error:
+            self._status = Status(said=str(error), failed=True)
+            return False
+        except Exception as error:
+            # A studio outlives a fault of one step; the terminal has the traceback.
+            traceback.print_exc()
+            self._status = Status(said=f"{type(error).__name__}: {error}", failed=True)
+            return False
+        self._session = session
+        self._status = Status(said=said)
+        return True
+
+
+def needed(session: Session | None) -> Session:
+    """The session.
+
+    Raises:
+        EditError: there is none yet.
+    """
+    if session is None:
+        raise EditError("there is no scene yet: make one from a sentence.")
+    return session
