@@ -6,7 +6,7 @@ PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
 PROMPT ?= A fruit bowl with an apple, an orange and a pear, a stack of three books with a red mug on top, and next to it a pen holder holding two pencils and a ruler.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-dev engines demo format check test quick test-all bench transfer clean
+.PHONY: help setup setup-dev engines demo format check test quick test-all docs bench transfer clean
 
 help:  ## list the targets
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 14
@@ -24,6 +24,11 @@ $(VENV)/.setup-dev: $(VENV)/.setup
 	$(PIP) --editable '.[dev,torch,usd,envs]'
 	$(PIP) numba opencv-python-headless termcolor pyarrow websockets msgpack imageio-ffmpeg h5py
 	$(PIP) --no-deps robosuite mujoco-menagerie
+	@touch $@
+
+# Environments are among the documented classes.
+$(VENV)/.setup-docs: $(VENV)/.setup
+	$(PIP) --editable '.[docs,envs]'
 	@touch $@
 
 setup: $(VENV)/.setup  ## create .venv with the pinned packages and the pat3d command
@@ -57,6 +62,9 @@ quick: setup-dev  ## the quick tests alone
 
 test-all: check  ## every test, the slow ones too
 	$(BIN)/pytest --numprocesses auto
+
+docs: $(VENV)/.setup-docs  ## the documentation as a site: build/docs/index.html
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going -q docs build/docs
 
 bench: setup-dev  ## generation of the paper's prompts, as in benchmarks/RESULTS.md
 	$(BIN)/python benchmarks/generate.py

@@ -22,8 +22,9 @@ from tests.test_layers import FLOORS
 
 ROOT = Path(__file__).parents[1]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
-MORE = tuple(
-    ROOT / name for name in ("CHANGELOG.md", "examples/README.md", "benchmarks/RESULTS.md", "benchmarks/NOTES.md")
+MORE = (
+    *(ROOT / name for name in ("CHANGELOG.md", "examples/README.md", "benchmarks/RESULTS.md", "benchmarks/NOTES.md")),
+    *sorted((ROOT / "docs").glob("*/*.md")),
 )
 NOT_RUN = "<!-- not run:"
 """A comment on the line before a block that this machine cannot run; its reason follows."""

@@ -41,14 +41,31 @@ class Option:
     rival: str = ""
     """Options of one command with the same word exclude one another."""
 
-    def add_to(self, parser: Any) -> None:
-        """Declare it to argparse."""
+    @property
+    def text(self) -> str:
+        """The help, with the default in brackets."""
         default = self.keywords.get("default")
         shown = self.shown
         if shown is None:
             shown = "" if default is None or default is False or default in ("", (), []) else _in_words(default)
-        text = (f"{self.help} ({shown})" if shown else self.help).replace("%", "%%")
-        parser.add_argument(self.name, help=text, **self.keywords)
+        return f"{self.help} ({shown})" if shown else self.help
+
+    @property
+    def usage(self) -> str:
+        """How it is typed: "--seed SEED"."""
+        if self.keywords.get("action") in ("store_true", "version"):
+            return self.name
+        choices = self.keywords.get("choices")
+        plain = self.name.lstrip("-").replace("-", "_")
+        plain = plain.upper() if self.name.startswith("-") else plain
+        value = self.keywords.get("metavar") or (f"{{{','.join(map(str, choices))}}}" if choices else plain)
+        value = " ".join(value) if isinstance(value, tuple) else value
+        value = f"{value} ..." if self.keywords.get("nargs") in ("+", "*") else value
+        return f"{self.name} {value}" if self.name.startswith("-") else value
+
+    def add_to(self, parser: Any) -> None:
+        """Declare it to argparse."""
+        parser.add_argument(self.name, help=self.text.replace("%", "%%"), **self.keywords)
 
 
 def option(
