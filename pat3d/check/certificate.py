@@ -204,8 +204,8 @@ def smallest_friction(scene: Scene, activation: float = ACTIVATION) -> float:
 def steadiness(scene: Scene, friction: float | None = None, activation: float = NEARLY_AT_REST) -> float:
     """How far the ground can be tilted, whichever way, before the certificate fails [degrees], at most 8.
 
-    Objects stay where they are on it. What slides as well as what tips over fails; 0 where it fails on level ground
-    already.
+    Objects stay where they are on it, on faces with worn edges. What slides as well as what tips over fails; 0 where it
+    fails on level ground already.
 
     Args:
         scene: at rest.
@@ -213,7 +213,7 @@ def steadiness(scene: Scene, friction: float | None = None, activation: float = 
             the two materials.
         activation: surfaces closer than this touch [m].
     """
-    return _largest_tilt(Balance(scene, find_contacts(scene.objects, activation)), friction)[0]
+    return _largest_tilt(Balance(scene, worn(find_contacts(scene.objects, activation))), friction)[0]
 
 
 def _pressed(balance: Balance, contacts: Contacts, friction: float) -> tuple[float, list[int]]:
