@@ -10,7 +10,7 @@ from pathlib import Path
 
 FLOORS = (
     ("cli", "the pat3d command"),
-    ("mcp_server", "tools and resources for other programs"),
+    ("mcp_server, studio", "tools for other programs; scenes in the browser"),
     ("policies_eval", "policies, paired episodes, statistics, datasets"),
     ("envs", "robots, tasks, suites, GPU worlds"),
     ("generation", "the stages in order, attempts, the report"),

@@ -18,8 +18,7 @@ FLOORS = (
     ("generation",),
     ("envs",),
     ("policies_eval",),
-    ("mcp_server",),
-    ("studio",),
+    ("mcp_server", "studio"),
     ("cli",),
     ("__main__",),
 )

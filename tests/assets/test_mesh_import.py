@@ -218,6 +218,7 @@ def test_a_soup_of_triangles_is_wrapped_and_says_so():
     assert signed_volume(fixed.solid.vertices, fixed.solid.faces) == pytest.approx(ball.volume * 1.02**3, rel=0.03)
 
 
+@pytest.mark.slow
 def test_mass_properties_of_a_torus_agree_with_its_closed_form(write):
     mesh = trimesh.creation.torus(0.1, 0.03, major_sections=128, minor_sections=64)
     asset = import_mesh(write(mesh, "ring.ply"), parts="hull", density=1000)

@@ -221,7 +221,7 @@ def test_generate_optimises_what_no_attempt_solves_and_resumes_without_doing_it_
 
 @pytest.mark.slow
 def test_generate_steadies_what_stands_but_drifts_in_another_engine(falling_layouts, tmp_path, monkeypatch):
-    """With its middle two fifths of a millimetre inside the edge, a quarter of which is left of worn edges, the plank is in equilibrium, and hardly so.
+    """With its middle 0.4 mm inside the edge, 0.1 mm where edges are worn, the plank is in equilibrium, and hardly so.
 
     The engine is one whose contacts give way: in it, everything that endures less than two degrees of tilt drifts.
     """

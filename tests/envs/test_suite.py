@@ -132,6 +132,7 @@ def test_a_worker_that_cannot_write_stops_the_run_and_nothing_is_lost(copy):
     assert folder.done() == {0, 2, 3}
 
 
+@pytest.mark.slow
 def test_a_scene_that_hangs_is_ended_and_recorded_and_another_takes_its_place(tmp_path, monkeypatch):
     """Whoever begins the first candidate of scene 1 is stopped by the system and never goes on by itself.
 

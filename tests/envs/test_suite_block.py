@@ -68,12 +68,14 @@ def assert_same(one, other):
             np.testing.assert_allclose(obj.pose.rotation, counterpart.pose.rotation, rtol=0, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_block_gives_the_scenes_that_are_made_one_by_one(together, alone):
     assert_same(together, alone)
     assert check_suite(Suite.open(together)) == []
     assert json.loads((together / MANIFEST).read_text())["device"] == "cpu"
 
 
+@pytest.mark.slow
 def test_the_same_blocks_give_the_same_bits(together, tmp_path):
     again = tmp_path / "again"
     generate(str(again), REQUEST, workers=1, block=BLOCK)

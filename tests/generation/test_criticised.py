@@ -67,6 +67,7 @@ def test_what_the_critic_denies_is_planned_once_more_and_the_better_scene_is_kep
     assert main(["check", str(tmp_path / "scenes" / "blocks")]) == 0
 
 
+@pytest.mark.slow
 def test_a_revision_that_is_no_better_or_cannot_be_made_leaves_the_first_scene(environment, tmp_path):
     with serving(*map(said, (FIRST, QUESTIONS, NO)), fault(400, "no credit left")) as server:
         environment(server)

@@ -131,6 +131,7 @@ def test_optimize_settles_from_the_edited_poses_and_does_not_say_that_all_is_wel
     assert "left as it is" in capfd.readouterr().out
 
 
+@pytest.mark.slow
 def test_optimize_mends_an_edit_that_broke_a_relation(folder, capfd):
     """The mug was put beside its box; the optimisation may find it a place on it again, or says that it did not."""
     move(folder, "red mug", (0.6, 0.0, 0.0))

@@ -272,6 +272,7 @@ class Excessive(Broken):
         return np.full(7, 3.0)
 
 
+@pytest.mark.slow
 def test_an_evaluation_of_nothing_but_policy_errors_exits_with_1_and_says_so(tmp_path, capsys):
     common = ["--episodes", "2", "--max-steps", "3", "--no-pictures"]
     assert main(["evaluate", "--policy", f"{__name__}:Broken", *common, "--out", str(tmp_path / "broken")]) == 1
