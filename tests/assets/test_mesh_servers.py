@@ -22,7 +22,7 @@ from tests.assets.mesh_server import Reply, said, serving
 
 KINDS = ("sglang", "hunyuan", "hunyuan21", "generate")
 LINE = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], process=False)
-SENTENCE = "a teapot dinosaur on a plate"
+SENTENCE = "a cute teapot dinosaur on a plate"
 
 
 def glb(*, tall: float = 2.0) -> bytes:
@@ -134,6 +134,8 @@ def test_a_sentence_becomes_a_plan_whose_nouns_say_all(source, monkeypatch):
         ]  # fmt: skip
         assert plan.parent("teapot dinosaur") == "plate"
         assert any("0.6 m long" in note and "gramophone" in note for note in plan.notes)
+        # The prompt has the adjective, so that no note says that it is left out.
+        assert not any("cute" in note for note in plan.notes)
         monkeypatch.setattr(sources, "MeshServers", lambda: source)
         source_of = sources.source_of
         monkeypatch.setattr(sources, "source_of", lambda noun: source if "mesh/" in noun else source_of(noun))
@@ -242,6 +244,7 @@ def test_broken_meshes_meet_the_gates_of_files(source, tmp_path, kind, body, wor
     assert not list((tmp_path / "cache").glob("meshes/*/mesh.glb"))
 
 
+@pytest.mark.slow
 def test_an_open_mesh_becomes_a_solid_as_a_users_file_does(source):
     box = trimesh.creation.box((1.0, 1.0, 1.0))
     box.update_faces(box.face_normals[:, 1] < 0.5)

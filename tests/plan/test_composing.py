@@ -5,6 +5,7 @@ import json
 import pytest
 
 from pat3d.assets import sources
+from pat3d.assets.generated.orders import Orders, kept_order
 from pat3d.assets.nouns.source import OwnNouns
 from pat3d.errors import ModelError
 from pat3d.plan.llm.chat import Chat
@@ -90,3 +91,19 @@ def test_it_goes_back_twice_and_then_nothing_is_kept(planner):
             planner(server).plan("a Raspberry Pi board")
         assert len(server.requests) == 4
     assert OwnNouns("composed").nouns() == []
+
+
+def test_with_a_mesh_server_an_unknown_noun_is_ordered_and_not_composed(tmp_path, monkeypatch):
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    monkeypatch.setenv("NO_PROXY", "127.0.0.1")
+    orders = Orders("http://127.0.0.1:1")
+    noun = orders.order("Raspberry Pi board").noun
+    with serving(said(FIRST), said(plan(board(noun)))) as server:
+        chat = Chat(ModelSettings(name="test", base_url=server.url, key="k"), cache_dir=tmp_path / "answers")
+        one = LLMPlanner(chat, composes=True, orders=Orders("http://127.0.0.1:1"))
+        made = one.plan("a Raspberry Pi board")
+        assert len(server.requests) == 2
+    assert [obj.noun for obj in made.objects] == [noun]
+    assert any("mesh server 127.0.0.1:1" in note for note in made.notes)
+    assert one.record()["ordered"] == {"Raspberry Pi board": noun}
+    assert kept_order(noun).words == "raspberry pi board"
