@@ -10,6 +10,7 @@ from pathlib import Path
 
 FLOORS = (
     ("cli", "the pat3d command"),
+    ("studio", "a scene in the browser, to edit"),
     ("mcp_server", "tools and resources for other programs"),
     ("policies_eval", "policies, paired episodes, statistics, datasets"),
     ("envs", "robots, tasks, suites, GPU worlds"),
