@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import secrets
 import socket
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,7 +55,9 @@ def opened(
         stack.callback(store.close)
         session = None if folder is None else store.opened(folder)
         bench = Workbench(session)
-        server = viser.ViserServer(host="127.0.0.1", port=0, label="PAT3D studio", verbose=False)
+        with redirect_stdout(io.StringIO()):
+            # viser prints its own address, which is not the one to open.
+            server = viser.ViserServer(host="127.0.0.1", port=0, label="PAT3D studio", verbose=False)
         stack.callback(server.stop)
         stack.callback(bench.wait, 60.0)
         stack.callback(bench.cancel)
