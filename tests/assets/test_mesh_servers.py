@@ -25,9 +25,16 @@ LINE = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], process=F
 SENTENCE = "a cute teapot dinosaur on a plate"
 
 
+def exported(mesh: trimesh.Trimesh) -> bytes:
+    """The mesh as a GLB file."""
+    data = mesh.export(file_type="glb")
+    assert isinstance(data, bytes)
+    return data
+
+
 def glb(*, tall: float = 2.0) -> bytes:
     """A box that is `tall` along y and 1 along x and z, in units that mean nothing."""
-    return trimesh.creation.box((1.0, tall, 1.0)).export(file_type="glb")
+    return exported(trimesh.creation.box((1.0, tall, 1.0)))
 
 
 def edited(data: bytes, change) -> bytes:
@@ -233,7 +240,7 @@ def test_a_failed_job_says_why(source):
         (b"", "no GLB file"),
         (b"glTF" + struct.pack("<IIII", 2, 40, 20, 0x4E4F534A) + b"[" * 20, "no use"),
         (edited(glb(), lambda tree: tree["accessors"][0].update(count=10**9)), "triangles"),
-        (LINE.export(file_type="glb"), "no use"),
+        (exported(LINE), "no use"),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("kind", ["sglang", "hunyuan"])
@@ -248,7 +255,7 @@ def test_broken_meshes_meet_the_gates_of_files(source, tmp_path, kind, body, wor
 def test_an_open_mesh_becomes_a_solid_as_a_users_file_does(source):
     box = trimesh.creation.box((1.0, 1.0, 1.0))
     box.update_faces(box.face_normals[:, 1] < 0.5)
-    with serving("sglang", box.export(file_type="glb")) as server:
+    with serving("sglang", exported(box)) as server:
         asset = source.make(ordered(server))
     assert asset.mass_properties.volume > 0.0
     assert not asset.provenance["watertight"]
@@ -286,11 +293,13 @@ def test_what_a_mesh_refers_to_is_never_opened(source, tmp_path, uri, where, mon
 
 
 def test_huge_answers_are_not_read(time):
-    settings = {"max_bytes": 1000, "retries": 0}
+    def settings(server):
+        return ServerSettings(url=server.url, max_bytes=1000, retries=0)
+
     with serving("sglang", b"x" * 5000) as server:
         for length in (None, 10**12):
             server.faults = {"GET": [Reply(body=b"x" * 5000, length=length)]}
-            client = Client(ServerSettings(url=server.url, **settings), sleep=time.sleep)
+            client = Client(settings(server), sleep=time.sleep)
             with pytest.raises(AssetError, match="are read"):
                 client.bytes("/v1/meshes/job-1/content")
     with serving("hunyuan", b"x" * 5000) as server:
@@ -299,7 +308,7 @@ def test_huge_answers_are_not_read(time):
         from pat3d.assets.generated.adapter import Wish
         from pat3d.assets.generated.hunyuan import Hunyuan3D
 
-        client = Client(ServerSettings(url=server.url, **settings), sleep=time.sleep)
+        client = Client(settings(server), sleep=time.sleep)
         with pytest.raises(AssetError, match="too large"):
             Hunyuan3D().make(client, Wish(prompt="x", seed=0))
 
