@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from site_pages import filled
+from sphinx.ext.autodoc.mock import mock
 
 import pat3d
 
@@ -39,6 +40,7 @@ def setup(app: Any) -> None:
 
     def fill(_: Any, page: str, source: list[str]) -> None:
         if (Path(app.srcdir) / f"{page}.md").is_file():
-            source[0] = filled(source[0], f"{page}.md")
+            with mock(autodoc_mock_imports):
+                source[0] = filled(source[0], f"{page}.md")
 
     app.connect("source-read", fill)
