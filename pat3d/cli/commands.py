@@ -15,7 +15,7 @@ COMMANDS = {
     "build": ("making", "make a verified scene from a specification with your meshes, sizes and relations"),
     "edit": ("editing", "add, remove, move, turn or replace objects of a scene, which settles again and is verified"),
     "vary": ("editing", "make other scenes that the same relations describe"),
-    "settle": ("mending", "bring a scene whose poses were edited back to rest, and verify it"),
+    "settle": ("settling", "bring a scene whose poses were edited back to rest, and verify it"),
     "optimize": ("mending", "find an initial layout from which a scene settles with its relations where its own fails"),
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),
     "metrics": ("metrics", "the D and R of the paper's Table 1 of scenes, whoever made them: motion, overlaps"),
