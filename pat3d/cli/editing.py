@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from pat3d.cli.console import console, show_many, show_parity, verdict, watch
 from pat3d.cli.machines import JSON, print_facts
 from pat3d.cli.options import command, fields, option
-from pat3d.cli.reading import LIBRARIES, PLANNER, PROXIES, planner_of
+from pat3d.cli.reading import ASSETS, LIBRARIES, PLANNER, PROXIES, planner_of
 from pat3d.errors import SpecError
 from pat3d.generation.editing.said import EXAMPLES
 from pat3d.generation.settings import DEVICES, MAX_SEED, Settings
@@ -53,6 +53,7 @@ def _edit(verb: str, help: str) -> Any:
     option("--out", "scene folder to write", metavar="FOLDER", shown="SCENE is replaced"),
     PLANNER,
     LIBRARIES,
+    ASSETS,
     PROXIES,
     *fields(Settings, {"device": {"choices": DEVICES}}, device="where to simulate"),
     JSON,

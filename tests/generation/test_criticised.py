@@ -40,6 +40,7 @@ def generated(tmp_path, *more: str) -> dict:
     return json.loads((tmp_path / "scenes" / "blocks" / "report.json").read_text())
 
 
+@pytest.mark.slow
 def test_what_the_critic_denies_is_planned_once_more_and_the_better_scene_is_kept(environment, tmp_path, capsys):
     with serving(*map(said, (FIRST, QUESTIONS, NO, SECOND, YES))) as server:
         environment(server)
