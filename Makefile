@@ -58,7 +58,7 @@ test: setup-dev  ## lint, types and the quick tests
 	@$(MAKE) --no-print-directory --jobs 2 check quick
 
 quick: setup-dev  ## the quick tests alone
-	$(BIN)/pytest -m 'not slow' --numprocesses auto
+	$(BIN)/pytest -m 'not slow' --numprocesses auto --dist loadfile
 
 test-all: check  ## every test, the slow ones too
 	$(BIN)/pytest --numprocesses auto
