@@ -55,7 +55,7 @@ class Balance:
         contacts = contacts.pick(needed)
         free = [k for k, obj in enumerate(scene.objects) if not obj.fixed]
         masses = [obj.asset.mass_properties for obj in scene.objects]
-        bodies = _Bodies(
+        bodies = Bodies(
             centre=np.array(
                 [
                     obj.pose.apply(np.array([mass.centre_of_mass]))[0]
@@ -69,13 +69,13 @@ class Balance:
             ),
         )
         self.groups = []
-        for members in _groups(free, np.concatenate([contacts.bodies, anchors.bodies])):
+        for members in connected(free, np.concatenate([contacts.bodies, anchors.bodies])):
             own = np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))
             self.groups.append(Group(bodies, members, contacts.pick(own), anchors.of(members), needed[own]))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Bodies:
+class Bodies:
     """Of every object of a scene."""
 
     centre: NDArray[np.float64]
@@ -92,7 +92,7 @@ class Group:
     """Free bodies and all that holds them."""
 
     def __init__(
-        self, bodies: _Bodies, members: list[int], contacts: Contacts, anchors: Anchors, source: NDArray[np.int64]
+        self, bodies: Bodies, members: list[int], contacts: Contacts, anchors: Anchors, source: NDArray[np.int64]
     ) -> None:
         """`members` of `bodies`, held by `contacts`, those at positions `source` of the scene's, and by `anchors`."""
         self.members = members
@@ -268,7 +268,7 @@ def _anchors(scene: Scene) -> Anchors:
     )
 
 
-def _groups(free: list[int], pairs: NDArray[np.int64]) -> list[list[int]]:
+def connected(free: list[int], pairs: NDArray[np.int64]) -> list[list[int]]:
     """Free bodies connected by pairs of bodies, shape (n, 2); the ground and fixed bodies connect nothing."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components

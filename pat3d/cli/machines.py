@@ -27,7 +27,7 @@ def print_facts(facts: Any) -> None:
     examples="""
     pat3d mcp --root scenes        speaks the Model Context Protocol on stdin and stdout
     """,
-    notes='A client starts the command itself: {"command": "pat3d", "args": ["mcp", "--root", "/home/me/scenes"]}. '
+    notes='A client starts the command itself: {"command": "pat3d", "args": ["mcp", "--root", "FOLDER"]}. '
     "See docs/machines.md.",
 )
 def mcp(options: argparse.Namespace) -> int:

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.mesh.reduce import SHORT_EDGE, inflation, reduce_hull
+from pat3d.assets.mesh.inflation import inflation
+from pat3d.assets.mesh.reduce import SHORT_EDGE, reduce_hull
 from pat3d.errors import AssetError
 
 

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from pat3d.assets.mesh.reduce import inflation, reduce_hull
+from pat3d.assets.mesh.inflation import inflation
+from pat3d.assets.mesh.reduce import reduce_hull
 from pat3d.assets.mesh.split import allowed, fitted
 
 

@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 from pat3d.assets.mesh.cavity import cavity_loss
 from pat3d.assets.mesh.cover import Cover, cover, surface_patches, surface_points
 from pat3d.assets.mesh.decompose import DEFAULT_OPTIONS, decompose
-from pat3d.assets.mesh.reduce import inflation
+from pat3d.assets.mesh.inflation import inflation
 from pat3d.assets.mesh.regions import cavity, mesh_height_map
 from pat3d.assets.mesh.repair import Repaired, Solid, manifold_of, solid_of
 from pat3d.assets.mesh.split import Fitted, allowed, fitted

@@ -12,7 +12,6 @@ from __future__ import annotations
 import functools
 import heapq
 import itertools
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -42,16 +41,6 @@ _SWEEPS = 6
 
 _START_PLANES = 80
 """Hulls with more corners than twice this start from that many of their supporting planes."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Inflation:
-    """How much larger a part is than the hull it replaces."""
-
-    distance: float
-    """Largest distance of a vertex of the part from the hull [m]."""
-    volume: float
-    """Volume added, as a fraction of the hull's volume [-]."""
 
 
 def reduce_hull(points: NDArray[np.float64], max_vertices: int = 64, max_faces: int = 64) -> ConvexPart:
@@ -96,15 +85,6 @@ def reduce_hull(points: NDArray[np.float64], max_vertices: int = 64, max_faces: 
         reduced = _bounding_box(corners)
     reduced = _tightened(reduced, corners, supports, bounds, short)
     return _containing(reduced * size + middle, part.vertices)
-
-
-def inflation(part: ConvexPart, points: NDArray[np.float64]) -> Inflation:
-    """How far `part` reaches beyond the hull of `points` [m], shape (n, 3)."""
-    hull = ConvexHull(points)
-    distance = (part.vertices @ hull.equations[:, :3].T + hull.equations[:, 3]).max()
-    return Inflation(
-        distance=max(0.0, float(distance)), volume=float(ConvexHull(part.vertices).volume / hull.volume) - 1
-    )
 
 
 def _support_planes(hull: ConvexHull) -> NDArray[np.float64]:

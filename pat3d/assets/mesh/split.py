@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.assets.mesh.reduce import inflation, reduce_hull
+from pat3d.assets.mesh.inflation import inflation
+from pat3d.assets.mesh.reduce import reduce_hull
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart
 

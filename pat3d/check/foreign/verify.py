@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.check.balance import Anchors, Group, _Bodies, _groups
+from pat3d.check.balance import Anchors, Bodies, Group, connected
 from pat3d.check.foreign.load import ForeignScene
 from pat3d.check.foreign.state import Held, Owners, owners, start
 from pat3d.geometry.contacts import Contacts
@@ -229,7 +229,7 @@ def unbalanced(model: Any, data: Any, who: Owners) -> NDArray[np.float64]:
     contacts, friction = _nearby(model, data, who)
     count = len(who.names)
     root = who.roots
-    bodies = _Bodies(
+    bodies = Bodies(
         centre=data.subtree_com[root].copy(),
         weight=np.maximum(model.body_subtreemass[root], 1e-9) * GRAVITY,
         size=np.array([_size(model, who, k) for k in range(count)]),
@@ -237,7 +237,7 @@ def unbalanced(model: Any, data: Any, who: Owners) -> NDArray[np.float64]:
     )
     none = Anchors(bodies=np.zeros((0, 2), np.int64), points=np.zeros((0, 3)))
     left = np.zeros(count)
-    for members in _groups(list(range(count)), contacts.bodies):
+    for members in connected(list(range(count)), contacts.bodies):
         own = np.flatnonzero(np.isin(contacts.bodies, members).any(axis=1))
         group = Group(bodies, members, contacts.pick(own), none, own)
         left[members] = group.residuals(friction[own])
