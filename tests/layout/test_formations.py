@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from pat3d.assets import shapes
 from pat3d.layout.bodies import Body
 from pat3d.layout.flat import Item
 from pat3d.layout.formations import Formation, pairs
@@ -14,7 +15,7 @@ from pat3d.layout.layout import arrange
 from pat3d.layout.places import _joined
 from pat3d.layout.tops import item_of
 from pat3d.scene.model import Relation
-from tests.layout.things import asset, ball, block, shelf
+from tests.layout.things import ball, block, shelf
 
 
 def items(count: int, seed: int) -> dict[str, Item]:
@@ -22,9 +23,11 @@ def items(count: int, seed: int) -> dict[str, Item]:
     rng = np.random.default_rng(seed)
     found = {}
     for name in "abcdefgh"[:count]:
-        (x, y), (dx, dy) = rng.uniform(0.02, 0.3, 2), rng.uniform(-0.2, 0.2, 2)
-        body = Body(name, asset("block", shapes.box(x, y, 0.04).moved(x=dx, y=dy)))
-        found[name] = item_of(Group((body.at(np.eye(3), np.zeros(3)),)), turnable=False)
+        (x, y), aside = rng.uniform(0.02, 0.3, 2), rng.uniform(-0.2, 0.2, 2)
+        item = item_of(Group((Body(name, block(x, y)).at(np.eye(3), np.zeros(3)),)), turnable=False)
+        found[name] = replace(
+            item, low=item.low + aside, high=item.high + aside, outline=item.outline + aside, middle=aside
+        )
     return found
 
 
