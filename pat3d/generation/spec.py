@@ -257,15 +257,12 @@ def _timeless(asset: Asset) -> Asset:
 def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
     """An asset of a noun with the size, mass and friction that `obj` asks for."""
     from pat3d.assets import sources
+    from pat3d.assets.variant import Variant
 
     def made(scale: float) -> Asset:
-        return sources.make(
-            obj["noun"],
-            colours=obj.get("colours", [obj["colour"]] if "colour" in obj else []),
-            material=obj.get("material"),
-            scale=scale,
-            seed=seed,
-        )
+        colours = tuple(obj.get("colours", [obj["colour"]] if "colour" in obj else []))
+        variant = Variant(seed=seed, scale=scale, colours=colours, material=obj.get("material"))
+        return sources.make(obj["noun"], variant)
 
     asset = made(float(obj.get("scale", 1.0)))
     if "size" in obj:
