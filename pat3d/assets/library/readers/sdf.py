@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from pat3d.assets.library.readers.collision import hulls_of
 from pat3d.assets.library.readers.inertials import together
 from pat3d.assets.library.readers.xml import GRAY, inertia_of, mesh_piece, numbers, read_root, turned
 from pat3d.errors import AssetError
+from pat3d.geometry.rotations import matrix_of
 
 Frame = tuple[Points, Points]
 
@@ -34,14 +36,22 @@ def read_sdf(path: Path, root: Path) -> Body:
     links = model.findall("link")
     if len(links) > 1 and len(model.findall("joint")) < len(links) - 1:
         raise AssetError(f"it has {len(links)} links that nothing joins; one object a file.")
+    return body_of(links, [pose_of(link) for link in links], path, root, name=model.get("name", ""))
+
+
+def body_of(links: Sequence[ET.Element], frames: Sequence[Frame], path: Path, root: Path, *, name: str) -> Body:
+    """The shapes, the mass and the friction of links that move as one, each placed by its frame in the object's.
+
+    Raises:
+        AssetError: a mesh is missing, a pose refers to another frame, or nothing is to be seen.
+    """
     notes: list[str] = []
     seen: list[Piece] = []
     touched: list[Piece] = []
     inertials: list[Inertial] = []
     frictions: list[float] = []
     same = True
-    for link in links:
-        frame = _pose(link.find("pose"))
+    for link, frame in zip(links, frames, strict=True):
         visuals, collisions = link.findall("visual"), link.findall("collision")
         seen += [_piece(one, frame, path, root, notes) for one in visuals]
         touched += [_piece(one, frame, path, root, notes) for one in collisions]
@@ -51,14 +61,16 @@ def read_sdf(path: Path, root: Path) -> Body:
         if (found := _inertial(link.find("inertial"), frame)) is not None:
             inertials.append(found)
     hulls: tuple[Points, ...] = ()
-    if touched and not (same and model.find(".//collision/geometry/mesh") is not None):
+    meshes = any(link.find("collision/geometry/mesh") is not None for link in links)
+    if touched and not (same and meshes):
         hulls, note = hulls_of(touched)
         notes += [note] if note else []
     mesh = merged(seen or touched, notes)
     return Body(
-        name=model.get("name", ""),
+        name=name,
         mesh=mesh,
         hulls=hulls,
+        touched=tuple(touched),
         metres=1.0,
         up="z",
         declared="SDFormat",
@@ -69,18 +81,27 @@ def read_sdf(path: Path, root: Path) -> Body:
     )
 
 
-def _pose(element: ET.Element | None) -> Frame:
+def pose_of(parent: ET.Element) -> Frame:
+    """Rotation and position [m] that an element's <pose> says.
+
+    Raises:
+        AssetError: it is relative to a frame other than the enclosing one.
+    """
+    element = parent.find("pose")
     if element is None or not (element.text or "").strip():
         return np.eye(3), np.zeros(3)
     if element.get("relative_to"):
         raise AssetError(f'a pose is relative to "{element.get("relative_to")}"; only poses in the model are read.')
+    if element.get("rotation_format") == "quat_xyzw":
+        x, y, z, *xyz, w = numbers(element.text, 7)
+        return matrix_of((w, *xyz)), np.array([x, y, z])
     values = numbers(element.text, 6)
     angles = np.radians(values[3:]) if element.get("degrees") == "true" else values[3:]
     return turned(*angles), values[:3]
 
 
 def _piece(one: ET.Element, frame: Frame, path: Path, root: Path, notes: list[str]) -> Piece:
-    turn, offset = _pose(one.find("pose"))
+    turn, offset = pose_of(one)
     rotation, position = frame[0] @ turn, frame[0] @ offset + frame[1]
     geometry = one.find("geometry")
     shape = None if geometry is None else next(iter(geometry), None)
@@ -114,7 +135,7 @@ def _inertial(element: ET.Element | None, frame: Frame) -> Inertial | None:
     mass = float(numbers(said, 1)[0])
     if mass <= 0:
         return None
-    turn, offset = _pose(element.find("pose"))
+    turn, offset = pose_of(element)
     rotation = frame[0] @ turn
     tensor = inertia_of(element.find("inertia"), lambda one, key: one.findtext(key))
     return Inertial(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,17 @@ def read_urdf(path: Path, root: Path) -> Body:
         AssetError: it has joints that move, a mesh is missing, or nothing is to be seen.
     """
     robot = read_root(path)
-    frames = _frames(robot)
+    return body_of(robot, robot.findall("link"), _frames(robot), path, root, name=robot.get("name", ""))
+
+
+def body_of(
+    robot: ET.Element, links: Sequence[ET.Element], frames: Mapping[str, Frame], path: Path, root: Path, *, name: str
+) -> Body:
+    """The shapes, the mass and the friction of links that move as one, placed by their frames in that of the object.
+
+    Raises:
+        AssetError: a mesh is missing, or nothing is to be seen.
+    """
     colours = {one.get("name"): _rgb(one) for one in robot.findall("material")}
     notes: list[str] = []
     seen: list[Piece] = []
@@ -31,7 +42,7 @@ def read_urdf(path: Path, root: Path) -> Body:
     inertials: list[Inertial] = []
     frictions: list[float] = []
     same, lost = True, False
-    for link in robot.findall("link"):
+    for link in links:
         frame = frames[link.get("name", "")]
         shapes = {}
         for kind, into in (("visual", seen), ("collision", touched)):
@@ -54,15 +65,16 @@ def read_urdf(path: Path, root: Path) -> Body:
     for element in robot.findall(".//gazebo/mu1"):
         frictions.append(float(numbers(element.text, 1)[0]))
     hulls: tuple[Points, ...] = ()
-    meshes = any(name for one in robot.iter("collision") if (name := _named(one)).startswith("mesh"))
+    meshes = any(_named(one).startswith("mesh") for link in links for one in link.findall("collision"))
     if touched and not lost and not (same and meshes):
         hulls, note = hulls_of(touched)
         notes += [note] if note else []
     mesh = merged(seen or touched, notes)
     return Body(
-        name=robot.get("name", ""),
+        name=name,
         mesh=mesh,
         hulls=hulls,
+        touched=tuple(touched),
         metres=1.0,
         up="z",
         declared="URDF",
@@ -91,7 +103,7 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
         parent, child = joint.find("parent"), joint.find("child")
         if parent is None or child is None:
             raise AssetError(f'joint "{joint.get("name")}" lacks its parent or its child.')
-        above[child.get("link", "")] = (parent.get("link", ""), _origin(joint.find("origin")))
+        above[child.get("link", "")] = (parent.get("link", ""), origin_of(joint.find("origin")))
     found: dict[str, Frame] = {}
     for link in links:
         rotation, position, at, steps = np.eye(3), np.zeros(3), link, 0
@@ -104,14 +116,15 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
     return found
 
 
-def _origin(element: ET.Element | None) -> Frame:
+def origin_of(element: ET.Element | None) -> Frame:
+    """Rotation and position [m] of an <origin>; none where there is none."""
     if element is None:
         return np.eye(3), np.zeros(3)
     return turned(*numbers(element.get("rpy"), 3, 0.0)), numbers(element.get("xyz"), 3, 0.0)
 
 
 def _piece(one: ET.Element, frame: Frame, rgb, path: Path, root: Path, notes: list[str]) -> Piece:
-    turn, offset = _origin(one.find("origin"))
+    turn, offset = origin_of(one.find("origin"))
     rotation, position = frame[0] @ turn, frame[0] @ offset + frame[1]
     geometry = one.find("geometry")
     shape = None if geometry is None else next(iter(geometry), None)
@@ -153,7 +166,7 @@ def _inertial(element: ET.Element | None, frame: Frame) -> Inertial | None:
     value = float(numbers(mass.get("value"), 1)[0])
     if value <= 0:
         return None
-    turn, offset = _origin(element.find("origin"))
+    turn, offset = origin_of(element.find("origin"))
     rotation = frame[0] @ turn
     tensor = inertia_of(element.find("inertia"), lambda one, key: one.get(key))
     return Inertial(
