@@ -39,7 +39,7 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     for number, one in enumerate(_things(outer, path, root, notes)):
         if number >= MAX_MODELS:
             raise AssetError(f"{path}: more than {MAX_MODELS} links.")
-        if isinstance(one, float):
+        if not isinstance(one, ImportedObject):
             heights.append(one)
             continue
         height = is_ground(one.name, one.body, one.pose) if one.fixed else None

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from pat3d.assets.library.body import Body
 from pat3d.assets.library.readers.urdf import Frame, body_of, origin_of
 from pat3d.assets.library.readers.xml import read_root
 from pat3d.errors import AssetError
@@ -95,7 +95,7 @@ def read_manifest_scene(path: Path) -> ImportedScene:
     """
     folder = path.parent
     manifest = read_manifest(folder)
-    made: dict[str, Any] = {}
+    made: dict[Path, Body] = {}
     objects = []
     for entry in manifest["objects"]:
         file = (folder / str(entry["file"])).resolve()
