@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
+from pat3d.assets.materials import find_material
 from pat3d.plan.audit.text import Claim, Find, Mention, Said, read, singulars
-from pat3d.plan.audit.words import Place
+from pat3d.plan.audit.words import DEEDS, SILENT, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -39,7 +40,8 @@ _DOORS = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave",
 _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
 """Notes that say how a thing is made, not that it is missing."""
 _REPEATS = frozenset({"each", "every", "either", "per", "pair", "pairs", "both", "row", "rows", "stack", "stacks",
-                      "more", "others", "other", "another", "one", "ones", "rest", "half", "most", "x", "times"})  # fmt: skip
+                      "more", "others", "other", "another", "one", "ones", "rest", "half", "most", "x", "times", "pile",
+                      "heap", "piles", "rainbow"})  # fmt: skip
 """Words by which there are more of a thing than its name's number says."""
 
 
@@ -59,7 +61,8 @@ class _Auditor:
         self._plan = plan
         self._said = said
         told = [note for note in plan.notes if not _ASSUMED.search(note)]
-        self._told = " ".join((*told, *plan.set_aside)).lower()
+        self._told = " ".join((*(note for note in told if "no task does" not in note), *plan.set_aside)).lower()
+        self._undone = " ".join(note for note in told if "no task does" in note).lower()
         self._tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
         self._edges: set[tuple[str, str, str]] = set()
         for rel in plan.relations:
@@ -76,6 +79,8 @@ class _Auditor:
         """What the plan lacks or has otherwise, in the order of the prompt."""
         made: list[tuple[int, str]] = []
         for mention in self._said.mentions:
+            if find_colour(mention.text) and any(self._has(obj, mention.text) for obj in self._plan.objects):
+                continue
             if not mention.owned and not self._of(mention) and not self._named(mention.text):
                 made.append((mention.start, f'not in the scene: "{mention.text}"'))
         made += self._miscounted()
@@ -87,6 +92,7 @@ class _Auditor:
         for word in self._said.stray:
             if not any(self._has(obj, word) for obj in self._plan.objects) and not self._named(word):
                 made.append((self._said.words.index(word), f'not in the scene: "{word}"'))
+        made += self._unheard()
         for claim in self._said.claims:
             if (note := self._broken(claim)) is not None:
                 made.append((claim.at, note))
@@ -138,6 +144,26 @@ class _Auditor:
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
 
+    def _unheard(self) -> list[tuple[int, str]]:
+        """Words that are in no name, in no phrase of an object and in no note, and mean something."""
+        words = self._said.words
+        named = {at for mention in (*self._said.mentions, *self._said.compounds)
+                 for at in range(mention.start, mention.end)}  # fmt: skip
+        told = [text for obj in self._plan.objects for text in (obj.phrase.lower(), obj.name, *obj.adjectives)]
+        phrases = {word for text in told for word in re.findall(r"[\w'-]+", text)}
+        materials = {obj.material for obj in self._plan.objects if obj.material}
+        notes = self._told + self._undone
+        asked = self._plan.task or self._tasks.strip() or self._undone or "is read as the scene" in " ".join(self._plan.notes)
+        made: list[tuple[int, str]] = []
+        for at, word in enumerate(words):
+            if at in named or word in phrases or word in SILENT or not word[0].isalpha() or find_colour(word) or (
+                find_material(word) in materials
+            ):  # fmt: skip
+                continue
+            if not re.search(rf"\b{re.escape(word)}\b", notes) and not (asked and word in DEEDS):
+                made.append((at, f'not heard: "{word}"'))
+        return made
+
     # Relations
 
     def _above(self, name: str) -> list[str]:
@@ -152,7 +178,8 @@ class _Auditor:
         of = [obj.name for obj in self._of(claim.of)] if claim.of is not None else []
         if claim.of is not None and (not of or self._named(claim.of.text)):
             return None
-        if self._named(claim.said) or any(name in self._tasks for name in of):
+        asked = claim.of is None and (self._tasks.strip() or self._undone)
+        if self._named(claim.said) or claim.said in self._undone or asked or any(name in self._tasks for name in of):
             return None
         here = {name for name, _ in self._here(claim)}
         if claim.whose is not None and (own := [obj.name for obj in self._of(claim.whose)]):
@@ -184,9 +211,8 @@ class _Auditor:
 
     def _holds(self, claim: Claim, here: set[str], of: Sequence[str]) -> bool:
         if claim.place == "with":
-            return claim.of is None or any(
-                {a, b} & set(of) and {a, b} & here for a, kind, b in self._edges
-            ) or not here - set(of)  # fmt: skip
+            owned = any(mention.end == claim.at for mention in self._said.mentions)
+            return not owned or any({a, b} & set(of) and {a, b} & here for a, _, b in self._edges)
         if claim.place == "holding":
             return claim.of is None or any(a in of and b in here and kind in ("on", "in") for a, kind, b in self._edges)
         kinds = set(_KINDS[claim.place])

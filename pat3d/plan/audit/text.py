@@ -12,12 +12,13 @@ from dataclasses import dataclass, field
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.words import (
-    BREAKS, IRREGULAR, LONGEST, NUMBERS, RELATIONS, SHADES, SINGLE, UNSURE, Place,
+    BREAKS, IRREGULAR, LONGEST, NUMBERS, PARTICIPLES, RELATIONS, SHADES, SINGLE, UNITS, UNSURE, Place,
 )  # fmt: skip
 
-_WORD = re.compile(r"[^\W_]+(?:['\u2019-][^\W_]+)*|[.;!?\n]+|[,:()]")
+_WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['\u2019-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
+_SOME = frozenset({"few", "couple", "pair", "several", "many", "number", "lot", "dozen", "set"})
 
 Find = Callable[[str], str | None]
 """The noun of the catalogue that a name means, or None."""
@@ -76,7 +77,8 @@ class Said:
 
 def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
-    said = Said(words=[word.replace("\u2019", "'").lower() for word in _WORD.findall(prompt)])
+    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)
     found = _names(said.words, find)
     taken = {at for start, end, *_ in found for at in range(start, end)}
@@ -133,10 +135,13 @@ def _mention(words: Sequence[str], start: int, end: int, noun: str, plural: bool
     ahead = _before(words, start, taken)
     colours = tuple(colour for at in ahead if (colour := find_colour(words[at])) and words[at - 1] not in SHADES)
     first = words[ahead[-1] if ahead else start]
-    lead = [words[at] for at in ahead] or [first]
+    measured = {at for at in ahead if words[at + 1] == "m" or words[at + 1].startswith(UNITS)}
+    lead = [words[at] for at in ahead if at not in measured] or [first]
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
     if _elliptic(words, ahead):
+        number, plural = None, True
+    if _SOME & set(lead):
         number, plural = None, True
     new = number is not None and not {"the", "these", "those", "both", "all", "other"} & set(lead)
     return Mention(start=start, end=end, text=" ".join(words[start:end]), noun=noun, plural=plural,
@@ -209,6 +214,8 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
 def _whose(said: Said, at: int) -> Mention | None:
     """The name before a relative pronoun that leads to the relation word at `at`."""
     words, back = said.words, at - 1
+    if words[at] in PARTICIPLES:
+        return next((mention for mention in said.mentions if mention.end == at), None)
     while back > 0 and words[back] in BREAKS.links:
         back -= 1
     if back < 1 or words[back] not in ("which", "that"):

@@ -20,6 +20,10 @@ IRREGULAR = {
 }  # fmt: skip
 SINGLE = frozenset({"flowers", "grapes", "fries", "noodles", "playing cards"})
 """Names that are plural and mean one object."""
+PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "filled", "full", "topped"})
+"""Words of holding that are said of what stands right before them."""
+UNITS = ("cm", "mm", "centimet", "millimet", "meter", "metre", "inch", "foot", "feet", "ml", "lit", "kg", "gram", "degree")
+"""Beginnings of words after a number that counts nothing."""
 UNSURE = frozenset({
     "can", "level", "present", "display", "light", "watch", "wrap", "stick", "plane", "line", "stack", "rest", "square",
     "match", "set", "left", "bunch", "pair", "print", "iron", "folder", "weight", "object", "cross", "ring", "token",
@@ -53,7 +57,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
         "side": ("on the left", "on the right", "to the left", "to the right", "to its left", "to its right",
-                 "on its left", "on its right", "from left to right", "on one side", "on the other side", "in the middle",
+                 "on its left", "on its right", "from left to right", "on one side", "on the other side", "on the other", "in the middle",
                  "in a row", "on top", "in front", "on either side", "on both sides", "hand over", "hands over",
                  "on top of each other", "next to each other", "beside each other", "on each other"),
     }  # fmt: skip
@@ -87,3 +91,29 @@ class BREAKS:
         "small", "large", "big", "little", "tiny", "huge", "round", "square", "tall", "short", "long", "wide", "thin",
         "thick", "old", "new", "empty", "clear", "flat", "wooden", "shiny",
     })  # fmt: skip
+
+
+_BUILDING = """
+a an the this that these those its their my your his her our some any all both each every either other another own same
+it them they which who one ones and or but then while so as also too plus here there where is are was were be been
+being has have had do does of to at by in on with for from into onto up down out off over next side sides row rows line
+stack pile top middle center centre edge corner end left right front back first second third last
+nothing showing complete featuring including objects items things everything others exactly about well together
+somewhere what shown seen should must need i'd give following features color immediate amidst belongs goes go
+upside upright head facing faces face turned turn vertically wearing directly opposite former latter decorated bearing
+fruit fruits toys tools vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom upper topmost leftmost rightmost lower pieces piece
+very quite just only really please can could you i me we us would like want see imagine show create make
+"""
+_POSTURES = """
+sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
+leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
+stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
+"""
+DEEDS = frozenset("""
+unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
+put place pick take move grab grasp lift bring stack transfer fetch drop insert push slide carry return get hold use
+using arm arms hand robot robotic gripper away back close
+""".split())
+"""Words of a task."""
+SILENT = frozenset((*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS))
+"""Words that build a sentence, and words for places, which are compared with the plan as claims."""
