@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +100,17 @@ class Replayer:
         self._runner.close()
 
 
+@dataclass(frozen=True, kw_only=True)
+class Replayed:
+    """What came of doing episodes again."""
+
+    episodes: int
+    different: tuple[int, ...]
+    """Indexes of those that went otherwise than they were recorded."""
+    files: tuple[Path, ...]
+    """Films and pictures that were written."""
+
+
 def replay_episodes(
     evaluation: Evaluation,
     episodes: list[int] | None,
@@ -109,8 +121,8 @@ def replay_episodes(
     size: tuple[int, int],
     target: Any,
     progress: Progress = silent,
-) -> int:
-    """Replay and report; returns 1 where an episode goes otherwise than it was recorded.
+) -> Replayed:
+    """Replay, and report on `target`.
 
     Args:
         evaluation: the records.
@@ -136,7 +148,7 @@ def replay_episodes(
     changed = [f"{name} {then.get(name)} then, {now[name]} now" for name in now if now[name] != then.get(name)]
     if changed:
         line("note: recorded with another engine: " + "; ".join(changed))
-    replayer, different = Replayer(evaluation), []
+    replayer, different, files = Replayer(evaluation), [], []
     try:
         for number, result in enumerate(chosen):
             if video is None:
@@ -147,10 +159,12 @@ def replay_episodes(
             if picture is not None:
                 frames = replayer.moments(result, moments_of(result.steps, MOMENTS), camera, size)
                 caption = f"{result.instruction}: {result.outcome.replace('_', ' ')}"
-                line(f"wrote {write_strip([(caption, frames)], picture)}")
+                files.append(write_strip([(caption, frames)], picture))
+                line(f"wrote {files[-1]}")
             if video is not None:
                 same, frames = replayer.film(result, camera, size, progress)
-                line(f"wrote {write_video(frames, Path(video), FILM_RATE)}, {len(frames)} frames")
+                files.append(write_video(frames, Path(video), FILM_RATE))
+                line(f"wrote {files[-1]}, {len(frames)} frames")
             else:
                 same = replayer.same(result)
             if not same:
@@ -159,4 +173,4 @@ def replay_episodes(
     finally:
         replayer.close()
     line(f"{len(chosen) - len(different)} of {len(chosen)} episodes went as recorded, bit for bit")
-    return 1 if different else 0
+    return Replayed(episodes=len(chosen), different=tuple(different), files=tuple(files))
