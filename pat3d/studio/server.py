@@ -15,6 +15,7 @@ from pat3d.studio.gate import Gate, is_loopback
 from pat3d.studio.panel import Panel
 from pat3d.studio.store import Store, name_of
 from pat3d.studio.workbench import Workbench
+from pat3d.studio.worker import Worker
 
 PORT = 8790
 """Where nobody says another."""
@@ -55,6 +56,8 @@ def opened(
         stack.callback(store.close)
         session = None if folder is None else store.opened(folder)
         bench = Workbench(session)
+        worker = Worker(store.scratch)
+        stack.callback(worker.close)
         with redirect_stdout(io.StringIO()):
             # viser prints its own address, which is not the one to open.
             server = viser.ViserServer(host="127.0.0.1", port=0, label="PAT3D studio", verbose=False)
@@ -62,7 +65,7 @@ def opened(
         stack.callback(bench.wait, 60.0)
         stack.callback(bench.cancel)
         server.gui.configure_theme(control_width="large", show_logo=False)
-        panel = Panel(server, bench, store, name_of(folder) if folder is not None else "scene")
+        panel = Panel(server, bench, store, name_of(folder) if folder is not None else "scene", worker.run)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         gate = Gate(host, port, inner=server.get_port(), token=token)
         stack.callback(gate.close)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     import viser
 
 HULL_COLOURS = ((230, 120, 50), (60, 140, 220), (90, 180, 90), (200, 90, 180), (220, 190, 60), (90, 190, 190))
-FORCE_COLOUR, CONTACT_COLOUR, GHOST_COLOUR = (220, 40, 40), (255, 150, 0), (150, 160, 190)
+FORCE_COLOUR, CONTACT_COLOUR = (220, 40, 40), (255, 150, 0)
+GHOST_COLOUR, BEFORE_COLOUR = (150, 160, 190), (230, 170, 60)
 
 ARROW = 0.15
 """Length of the arrow of the largest force, as a share of the scene's size."""
@@ -32,6 +33,7 @@ class Shown:
     hulls: bool = False
     forces: bool = False
     ghost: bool = False
+    before: bool = False
 
 
 class View:
@@ -76,8 +78,17 @@ class View:
         self._extra("names", shown.names and scene, poses, self._names)
         self._extra("hulls", shown.hulls and scene, poses, self._hulls)
         self._extra("ghost", shown.ghost and scene, starts, self._ghost)
+        before = None if session is None else session.before
+        rests = () if before is None else tuple((obj.name, obj.pose, id(obj.asset)) for obj in before.objects)
+        self._extra("before", shown.before and before, rests, self._before)
         self._extra("forces", shown.forces and at_rest and scene, poses, self._forces)
         self._hold(None if session is None or session.selected is None else objects[session.selected])
+
+    def pose(self, poses: Mapping[str, Pose]) -> None:
+        """Show objects elsewhere, by name, until the next `draw`."""
+        for name, pose in poses.items():
+            if name in self._objects:
+                _put(self._objects[name][1], pose)
 
     def _place(self, obj: SceneObject) -> None:
         if obj.name not in self._objects:
@@ -126,20 +137,24 @@ class View:
         return made
 
     def _ghost(self, scene: Scene) -> list[Any]:
-        made = []
-        for obj in scene.objects:
-            mesh = obj.asset.visual
-            handle = self._scene.add_mesh_simple(
-                self._path("ghost"),
-                mesh.vertices.astype(np.float32),
-                mesh.faces,
-                color=GHOST_COLOUR,
-                opacity=0.3,
-                cast_shadow=False,
-            )
-            _put(handle, obj.initial_pose)
-            made.append(handle)
-        return made
+        return [self._shade(obj, obj.initial_pose, GHOST_COLOUR) for obj in scene.objects]
+
+    def _before(self, scene: Scene) -> list[Any]:
+        return [self._shade(obj, obj.pose, BEFORE_COLOUR) for obj in scene.objects]
+
+    def _shade(self, obj: SceneObject, pose: Pose, colour: tuple[int, int, int]) -> Any:
+        """An object that one sees through, at `pose`."""
+        mesh = obj.asset.visual
+        handle = self._scene.add_mesh_simple(
+            self._path("shades"),
+            mesh.vertices.astype(np.float32),
+            mesh.faces,
+            color=colour,
+            opacity=0.3,
+            cast_shadow=False,
+        )
+        _put(handle, pose)
+        return handle
 
     def _forces(self, scene: Scene) -> list[Any]:
         from pat3d.check.forces import contact_forces
