@@ -73,7 +73,7 @@ def verdict(session: Session) -> str:
     found = session.verification
     if not found:
         if session.at_rest:
-            return "Not verified: the folder has no report."
+            return "Its folder has no report of a verification."
         waiting = len(session.current.edits)
         return f"{waiting} edit{'s' if waiting > 1 else ''} to be settled: {plain('; '.join(_said(session)))}"
     certificate = _part(found, "certificate")

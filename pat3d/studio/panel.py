@@ -11,6 +11,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.studio import facts
 from pat3d.studio.session import Session
 from pat3d.studio.settling import SettlingFolder
+from pat3d.studio.status import StatusLine
 from pat3d.studio.store import Store
 from pat3d.studio.view import Shown, View
 from pat3d.studio.workbench import Watch, Workbench, needed
@@ -26,11 +27,14 @@ _VERBS = ("move", "turn", "replace", "scale", "set", "fix", "free")
 class Panel:
     """The interface of one server; all browsers see the same."""
 
-    def __init__(self, server: viser.ViserServer, bench: Workbench, store: Store, name: str, run: Run = here) -> None:
+    def __init__(
+        self, server: viser.ViserServer, bench: Workbench, status: StatusLine, store: Store, name: str, run: Run = here
+    ) -> None:
         """Show `bench`; scenes are saved into `store`, under `name` where nobody says another; `run` does long work."""
-        self._bench, self._store, self._run = bench, store, run
+        self._bench, self._status, self._store, self._run = bench, status, store, run
         self._drawing = threading.RLock()
         self._filling = False
+        self._veiled = False
         self._view = View(server, self._click, self._drag)
         self.gui: Any = server.gui
         self.scene: Any = server.scene
@@ -39,13 +43,18 @@ class Panel:
         self._looked: Any = None
         self.show()
 
+    def veil(self, veiled: bool) -> None:
+        """Take the scene out of sight, or show it again."""
+        self._veiled, self._looked = veiled, None
+        self.show()
+
     def show(self) -> None:
         """Bring everything up to date."""
         with self._drawing:
             session, status = self._bench.session, self._bench.status
             self._filling = True
             try:
-                self._show_status(status)
+                self._status.show()
                 if status.working and session is self._looked:
                     return
                 self._show_session(session)
@@ -57,25 +66,17 @@ class Panel:
         """What it says of the scene as a whole, in Markdown."""
         return self._verdict.content
 
-    def _show_status(self, status: Any) -> None:
-        if status.working:
-            said = f"**{status.working}**: {facts.plain(status.stage)}"
-        else:
-            said = f"{'**Refused:** ' if status.failed else ''}{facts.plain(status.said)}" if status.said else "Ready."
-        if said != self._status.content:
-            self._status.content = said
-        self._bar.visible = self._stop.visible = bool(status.working)
-        self._bar.value = 100.0 * (status.share or 0.0)
-
     def _show_session(self, session: Session | None) -> None:
-        if session is not None and (self._looked is None or self._looked.current.folder != session.current.folder):
+        before, self._looked = self._looked, session
+        other = session is not None and (before is None or before.current.folder != session.current.folder)
+        if session is not None and other and not self._veiled:
             self._view.look_at(session.scene)
-        self._looked = session
-        shown = Shown(**{name: box.value for name, box in self._boxes.items()})
-        self._view.draw(session, shown)
+        self._draw()
         self._settling.show(session)
         if session is None:
             self._told.content = "No scene yet. Write a sentence below and press **Make**."
+            for button in (self._settle, self._undo, self._redo, self._delete):
+                button.disabled = True
             self._table.content = self._about.content = self._verdict.content = self._changed.content = ""
             return
         self._told.content = _told(session)
@@ -91,10 +92,6 @@ class Panel:
 
     def _build(self, name: str) -> None:
         gui = self.gui
-        self._status = gui.add_markdown("Ready.")
-        self._bar = gui.add_progress_bar(0.0, animated=True, visible=False)
-        self._stop = gui.add_button("Cancel", color="red", visible=False)
-        self._stop.on_click(lambda _: self._bench.cancel())
         with gui.add_folder("Scene"):
             self._told = gui.add_markdown("")
             self._verdict = gui.add_markdown("")
@@ -156,7 +153,11 @@ class Panel:
 
     def _toggle(self) -> None:
         with self._drawing:
-            self._view.draw(self._bench.session, Shown(**{name: box.value for name, box in self._boxes.items()}))
+            self._draw()
+
+    def _draw(self) -> None:
+        shown = Shown(**{name: box.value for name, box in self._boxes.items()})
+        self._view.draw(None if self._veiled else self._bench.session, shown)
 
     def _edit(self, verb: str, words: str) -> None:
         def work(now: Session | None, progress: Watch) -> tuple[Session, str]:

@@ -43,7 +43,7 @@ class View:
         self, server: viser.ViserServer, clicked: Callable[[str], None], dragged: Callable[[Pose], None]
     ) -> None:
         """`clicked` hears the name of an object, `dragged` where the gizmo let go of the selected one."""
-        self._scene, self._camera = server.scene, server.initial_camera
+        self._server, self._scene = server, server.scene
         self._clicked, self._dragged = clicked, dragged
         self._objects: dict[str, tuple[Any, Any]] = {}
         """Asset and handle of every object, by name."""
@@ -51,18 +51,13 @@ class View:
         """What was drawn of hulls, names and so on, and what it was drawn for."""
         self._gizmo: Any = None
         self._made = 0
-        server.scene.set_up_direction("+z")
-        server.scene.configure_default_lights()
-        server.scene.add_grid(
-            "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
-        )
+        ground(server)
 
     def look_at(self, scene: Scene) -> None:
-        """Have those who open the page from now on see all of `scene`, from the front."""
+        """Have everybody see all of `scene`, from the front."""
         low, high = _bounds(scene)
         middle, size = (low + high) / 2, float(np.linalg.norm(high - low))
-        self._camera.look_at = middle
-        self._camera.position = middle + 0.95 * size * np.array([0.35, -0.85, 0.55])
+        look(self._server, middle, middle + 0.95 * size * np.array([0.35, -0.85, 0.55]))
 
     def draw(self, session: Session | None, shown: Shown) -> None:
         """Show `session`; nothing where it is None."""
@@ -212,6 +207,22 @@ class View:
         # Names of objects may have slashes, and a name that comes back must not meet the old one's messages.
         self._made += 1
         return f"/{what}/{self._made}"
+
+
+def ground(server: viser.ViserServer) -> None:
+    """Light, and a grid at height 0 with a line every 0.1 m."""
+    server.scene.set_up_direction("+z")
+    server.scene.configure_default_lights()
+    server.scene.add_grid(
+        "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
+    )
+
+
+def look(server: viser.ViserServer, at: np.ndarray, position: np.ndarray) -> None:
+    """Have everybody look from `position` to `at` [m], those who open the page later too."""
+    for camera in (server.initial_camera, *(client.camera for client in server.get_clients().values())):
+        camera.position = position
+        camera.look_at = at
 
 
 def _turned(start: Pose, gizmo: Any) -> Pose:

@@ -80,9 +80,9 @@ class Worker:
         return said[0]
 
     def close(self) -> None:
-        """End the process."""
+        """End the process, which has nothing to do."""
         with self._lock:
-            self._stop()
+            self._stop(idle=True)
 
     def _start(self) -> None:
         if self._process is not None and self._process.is_alive():
@@ -94,11 +94,12 @@ class Worker:
         self._process.start()
         theirs.close()
 
-    def _stop(self) -> None:
+    def _stop(self, *, idle: bool = False) -> None:
         if self._process is None:
             return
         self._pipe.close()
-        self._process.terminate()
+        if not idle:
+            self._process.terminate()
         self._process.join(GRACE)
         # What it started itself, as the decomposition of a mesh, goes with it.
         with suppress(ProcessLookupError, PermissionError):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -44,12 +44,17 @@ class Replayer:
         except TypeError as error:
             raise EvaluationError(f"{evaluation.folder}: settings that are none: {error}") from error
         self._runner = Runner(settings)
-        self._rate = settings.control_freq
+        self.rate = float(settings.control_freq)
+        """Steps a second."""
         self._cameras = cameras_of(() if pair_of(settings.robot) is None else SIDES)
 
     def same(self, result: Result) -> bool:
         """Whether the episode goes as it was recorded, bit for bit."""
         return self._runner.replay(result.episode, result.actions) == result.state_hash
+
+    def watched(self, result: Result, watch: Callable[[Any], None]) -> bool:
+        """The same, with `watch` called with the environment after the reset and after every step."""
+        return self._runner.replay(result.episode, result.actions, watch) == result.state_hash
 
     def film(
         self,
@@ -60,7 +65,7 @@ class Replayer:
     ) -> tuple[bool, list[NDArray[np.uint8]]]:
         """The same, with pictures at FILM_RATE, shape (height, width, 3)."""
         self._require(camera)
-        every = max(1, round(self._rate / FILM_RATE))
+        every = max(1, round(self.rate / FILM_RATE))
         frames: list[NDArray[np.uint8]] = []
         step = 0
 
