@@ -38,6 +38,7 @@ class Panel:
         self._view = View(server, self._click, self._drag)
         self.gui: Any = server.gui
         self.scene: Any = server.scene
+        self.server = server
         self._build(name)
         bench.changed = self.show
         self._looked: Any = None
@@ -60,6 +61,11 @@ class Panel:
                 self._show_session(session)
             finally:
                 self._filling = False
+
+    @property
+    def name(self) -> str:
+        """Under which scenes are saved."""
+        return self._name.value
 
     @property
     def verdict(self) -> str:
