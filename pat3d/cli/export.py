@@ -155,6 +155,9 @@ def _scene(
     target = console()
     if reports:
         target.print(parity_table(reports))
+    for name, report in reports.items():
+        for line in report.left_out:
+            target.print(f"note  {name}: {line}", markup=False)
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
