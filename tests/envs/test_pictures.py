@@ -67,7 +67,7 @@ def test_colours_stay_on_their_objects_and_right_is_right():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_cpu_and_gl_draw_the_same_picture(tmp_path, kind):
-    """Segmentation agrees in all but a few edge pixels, depth but of films to a millimetre, colours to TOLERANCE."""
+    """Segmentation agrees but on edges, depth but in films to a step of a buffer of 16 bits, colours to TOLERANCE."""
     if gl_renderer(kind) is None:
         pytest.skip(f"no {kind} here")
     # What draws binds a process to EGL or to OSMesa.
@@ -78,7 +78,7 @@ def test_the_cpu_and_gl_draw_the_same_picture(tmp_path, kind):
     for line in told.stdout.splitlines():
         fine, same, depth, colour = map(float, line.split())
         assert same > 0.99
-        assert fine or depth < 1e-3
+        assert fine or depth < 1.0
         assert colour < TOLERANCE
 
 
@@ -100,7 +100,9 @@ for name in ("agentview", "wrist"):
             for one in renderers
         )
         same = theirs.geoms == ours.geoms
-        print(int(fine), same.mean(), np.median(np.abs(theirs.depth - ours.depth)[same]),
+        # A buffer that holds near / z [m] is off by near / z^2 for every metre.
+        step = ours.depth**2 / (model.vis.map.znear * model.stat.extent) / 2**16
+        print(int(fine), same.mean(), np.median((np.abs(theirs.depth - ours.depth) / step)[same]),
               np.abs(theirs.image.astype(float) - ours.image).mean())
 renderers[0].close()
 """

@@ -20,6 +20,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
+from pat3d.cli.documents import SuiteFacts  # noqa: E402
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
@@ -30,6 +31,7 @@ from pat3d.envs.suites.request import Request  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.envs.suites.worker_pool import WorkerPool  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
+from tests.documents import document_of  # noqa: E402
 from tests.envs.suites import SMALL, alive, files_of, wait, workers_of  # noqa: E402
 
 REQUEST = SMALL
@@ -401,6 +403,8 @@ def test_a_suite_s_robot_is_the_one_it_was_made_for(made, monkeypatch):
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
     assert main(["suite", "show", str(made)]) == 0
     assert "scenes from" in capsys.readouterr().out
+    told = document_of(capsys, ["suite", "show", str(made)], SuiteFacts)
+    assert told["scenes"] == sum(told["splits"]["train"].values()) + sum(told["splits"]["test"].values()) == 4
     text = (made / "index.html").read_text()
     assert text.count("<figure ") == 4
     assert all((made / f"scenes/{place:06d}/preview.png").is_file() for place in range(4))
