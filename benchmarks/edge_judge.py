@@ -37,7 +37,7 @@ DEPTH = 5e-3
 BESIDE = 2e-3
 """Prisms reach this far beyond a board's shadow [m]."""
 
-LEVEL = 2.0
+LEVEL = 10.0
 """A board lies, up to this tilt [degrees]."""
 
 UP = 1e-3
@@ -114,15 +114,15 @@ class Shadow:
 Outcome = Literal["stands", "hardly", "falls"]
 
 
-def outcome(mesh: Asset, board: Asset, shadow: Shadow) -> Outcome | None:
-    """What `board` does on the true surface of `mesh`; None where there is none."""
+def outcome(mesh: Asset, board: Asset, shadow: Shadow) -> Outcome:
+    """What `board` does on the true surface of `mesh`; it falls where there is none."""
     polygons = shadow.over(mesh.visual.vertices, mesh.visual.faces)
     if not polygons:
-        return None
+        return "falls"
     pose = shadow.laid(polygons)
     hulls = prisms(shadow, shadow.over(mesh.visual.vertices, mesh.visual.faces, BESIDE), polygons)
     if not hulls:
-        return None
+        return "falls"
     true = replace(mesh, visual=board.visual, parts=tuple(hulls))
     scene = scene_of(placed("mesh", true, fixed=True), placed("board", board, pose=pose))
     with tempfile.TemporaryDirectory() as folder:
