@@ -153,7 +153,12 @@ class _Auditor:
         phrases = {word for text in told for word in re.findall(r"[\w'-]+", text)}
         materials = {obj.material for obj in self._plan.objects if obj.material}
         notes = self._told + self._undone
-        asked = self._plan.task or self._tasks.strip() or self._undone or "is read as the scene" in " ".join(self._plan.notes)
+        asked = (
+            self._plan.task
+            or self._tasks.strip()
+            or self._undone
+            or "is read as the scene" in " ".join(self._plan.notes)
+        )
         made: list[tuple[int, str]] = []
         for at, word in enumerate(words):
             if at in named or word in phrases or word in SILENT or not word[0].isalpha() or find_colour(word) or (
@@ -192,8 +197,28 @@ class _Auditor:
     def _here(self, claim: Claim) -> list[tuple[str, int]]:
         """The objects that `claim` may be said of: those named with it, and where it is a pronoun's, before it."""
         words = set(self._said.words)
-        reach = bool(words & {"it", "them", "they", "there", "that", "this", "these", "both", "one", "ones", "each",
-                              "former", "latter", "other", "first", "second", "last"})
+        reach = bool(
+            words
+            & {
+                "it",
+                "them",
+                "they",
+                "there",
+                "that",
+                "this",
+                "these",
+                "both",
+                "one",
+                "ones",
+                "each",
+                "former",
+                "latter",
+                "other",
+                "first",
+                "second",
+                "last",
+            }
+        )
         named = {obj.name for mention in self._said.mentions for obj in self._of(mention)}
         return [(obj.name, 0) for obj in self._plan.objects if obj.name not in named] + [
             (obj.name, mention.start)

@@ -131,7 +131,9 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     return made
 
 
-def _mention(words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]) -> Mention:
+def _mention(
+    words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]
+) -> Mention:
     ahead = _before(words, start, taken)
     colours = tuple(colour for at in ahead if (colour := find_colour(words[at])) and words[at - 1] not in SHADES)
     first = words[ahead[-1] if ahead else start]

@@ -22,7 +22,22 @@ SINGLE = frozenset({"flowers", "grapes", "fries", "noodles", "playing cards"})
 """Names that are plural and mean one object."""
 PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "filled", "full", "topped"})
 """Words of holding that are said of what stands right before them."""
-UNITS = ("cm", "mm", "centimet", "millimet", "meter", "metre", "inch", "foot", "feet", "ml", "lit", "kg", "gram", "degree")
+UNITS = (
+    "cm",
+    "mm",
+    "centimet",
+    "millimet",
+    "meter",
+    "metre",
+    "inch",
+    "foot",
+    "feet",
+    "ml",
+    "lit",
+    "kg",
+    "gram",
+    "degree",
+)
 """Beginnings of words after a number that counts nothing."""
 UNSURE = frozenset({
     "can", "level", "present", "display", "light", "watch", "wrap", "stick", "plane", "line", "stack", "rest", "square",
@@ -109,11 +124,15 @@ sits sit sat sitting stands stand stood standing lies lie lay laid lying laying 
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
-DEEDS = frozenset("""
+DEEDS = frozenset(
+    """
 unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
 put place pick take move grab grasp lift bring stack transfer fetch drop insert push slide carry return get hold use
 using arm arms hand robot robotic gripper away back close
-""".split())
+""".split()
+)
 """Words of a task."""
-SILENT = frozenset((*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS))
+SILENT = frozenset(
+    (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)
+)
 """Words that build a sentence, and words for places, which are compared with the plan as claims."""

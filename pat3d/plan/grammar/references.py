@@ -118,7 +118,9 @@ class References(Pronouns):
 
     def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
         """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
-        ours, theirs = ({word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other))
+        ours, theirs = (
+            {word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other)
+        )
         return bool(ours and theirs) and not ours & theirs
 
     def _note_adjectives(self, phrase: Phrase) -> None:
@@ -180,7 +182,12 @@ class References(Pronouns):
         words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
-        if phrase.words.lower() in ("the one", "that one") and (subject := self._subject_before(at)):
+        if phrase.words.lower() == "that one":
+            single = [
+                items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
+            ]
+            return single[0] if single else []
+        if phrase.words.lower() == "the one" and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
             return self._one_like(subject, phrase)
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
@@ -255,14 +262,19 @@ class References(Pronouns):
         """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""
         told = [head for one, _ in self.related for head in sorted(one)]
         phrases = [self._chunks[head].phrase for head in told if head < at]
-        if at not in told or not phrases or phrases[0] is None or self._plural_before(at):
+        held = {head for _, other in self.related for head in other}
+        several = [head for head, items in self.known.items() if head < at and head not in held and len(items) > 1]
+        if at not in told or not phrases or phrases[0] is None or several:
             return []
         items = self.ref(min(head for head in told if head < at))
         return items if phrases[0].kind == "object" and len(items) == 1 == len(items[0].group.items) else []
 
     def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
         like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False)
-        return list(self._maker.make(self._world, like).items)
+        items = list(self._maker.make(self._world, like).items)
+        items[0].place = position(phrase)
+        line_up(self._world, items[0])
+        return items
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
@@ -351,17 +363,6 @@ class References(Pronouns):
                 self.known[head] = self._pronoun(head, link, others, child=child)
             made += [item for item in self.ref(head) if item not in made]
         return [item for item in made if not item.group.replaced]
-
-    def _meant(self, head: int) -> tuple[int, ...]:
-        """What the grammar says that `head` means, itself where it says nothing."""
-        return (
-            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
-        )
-
-    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
-        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
-        told = self.each | self.all if carrying else self.each
-        return any(inner in told for head in heads for inner in self._meant(head))
 
     def is_open(self, at: int) -> bool:
         """Whether chunk `at` is a pronoun of which it is still to be found what it means."""
