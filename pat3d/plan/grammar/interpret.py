@@ -15,7 +15,6 @@ from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
-from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Step, World

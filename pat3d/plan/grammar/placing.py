@@ -117,7 +117,8 @@ class Placing:
         if world.is_a(meant[0], tuple(lexicon.OPENED)) or within(meant[0]) < _HARDLY_IN:
             return meant
         fit = [item for item in world.items() if item is not child and (
-            world.is_a(item, tuple(lexicon.OPENED)) or world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN
+            world.is_a(item, tuple(lexicon.OPENED))
+            or (world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN)
         )]  # fmt: skip
         return fit[-1:] or meant
 

@@ -13,7 +13,6 @@ from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
 
-
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
 

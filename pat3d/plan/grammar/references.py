@@ -101,7 +101,8 @@ class References(Pronouns):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
-        alike = [item for group in world.groups if same_noun(group, phrase) and group not in besides and not group.replaced
+        groups = [group for group in world.groups if group not in besides and not group.replaced]
+        alike = [item for group in groups if same_noun(group, phrase)
                  for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
         if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
             # "Both burners" of which one was named after the other.
