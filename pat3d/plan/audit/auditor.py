@@ -9,7 +9,7 @@ from dataclasses import replace
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.text import Claim, Find, Mention, Said, read, singulars
-from pat3d.plan.audit.words import DEEDS, REACHING, REPEATS, SILENT, Place
+from pat3d.plan.audit.words import DEEDS, ON_DISHES, PACKETS, POURED, REACHING, REPEATS, SILENT, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -98,6 +98,7 @@ class _Auditor:
             if not any(self._has(obj, word) for obj in self._plan.objects) and not self._named(word):
                 made.append((self._said.words.index(word), f'not in the scene: "{word}"'))
         made += self._unheard()
+        made += [(0, note) for note in self._made_as()]
         for claim in self._said.claims:
             if (note := self._broken(claim)) is not None:
                 made.append((claim.at, note))
@@ -149,6 +150,20 @@ class _Auditor:
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
 
+    def _made_as(self) -> list[str]:
+        """Objects that are told of in no word of their phrase, and what is poured or spread and made in its bottle."""
+        made: list[str] = []
+        for obj in self._plan.objects:
+            words = {each for word in re.findall(r"[\w']+", obj.phrase.lower()) for each in (word, *singulars(word))}
+            name = set(re.findall(r"[a-z']+", obj.name.lower()))
+            carriers = carriers_of(obj.name, self._plan.relations)
+            dish = any(other.noun in ON_DISHES for other in self._plan.objects if other.name in carriers)
+            if words and not words & (name | REPEATS) and obj.phrase.lower() not in self._quoted:
+                made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
+            elif obj.noun in POURED and dish and not words & PACKETS:
+                made.append(f'"{obj.phrase}" is made as what it comes in')
+        return made
+
     def _unheard(self) -> list[tuple[int, str]]:
         """Words that are in no name, in no phrase of an object and in no note, and mean something."""
         words = self._said.words
@@ -185,7 +200,8 @@ class _Auditor:
         asked = claim.of is None and (self._tasks.strip() or self._undone)
         if self._named(claim.said) or claim.said in self._undone or asked or any(name in self._tasks for name in of):
             return None
-        if not self._holds(claim, self._here(claim), of):
+        turned = any(each.kind == "upside_down" for each in self._plan.postures)
+        if (turned and claim.place == "above") or not self._holds(claim, self._here(claim), of):
             return f'not as said: "{claim.said}"'
         whose = {obj.name for obj in self._of(claim.whose)} if claim.whose is not None else set()
         if claim.whose is not None and whose and not self._holds(claim, whose, of):

@@ -57,6 +57,13 @@ LEADING = frozenset({
 PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "filled", "full", "topped"})
 """Words of holding that are said of what stands right before them."""
 
+POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce", "honey", "syrup", "vinegar",
+                    "milk", "olive oil", "tomato sauce", "peanut butter", "salad dressing", "sugar box", "salt shaker"})  # fmt: skip
+ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
+                       "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
+"""What of something poured is meant to be on, or in."""
+PACKETS = frozenset({"bottle", "jar", "can", "box", "carton", "packet", "tube", "shaker", "container", "jug"})
+
 
 def _relations() -> dict[tuple[str, ...], Place]:
     sides = [f"{word} the {side}{tail}" for word in ("to", "on", "at") for side in ("{}",) for tail in ("", " side")]
