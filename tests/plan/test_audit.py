@@ -1,4 +1,4 @@
-"""An audit names what a plan has otherwise than its sentence says it, whatever made the plan; of a true plan nothing."""
+"""An audit names what a plan has otherwise than its sentence says, whatever made the plan; of a true plan nothing."""
 
 from dataclasses import replace
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.text import Claim, Find, Mention, Said, read, singulars
-from pat3d.plan.audit.words import DEEDS, ON_DISHES, PACKETS, POURED, REACHING, REPEATS, SILENT, Place
+from pat3d.plan.audit.words import ARTICLES, DEEDS, ON_DISHES, PACKETS, POURED, REACHING, REPEATS, SILENT, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -141,14 +141,20 @@ class _Auditor:
             if not counts or any(self._named(said) for said in (noun, *(mention.text for mention in mentions))):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
-            known = [mention for at, mention in enumerate(mentions)
-                     if mention.new or not at or mention.lead not in {one.lead for one in mentions[:at]}]  # fmt: skip
+            placed = {claim.at for claim in self._said.claims}
+            leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
+            known = [mention for mention, before in zip(mentions, leads, strict=True)
+                     if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
             endless = any(mention.plural and mention.number is None for mention in known)
-            endless = endless or bool(REPEATS & set(self._said.words))
+            endless = endless or bool(REPEATS & set(self._said.words)) or self._headless()
             most = max(least, sum(mention.number or 1 for mention in known))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _headless(self) -> bool:
+        """Whether a phrase without a noun ("the two") names objects."""
+        return any(obj.phrase and set(obj.phrase.lower().split()) <= ARTICLES for obj in self._plan.objects)
 
     def _made_as(self) -> list[str]:
         """Objects that are told of in no word of their phrase, and what is poured or spread and made in its bottle."""
@@ -158,7 +164,7 @@ class _Auditor:
             name = set(re.findall(r"[a-z']+", obj.name.lower()))
             carriers = carriers_of(obj.name, self._plan.relations)
             dish = any(other.noun in ON_DISHES for other in self._plan.objects if other.name in carriers)
-            if words and not words & (name | REPEATS) and obj.phrase.lower() not in self._quoted:
+            if words - ARTICLES and not words & (name | REPEATS) and obj.phrase.lower() not in self._quoted:
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')

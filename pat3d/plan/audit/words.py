@@ -58,7 +58,8 @@ PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "fil
 """Words of holding that are said of what stands right before them."""
 
 POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce", "honey", "syrup", "vinegar",
-                    "milk", "olive oil", "tomato sauce", "peanut butter", "salad dressing", "sugar box", "salt shaker"})  # fmt: skip
+                    "milk", "olive oil", "tomato sauce", "peanut butter", "salad dressing", "sugar box",
+                    "salt shaker"})  # fmt: skip
 ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
                        "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
 """What of something poured is meant to be on, or in."""

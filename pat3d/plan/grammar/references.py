@@ -97,7 +97,7 @@ class References(Pronouns):
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
-                if self._told_by_noun(phrase, group.phrase):
+                if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
@@ -116,6 +116,21 @@ class References(Pronouns):
             ]
             return storage[-1:] or None
         return None
+
+    def _elsewhere(self, at: int, group: Group) -> bool:
+        """Whether `group` was told by another place than chunk `at`: "the cup on the tray ..., the cup on the shelf"."""
+        told = self._place_of(at)
+        heads = [head for head, items in self.known.items() if items and items[0].group is group]
+        before = next((place for head in heads if (place := self._place_of(head)) is not None), None)
+        return told is not None and before is not None and told != before
+
+    def _place_of(self, at: int) -> tuple[object, str] | None:
+        """The relation word right behind chunk `at`, and what follows that, where no verb comes between."""
+        behind = self._chunks[at + 1 : at + 3]
+        if [piece.kind for piece in behind] != ["rel", "noun"] or behind[0].relation.manner in ("goal", "source"):
+            return None
+        link, phrase = behind[0].relation, behind[1].named
+        return (link.kind, link.manner), phrase.noun or phrase.head
 
     def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
         """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
@@ -188,7 +203,8 @@ class References(Pronouns):
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             return single[0] if single else []
-        if phrase.words.lower() == "the one" and (subject := self._subject_before(at)):
+        counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
+        if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
             return self._one_like(subject, phrase)
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
@@ -264,14 +280,20 @@ class References(Pronouns):
         told = [head for one, _ in self.related for head in sorted(one)]
         phrases = [self._chunks[head].phrase for head in told if head < at]
         held = {head for _, other in self.related for head in other}
-        several = [head for head, items in self.known.items() if head < at and head not in held and len(items) > 1]
+        first = min((head for head in told if head < at), default=at)
+        several = [
+            head for head, items in self.known.items() if first < head < at and head not in held and len(items) > 1
+        ]
         if at not in told or not phrases or phrases[0] is None or several:
             return []
         items = self.ref(min(head for head in told if head < at))
-        return items if phrases[0].kind == "object" and len(items) == 1 == len(items[0].group.items) else []
+        wanted = self._chunks[at].named.count or 1
+        whole = bool(items) and len(items) == wanted == len(items[0].group.items)
+        return items if phrases[0].kind == "object" and whole else []
 
     def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
-        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False)
+        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False,
+                       count=phrase.count or 1)  # fmt: skip
         items = list(self._maker.make(self._world, like).items)
         items[0].place = position(phrase)
         line_up(self._world, items[0])
