@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
@@ -26,7 +26,7 @@ def _told_apart(group: Group) -> bool:
     return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
 
 
-class References(Pronouns):
+class References(Contrast):
     """Resolves the phrases of one sentence."""
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
@@ -116,28 +116,6 @@ class References(Pronouns):
             ]
             return storage[-1:] or None
         return None
-
-    def _elsewhere(self, at: int, group: Group) -> bool:
-        """Whether `group` was told by another place than chunk `at`: "the cup on the tray ..., the cup on the shelf"."""
-        told = self._place_of(at)
-        heads = [head for head, items in self.known.items() if items and items[0].group is group]
-        before = next((place for head in heads if (place := self._place_of(head)) is not None), None)
-        return told is not None and before is not None and told != before
-
-    def _place_of(self, at: int) -> tuple[object, str] | None:
-        """The relation word right behind chunk `at`, and what follows that, where no verb comes between."""
-        behind = self._chunks[at + 1 : at + 3]
-        if [piece.kind for piece in behind] != ["rel", "noun"] or behind[0].relation.manner in ("goal", "source"):
-            return None
-        link, phrase = behind[0].relation, behind[1].named
-        return (link.kind, link.manner), phrase.noun or phrase.head
-
-    def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
-        """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
-        ours, theirs = (
-            {word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other)
-        )
-        return bool(ours and theirs) and not ours & theirs
 
     def _note_adjectives(self, phrase: Phrase) -> None:
         """Name what describes `phrase` and makes no difference to it; "top" tells which one."""
@@ -274,30 +252,6 @@ class References(Pronouns):
         more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
-
-    def _subject_before(self, at: int) -> list[Item]:
-        """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""
-        told = [head for one, _ in self.related for head in sorted(one)]
-        phrases = [self._chunks[head].phrase for head in told if head < at]
-        held = {head for _, other in self.related for head in other}
-        first = min((head for head in told if head < at), default=at)
-        several = [
-            head for head, items in self.known.items() if first < head < at and head not in held and len(items) > 1
-        ]
-        if at not in told or not phrases or phrases[0] is None or several:
-            return []
-        items = self.ref(min(head for head in told if head < at))
-        wanted = self._chunks[at].named.count or 1
-        whole = bool(items) and len(items) == wanted == len(items[0].group.items)
-        return items if phrases[0].kind == "object" and whole else []
-
-    def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
-        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False,
-                       count=phrase.count or 1)  # fmt: skip
-        items = list(self._maker.make(self._world, like).items)
-        items[0].place = position(phrase)
-        line_up(self._world, items[0])
-        return items
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
