@@ -63,6 +63,7 @@ def doctor(options: argparse.Namespace) -> int:
         _renderers(table)
         _engines(table)
         _model(table)
+        _embeddings(table)
         _metrics(table)
     from pat3d.scene.cache import cache_root
 
@@ -178,6 +179,21 @@ def _model(table: Table) -> None:
     key = "a key from the environment" if settings.key else f"no key ({' or '.join(KEYS)})"
     looks = f", pictures by {settings.vision}" if settings.vision else ""
     table.add("ok", "language model", f"{settings.name} on {settings.server}{looks}, with {key}")
+
+
+def _embeddings(table: Table) -> None:
+    """Report which server finds objects of libraries by meaning; nobody is asked."""
+    from pat3d.assets.library.meaning import MODEL, URL, embedding_settings
+
+    try:
+        settings = embedding_settings()
+    except ModelError as error:
+        table.add("no", "search by meaning", str(error))
+        return
+    if settings is None:
+        table.add("no", "search by meaning", f"for pat3d library search: {MODEL} names a model, {URL} its server")
+        return
+    table.add("ok", "search by meaning", f"{settings.model} on {settings.server}")
 
 
 def _metrics(table: Table) -> None:
