@@ -159,7 +159,7 @@ def see(
     """A view of `scene` in which every object can be seen.
 
     Returns:
-        The observation, its depth before the noise, the camera, the assets at other sizes, and by what they were resized.
+        The observation, its depth before the noise, the camera, the assets at other sizes, and the factors of these.
     """
     for _ in range(200):
         camera = random_camera(scene, rng)

@@ -1,6 +1,6 @@
 """Which way is up, and how high the camera is: the plane on which things stand.
 
-A plane n . X + d = 0 in camera axes is linear in what a depth camera measures. With X = z s for the slopes s of a pixel,
+A plane n . X + d = 0 in camera axes is linear in what a depth camera measures: with X = z s, s the slopes of a pixel,
 
     1/z = -(n . s) / d = a . s,      n = -a / |a| turned upwards,      d = 1 / |a|.
 

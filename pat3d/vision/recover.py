@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from pat3d.assets.library.store import scaled
 from pat3d.errors import LayoutError
@@ -48,6 +50,30 @@ class Recovered:
     def bodies(self) -> dict[str, Placed]:
         """Every object where it was fitted."""
         return {name: _body(name, self.assets[name], one.placed) for name, one in self.fits.items()}
+
+    def resized(self, sizes: Mapping[str, float], seen: Observation) -> Recovered:
+        """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
+
+        Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
+
+        Args:
+            sizes: longest sides [m] of some objects.
+            seen: the picture it was recovered from.
+        """
+        name = max(sizes, key=lambda one: self.fits[one].overlap * float(seen.mask(one).sum()) ** 0.5)
+        factor = sizes[name] / float(self.sized(name).size.max())
+        fits = {
+            each: replace(
+                one,
+                placed=replace(
+                    one.placed, scale=factor * one.placed.scale, position=factor * np.asarray(one.placed.position)
+                ),
+            )
+            for each, one in self.fits.items()
+        }
+        note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m.'
+        camera = replace(self.camera, position=factor * self.camera.position)
+        return replace(self, camera=camera, fits=fits, notes=(*self.notes, note))
 
 
 def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progress = silent) -> Recovered:
