@@ -15,6 +15,7 @@ FLOORS = (
     ("vision",),
     ("exporters",),
     ("check",),
+    ("importers",),
     ("optimize",),
     ("generation",),
     ("envs",),

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
@@ -155,6 +155,9 @@ def _scene(
     target = console()
     if reports:
         target.print(parity_table(reports))
+    for name, report in reports.items():
+        for line in report.left_out:
+            target.print(f"note  {name}: {line}", markup=False)
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)
