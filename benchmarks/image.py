@@ -34,8 +34,9 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.io import load_scene
 from pat3d.scene.model import GROUND, Scene, SceneObject
 from pat3d.view.camera import frame
-from pat3d.view.geometry import Geometry
+from pat3d.view.preview import scene_items
 from pat3d.vision.camera import Pinhole, PlacedCamera
+from pat3d.vision.drawing import draw
 from pat3d.vision.caster import Caster, Placement
 from pat3d.vision.observation import LEAST_PIXELS, Observation
 from pat3d.vision.recover import Recovered, recover
@@ -88,24 +89,6 @@ class Tally:
     """Errors [deg], a value for every view."""
     worst: list[dict[str, Any]] = field(default_factory=list)
     proven: list[bool] = field(default_factory=list)
-
-
-def draw(scene: Scene, camera: PlacedCamera) -> tuple[np.ndarray, np.ndarray]:
-    """Depth [m] of every pixel, NaN for the sky, and 1 + index of the object, 0 for none; shape (height, width)."""
-    pinhole = camera.pinhole
-    rows, columns = np.mgrid[: pinhole.height, : pinhole.width]
-    rays, reach = camera.rays(columns.ravel() + 0.5, rows.ravel() + 0.5)
-    geometry = Geometry([(obj.asset.visual, obj.pose) for obj in scene.objects])
-    origins = np.tile((camera.position - geometry.origin).astype(np.float32), (len(rays), 1))
-    directions = rays.astype(np.float32)
-    item = geometry.first_items(origins, directions)
-    _, far = geometry.first_faces(origins, directions)
-    ground = np.where(rays[:, 2] < -1e-6, -camera.position[2] / np.minimum(rays[:, 2], -1e-6), np.inf)
-    ranges = np.where(item >= 0, far, ground)
-    item = np.where((item >= 0) & (far <= ground), item, -1)
-    depth = np.where(ranges < 50.0, ranges / reach, np.nan)
-    shape = (pinhole.height, pinhole.width)
-    return depth.reshape(shape).astype(np.float32), (item + 1).reshape(shape).astype(np.int32)
 
 
 def random_camera(scene: Scene, rng: np.random.Generator) -> PlacedCamera:
@@ -163,7 +146,7 @@ def see(
     """
     for _ in range(200):
         camera = random_camera(scene, rng)
-        depth, instances = draw(scene, camera)
+        depth, instances = draw(scene_items(scene), camera)
         counts = np.bincount(instances.ravel(), minlength=len(scene.objects) + 1)[1:]
         if counts.min() < LEAST_SEEN:
             continue

@@ -9,10 +9,10 @@ import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 
 from pat3d.assets import sources
+from pat3d.assets.variant import Variant
 from pat3d.errors import AssetError, PromptError, SpecError
 from pat3d.generation.from_image import request_of_recovered
 from pat3d.generation.pipeline import Outcome, make
@@ -135,12 +135,12 @@ def _assets(labels: Labels, seed: int, progress: Progress) -> Mapping[str, Asset
 
 
 def _asset(label: Label, seed: int) -> Asset:
-    make_one = partial(sources.make, colours=label.colours, material=label.material)
+    variant = Variant(seed=derived_seed(seed, label.name), colours=label.colours, material=label.material)
     noun, words = label.noun, label.noun.split()
     # "A chipped blue mug" is a mug: of words that nobody knows, the last ones tell what it is.
     for first in range(len(words)):
         try:
-            return make_one(noun, seed=derived_seed(seed, label.name))
+            return sources.make(noun, variant)
         except PromptError as error:
             if first == len(words) - 1:
                 raise PromptError(f'nothing is known for "{label.name}": {error}') from error

@@ -62,6 +62,8 @@ UPRIGHT = math.cos(math.radians(5.0))
 """What leans by less stands."""
 TURNS = 160
 """Orientations that are tried then."""
+STOOD_LOSS = 0.1
+"""Cost that knowing the height of its support may add to a fit."""
 TILT_GAIN = 0.8
 """Cost of a tilted candidate over that of the best upright one, from which on it is believed."""
 
@@ -102,6 +104,8 @@ class Window:
         relative = max(seen.noise, LEAST_SIGMA)
         self.expected = 0.5 * (seen.noise / relative) ** 2
         """Cost of the true candidate, from the noise alone."""
+        self.shift_free = False
+        """Whether the depth of the object may be off by a common shift."""
         self.perfect = self.expected + 0.01 if self.expected < 0.05 else 0.0
         """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
         self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
@@ -125,8 +129,10 @@ class Window:
         """Mean cost of what is drawn: ranges [m] of the window's pixels, infinite where there is nothing."""
         hit = np.isfinite(drawn)
         inside = self.own & hit
-        error = np.where(inside, drawn, 0.0) - np.where(inside, self.range, 0.0)
-        total = float(np.nansum(np.minimum(0.5 * (error[inside] / (blur * self.sigma[inside])) ** 2, CAP)))
+        error = drawn[inside] - self.range[inside]
+        if self.shift_free and np.isfinite(error).any():
+            error -= np.nanmedian(error)
+        total = float(np.nansum(np.minimum(0.5 * (error / (blur * self.sigma[inside])) ** 2, CAP)))
         total += CAP * float(np.count_nonzero(self.own & ~hit))
         outside = ~self.own & hit
         total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
@@ -231,6 +237,10 @@ def stood(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, fo
         base=base,
     )
     best = _settled(fine, caster, _refined(fine, caster, guess))
+    if best[1] > found.cost + fine.expected + STOOD_LOSS:
+        # Models see small things before a far background too far away; what stands somewhere is there all the same.
+        fine.shift_free = True
+        best = _settled(fine, caster, _refined(fine, caster, guess))
     return _fit(fine, caster, *best, tilted=found.tilted)
 
 

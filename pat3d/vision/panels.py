@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import colorsys
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.geometry.pose import Pose
-from pat3d.scene.asset import VisualMesh
 from pat3d.scene.model import Scene
-from pat3d.view.geometry import Geometry
 from pat3d.view.preview import scene_items
 from pat3d.view.render import render
-from pat3d.vision.camera import DrawnCamera, PlacedCamera
+from pat3d.vision.camera import DrawnCamera
+from pat3d.vision.drawing import draw
 from pat3d.vision.observation import Observation
 from pat3d.vision.recover import Recovered
 
@@ -27,7 +25,7 @@ def panels(seen: Observation, found: Recovered, scene: Scene) -> list[tuple[str,
     size = {"width": camera.pinhole.width, "height": camera.pinhole.height}
     fitted = [(found.sized(name).visual, Pose.from_matrix(one.placed.rotation, one.placed.position))
               for name, one in found.fits.items()]  # fmt: skip
-    drawn = masks_of(fitted, camera)
+    _, drawn = draw(fitted, camera)
     rested = render(scene_items(scene), camera=DrawnCamera(camera), **size)
     return [
         ("picture", _grey(seen) if seen.picture is None else seen.picture),
@@ -36,16 +34,6 @@ def panels(seen: Observation, found: Recovered, scene: Scene) -> list[tuple[str,
         ("fitted objects", overlaid(seen, drawn)),
         ("at rest, from the picture's camera", rested),
     ]
-
-
-def masks_of(items: Sequence[tuple[VisualMesh, Pose]], camera: PlacedCamera) -> NDArray[np.int32]:
-    """1 + index of the item that `camera` sees in every pixel, 0 for none, shape (height, width)."""
-    pinhole = camera.pinhole
-    rows, columns = np.mgrid[: pinhole.height, : pinhole.width]
-    rays, _ = camera.rays(columns.ravel() + 0.5, rows.ravel() + 0.5)
-    geometry = Geometry(items)
-    origins = np.tile((camera.position - geometry.origin).astype(np.float32), (len(rays), 1))
-    return (geometry.first_items(origins, rays.astype(np.float32)) + 1).reshape(rows.shape)
 
 
 def overlaid(seen: Observation, instances: NDArray[np.int32]) -> Picture:

@@ -15,14 +15,12 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
 from pat3d.vision.camera import PlacedCamera
 from pat3d.vision.caster import Caster, Placement
-from pat3d.vision.fitting import Fit, fit, stood
+from pat3d.vision.fitting import STOOD_LOSS, Fit, fit, stood
 from pat3d.vision.gravity import Plane, ground_plane, level_camera, surface_plane
 from pat3d.vision.observation import Observation
 from pat3d.vision.placing import from_the_ground
 from pat3d.vision.supports import carried_at, supports
 
-STOOD_LOSS = 0.1
-"""Cost that knowing the height of its support may add to a fit; beyond it, what was thought to carry it does not."""
 POOR = 1.0
 """Cost of a fit from which on a note says so."""
 LEAST_SURFACE = 0.5
@@ -103,6 +101,7 @@ def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progres
         base = 0.0 if relation is None else carried_at(bodies[name], bodies[relation.parent], slack)
         progress(Event(stage="standing on what carries it", detail=name))
         lower = stood(seen, camera, name, casters[name], fits[name], base)
+        # Otherwise it stands on something else, which is hidden, or the asset is not what is seen.
         if lower.cost < fits[name].cost + STOOD_LOSS:
             fits[name] = lower
             bodies[name] = _body(name, assets[name], lower.placed)
