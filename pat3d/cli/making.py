@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
-from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
+from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, labeller_of, planner_of
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS, VIEWS
 from pat3d.generation.settings import DEVICES, Settings
@@ -42,7 +42,7 @@ PHOTOGRAPH = tuple(
         "image": "the photograph, PNG or JPEG; PROMPT is then only what the scene is called",
         "depth": ".npy in metres, or 16-bit PNG in millimetres",
         "masks": "PNG or .npy whose pixels tell the object, or .npy of one mask an object",
-        "labels": 'JSON or YAML: {"objects": [{"name": "red mug", "noun": "mug"}, ...]}, in the masks\' order',
+        "labels": 'JSON or YAML: {"objects": [{"name": "red mug", "noun": "mug"}, ...]}, in order; else a model tells',
         "camera": 'JSON or YAML: {"angle": 60}, degrees across, or width, height, fx, fy, cx, cy',
     }.items()
 )
@@ -112,10 +112,10 @@ def generate(options: argparse.Namespace) -> int:
 def _generate_from_image(options: argparse.Namespace) -> int:
     from pat3d.generation.pictured import Photograph, generate_from_image
 
-    missing = [f"--{name}" for name in ("image", "depth", "masks", "labels", "out") if getattr(options, name) is None]
+    missing = [f"--{name}" for name in ("image", "depth", "masks", "out") if getattr(options, name) is None]
     if missing:
         raise SpecError(
-            f"{', '.join(missing)} missing: a photograph needs --image, --depth, --masks, --labels and --out. "
+            f"{', '.join(missing)} missing: a photograph needs --image, --depth, --masks and --out. "
             "Depth and masks come from a depth camera, or from models such as Depth Pro and SAM 2."
         )
     if options.prompts is not None or options.critic:
@@ -127,6 +127,7 @@ def _generate_from_image(options: argparse.Namespace) -> int:
             out=options.out,
             prompt=options.prompt or "",
             settings=Settings(**values(Settings, options)),
+            labeller=labeller_of(options),
             progress=progress,
         )
     return _finished(outcome, options)

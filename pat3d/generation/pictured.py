@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from pat3d.assets import sources
@@ -24,6 +24,8 @@ from pat3d.scene.folder import check_target
 from pat3d.vision.files import (
     Label,
     Labels,
+    instances_of,
+    like,
     observed,
     read_camera,
     read_depth,
@@ -32,6 +34,7 @@ from pat3d.vision.files import (
     read_picture,
     usual_camera,
 )
+from pat3d.vision.labelling import Labeller
 from pat3d.vision.observation import Observation
 from pat3d.vision.recover import recover
 
@@ -49,8 +52,8 @@ class Photograph:
     """.npy in metres, or 16-bit PNG in millimetres."""
     masks: Path
     """PNG or .npy with the labels' values, or .npy of one mask an object."""
-    labels: Path
-    """JSON or YAML, see `pat3d.vision.files.LABELS_SCHEMA`."""
+    labels: Path | None = None
+    """JSON or YAML, see `pat3d.vision.files.LABELS_SCHEMA`; None where a model is to say what the masks show."""
     camera: Path | None = None
     """JSON or YAML, see `pat3d.vision.files.CAMERA_SCHEMA`; None for what the photograph's own notes say."""
 
@@ -61,6 +64,7 @@ def generate_from_image(
     out: str | os.PathLike[str],
     prompt: str = "",
     settings: Settings | None = None,
+    labeller: Labeller | None = None,
     progress: Progress = silent,
 ) -> Outcome:
     """Make the scene that a photograph shows, verify it and write its folder.
@@ -70,10 +74,12 @@ def generate_from_image(
         out: folder to write; an earlier scene folder there is replaced once the new one is complete.
         prompt: what the scene is called.
         settings: how to make it.
+        labeller: says what the masks show, where no file does.
         progress: told what is going on.
 
     Raises:
-        SpecError: a file cannot be used.
+        SpecError: a file cannot be used, or nothing says what the masks show.
+        ModelError: the labeller gives no valid answer.
         PromptError: no asset is known for a label.
         LayoutError: the picture does not tell what is level, or an object finds no room.
         SimulationError: the layout cannot be simulated.
@@ -85,7 +91,7 @@ def generate_from_image(
     watched = budget.watching(progress)
     with clock("picture"):
         watched(Event(stage="reading the picture"))
-        seen, labels, notes = _read(photograph)
+        seen, labels, notes = _read(photograph, labeller, watched)
     with clock("assets"):
         assets = _assets(labels, own.seed, watched)
     with clock("fitting"):
@@ -98,7 +104,11 @@ def generate_from_image(
         found,
         prompt=prompt,
         phrases={one.name: one.name for one in labels.objects},
-        record={"picture": {name: {"file": path.name, "sha256": _hash(path)} for name, path in files.items()}},
+        record={
+            "labels": [asdict(one) for one in labels.objects],
+            **({"labelled_by": dict(labeller.record())} if labeller is not None and photograph.labels is None else {}),
+            "picture": {name: {"file": path.name, "sha256": _hash(path)} for name, path in files.items()},
+        },
     )
     outcome = make(request, folder=folder, settings=own, clock=clock, progress=watched)
     watched(Event(stage="drawing what the picture became"))
@@ -109,11 +119,19 @@ def generate_from_image(
     return outcome
 
 
-def _read(photograph: Photograph) -> tuple[Observation, Labels, list[str]]:
-    labels = read_labels(photograph.labels)
+def _read(
+    photograph: Photograph, labeller: Labeller | None, progress: Progress
+) -> tuple[Observation, Labels, list[str]]:
     picture, angle = read_picture(photograph.picture)
-    depth = read_depth(photograph.depth)
-    instances = read_masks(photograph.masks, labels)
+    depth, values = read_depth(photograph.depth), read_masks(photograph.masks)
+    if photograph.labels is not None:
+        labels = read_labels(photograph.labels)
+    elif labeller is not None:
+        progress(Event(stage="asking what the masks show"))
+        labels = labeller.labels(like(picture, values), values)
+    else:
+        raise SpecError("nothing says what the masks show: give labels, or a model that looks at them.")
+    instances = instances_of(values, labels)
     height, width = depth.shape
     notes: list[str] = []
     if photograph.camera is not None:

@@ -216,14 +216,14 @@ def read_depth(path: Path) -> NDArray[np.float32]:
     return depth
 
 
-def read_masks(path: Path, labels: Labels) -> NDArray[np.int32]:
-    """1 + index of the object of every pixel, 0 for none, shape (height, width).
+def read_masks(path: Path) -> NDArray[np.int32]:
+    """The value of every pixel, 0 for no object, shape (height, width).
 
-    The file is a PNG or .npy whose pixels have the labels' values, or an .npy of one mask an object, shape (objects,
-    height, width), of which later ones lie over earlier ones.
+    The file is a PNG or .npy of such values, or an .npy of one mask an object, shape (objects, height, width), whose
+    values are then 1, 2, ..., and of which later ones lie over earlier ones.
 
     Raises:
-        SpecError: it cannot be read, or an object has no pixel.
+        SpecError: it cannot be read, or holds something else.
     """
     if path.suffix.lower() == ".npy":
         found = np.asarray(_array(path))
@@ -234,21 +234,29 @@ def read_masks(path: Path, labels: Labels) -> NDArray[np.int32]:
         if image.mode not in ("L", "P", "1") and not image.mode.startswith("I"):
             raise SpecError(f'{path}: masks as a PNG have one number a pixel; this one is "{image.mode}".')
         found = _pixels(path, image)
-    if found.ndim == 3:
-        if len(found) != len(labels.objects):
-            raise SpecError(f"{path}: {len(found)} masks for {len(labels.objects)} objects.")
-        masks = [layer != 0 for layer in found]
-    else:
-        masks = [found == one.value for one in labels.objects]
-    instances = np.zeros(found.shape[-2:], dtype=np.int32)
-    for number, mask in enumerate(masks, start=1):
-        instances[mask] = number
+    if found.ndim == 2:
+        return found.astype(np.int32)
+    if len(found) > MAX_OBJECTS:
+        raise SpecError(f"{path}: {len(found)} masks; at most {MAX_OBJECTS} are read.")
+    values = np.zeros(found.shape[1:], dtype=np.int32)
+    for number, layer in enumerate(found, start=1):
+        values[layer != 0] = number
+    return values
+
+
+def instances_of(values: NDArray[np.int32], labels: Labels) -> NDArray[np.int32]:
+    """1 + index of the label of every pixel, 0 for none, shape (height, width).
+
+    Raises:
+        SpecError: an object has no pixel.
+    """
+    instances = np.zeros(values.shape, dtype=np.int32)
     for number, one in enumerate(labels.objects, start=1):
-        if not np.any(instances == number):
-            raise SpecError(
-                f'{path}: no pixel shows "{one.name}" (value {one.value}). Values: '
-                f"{', '.join(map(str, np.unique(found)[:20])) if found.ndim == 2 else 'masks in order'}."
-            )
+        mask = values == one.value
+        if not mask.any():
+            there = ", ".join(map(str, np.unique(values)[:20]))
+            raise SpecError(f'no pixel of the masks shows "{one.name}" (value {one.value}). Values: {there}.')
+        instances[mask] = number
     return instances
 
 
@@ -273,10 +281,7 @@ def observed(
 
     def thinned(array: NDArray[Any]) -> NDArray[Any]:
         """The pixels of `array` in the middles of the pixels that are kept."""
-        high, wide = array.shape[:2]
-        row = np.minimum(((rows + 0.5) * high / height).astype(int), high - 1)
-        column = np.minimum(((columns + 0.5) * wide / width).astype(int), wide - 1)
-        return np.ascontiguousarray(array[row][:, column])
+        return np.ascontiguousarray(like(array, depth)[rows][:, columns])
 
     own = camera.resized(width, height)
     # Pixel k of the thinned picture has its middle at (thin k + thin // 2 + 0.5) of the whole one.
@@ -297,6 +302,19 @@ def observed(
         names=tuple(one.name for one in labels.objects),
         picture=thinned(picture),
     )
+
+
+def like(array: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
+    """`array` with as many rows and columns as `other` has: the nearest pixels.
+
+    Raises:
+        SpecError: their proportions differ.
+    """
+    (high, wide), (height, width) = array.shape[:2], other.shape[:2]
+    _require_same_shape("a picture", (wide, high), (width, height))
+    row = np.minimum(((np.arange(height) + 0.5) * high / height).astype(int), high - 1)
+    column = np.minimum(((np.arange(width) + 0.5) * wide / width).astype(int), wide - 1)
+    return array if array.shape[:2] == other.shape[:2] else array[row][:, column]
 
 
 def usual_camera(width: int, height: int, angle: float | None) -> tuple[Pinhole, str]:
@@ -358,9 +376,7 @@ def _check_size(path: Path) -> None:
 def _require_same_shape(what: object, size: tuple[int, int], other: tuple[int, int]) -> None:
     """Raise SpecError unless two sizes, width first, have the same proportions."""
     if abs(size[0] * other[1] / (size[1] * other[0]) - 1.0) > 0.02:
-        raise SpecError(
-            f"{what}: {size[0]} x {size[1]} pixels do not have the proportions of the depth, {other[0]} x {other[1]}."
-        )
+        raise SpecError(f"{what}: {size[0]} x {size[1]} pixels have other proportions than {other[0]} x {other[1]}.")
 
 
 def _said(array: NDArray[Any]) -> str:

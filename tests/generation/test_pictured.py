@@ -71,9 +71,9 @@ def test_a_photograph_becomes_a_verified_scene_and_the_same_one_again(photograph
 
 
 def test_what_a_photograph_needs_is_said(photographed, tmp_path, capsys):
-    del photographed["--depth"], photographed["--labels"]
+    del photographed["--depth"], photographed["--masks"]
     assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
-    assert "--depth, --labels missing" in capsys.readouterr().err
+    assert "--depth, --masks missing" in capsys.readouterr().err
 
 
 def test_a_label_that_nothing_is_known_for_is_said_and_nothing_written(photographed, tmp_path, capsys):

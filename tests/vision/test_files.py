@@ -76,16 +76,15 @@ def test_masks_of_pictures_and_arrays_agree(tmp_path):
     values = np.array([[0, 1, 1], [7, 7, 3]], dtype=np.uint8)
     Image.fromarray(values).save(tmp_path / "masks.png")
     np.save(tmp_path / "masks.npy", values)
-    np.save(tmp_path / "layers.npy", np.stack([values == 1, values == 7]))
+    np.save(tmp_path / "layers.npy", np.stack([values == 1, *(values == 99 for _ in range(5)), values == 7]))
     known = labels(tmp_path)
     for name in ("masks.png", "masks.npy", "layers.npy"):
-        assert files.read_masks(tmp_path / name, known).tolist() == [[0, 1, 1], [2, 2, 0]]
+        assert files.instances_of(files.read_masks(tmp_path / name), known).tolist() == [[0, 1, 1], [2, 2, 0]]
 
 
 def test_an_object_without_pixels_is_named(tmp_path):
-    np.save(tmp_path / "masks.npy", np.ones((4, 4), dtype=np.uint8))
-    with pytest.raises(SpecError, match=r'no pixel shows "plate" \(value 7\). Values: 1'):
-        files.read_masks(tmp_path / "masks.npy", labels(tmp_path))
+    with pytest.raises(SpecError, match=r'no pixel of the masks shows "plate" \(value 7\). Values: 1'):
+        files.instances_of(np.ones((4, 4), dtype=np.int32), labels(tmp_path))
 
 
 def test_depth_of_nothing_is_refused(tmp_path):
