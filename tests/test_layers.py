@@ -14,6 +14,7 @@ FLOORS = (
     ("layout",),
     ("exporters",),
     ("check",),
+    ("importers",),
     ("optimize",),
     ("generation",),
     ("envs",),

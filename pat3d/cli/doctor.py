@@ -14,7 +14,7 @@ from typing import Literal
 
 from pat3d.cli.console import console, watch
 from pat3d.cli.extras import DEVELOPMENT, ENABLES, requirements
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command
 from pat3d.errors import ModelError
 from pat3d.progress import Event, Progress

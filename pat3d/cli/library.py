@@ -10,7 +10,7 @@ from pat3d.assets.library.store import Entry
 from pat3d.cli.console import console, watch
 from pat3d.cli.documents import library_facts, library_object_facts
 from pat3d.cli.gallery import write_gallery
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option, with_verbs
 from pat3d.errors import AssetError, SpecError
 

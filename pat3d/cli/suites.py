@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import QUIET_SECONDS, console, verdict
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split

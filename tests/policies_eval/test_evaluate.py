@@ -201,16 +201,14 @@ def test_the_report_s_settings_come_first_and_without_brackets(done):
 
 
 def test_an_axis_says_where_on_a_bar_the_quarters_are():
-    """Labels, ticks, the rate and its interval are at the same places, whatever the width."""
-    for width in (320, 640):
-        rate = Rate(successes=1, episodes=2, low=0.25, high=0.75)
-        labels = [float(x) for x in re.findall(r'<text x="([\d.]+)"', axis(width))]
-        bar = interval_bar(rate, width)
-        assert labels == [float(x) for x in re.findall(r'x1="([\d.]+)"[^>]*y1="6"', bar)]
-        assert float(re.search(r'cx="([\d.]+)"', bar)[1]) == labels[2]
-        left, wide = map(float, re.search(r'<rect x="([\d.]+)" y="8" width="([\d.]+)"', bar).groups())
-        assert [left, left + wide] == pytest.approx([labels[1], labels[3]], abs=0.2)
-        assert 0.0 < labels[0] < labels[-1] < width
+    """Labels, ticks, the rate and its interval are shares of the same width."""
+    bar = interval_bar(Rate(successes=1, episodes=2, low=0.25, high=0.75))
+    labels = re.findall(r'left:([\d.]+)%"[^>]*>([\d.]+) %', axis())
+    assert [float(at) for at, _ in labels] == [float(told) for _, told in labels] == [0.0, 25.0, 50.0, 75.0, 100.0]
+    assert [float(at) for at in re.findall(r'class="tick" style="left:([\d.]+)%', bar)] == [0, 25, 50, 75, 100]
+    assert float(re.search(r'class="rate" style="left:([\d.]+)%', bar)[1]) == 50.0
+    left, wide = map(float, re.search(r'class="span" style="left:([\d.]+)%;width:([\d.]+)%', bar).groups())
+    assert (left, left + wide) == (25.0, 75.0)
 
 
 def test_the_report_is_one_page_without_links_to_anything(done):

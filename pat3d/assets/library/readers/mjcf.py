@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +41,46 @@ def read_mjcf(path: Path, root: Path) -> Body:
     mujoco.mj_comPos(model, data)
     top = _root(model, mujoco)
     bodies = [body for body in range(model.nbody) if _top(model, body) == top]
+    return body_of(
+        model,
+        data,
+        bodies,
+        (np.array(data.xmat[top]).reshape(3, 3), np.array(data.xpos[top])),
+        name=tree.get("model", ""),
+        weighed=any(word in text for word in ("mass=", "density=", "<inertial")),
+        rubs="friction=" in text,
+        files=(path, *_files(tree, path, root)),
+    )
+
+
+def body_of(
+    model: Any,
+    data: Any,
+    bodies: Sequence[int],
+    frame: tuple[Points, Points],
+    *,
+    name: str,
+    weighed: bool,
+    rubs: bool,
+    files: tuple[Path, ...],
+) -> Body:
+    """The shapes, the mass and the friction of some bodies of a compiled model, which move as one.
+
+    Args:
+        model: mujoco.MjModel.
+        data: mujoco.MjData, whose poses are those of the bodies.
+        bodies: their numbers.
+        frame: rotation and position [m] of the object in the world.
+        name: of the object.
+        weighed: whether its mass is said; MuJoCo takes everything for water otherwise.
+        rubs: whether its friction is said.
+        files: that it was read from.
+
+    Raises:
+        AssetError: a shape of a kind that is not read, or nothing to see.
+    """
+    import mujoco
+
     geoms = [
         geom
         for geom in range(model.ngeom)
@@ -48,7 +90,6 @@ def read_mjcf(path: Path, root: Path) -> Body:
     ghost = [geom for geom in geoms if geom not in solid]
     shown = ghost or [geom for geom in geoms if model.geom_group[geom] < _HIDDEN] or geoms
     notes: list[str] = []
-    frame = np.array(data.xmat[top]).reshape(3, 3), np.array(data.xpos[top])
     seen = [_piece(model, data, mujoco, geom, frame, notes) for geom in shown]
     touched = [_piece(model, data, mujoco, geom, frame, notes) for geom in solid]
     hulls: tuple[Points, ...] = ()
@@ -58,22 +99,18 @@ def read_mjcf(path: Path, root: Path) -> Body:
         notes += [note] if note else []
     mesh = merged(seen, notes)
     return Body(
-        name=tree.get("model", ""),
+        name=name,
         mesh=mesh,
         hulls=hulls,
+        touched=tuple(touched),
         metres=1.0,
         up="z",
         declared="MJCF",
-        inertial=_inertial(model, data, bodies, frame) if _weighed(text) else None,
-        friction=float(model.geom_friction[(solid or geoms)[0], 0]) if "friction=" in text else None,
-        files=(path, *_files(tree, path, root)),
+        inertial=_inertial(model, data, bodies, frame) if weighed else None,
+        friction=float(model.geom_friction[(solid or geoms)[0], 0]) if rubs else None,
+        files=files,
         notes=tuple(notes),
     )
-
-
-def _weighed(text: str) -> bool:
-    """Whether the file says what its body weighs; MuJoCo takes everything for water otherwise."""
-    return any(word in text for word in ("mass=", "density=", "<inertial"))
 
 
 def _root(model: Any, mujoco: Any) -> int:
@@ -120,6 +157,7 @@ def _piece(model: Any, data: Any, mujoco: Any, geom: int, frame: tuple[Points, P
     if material >= 0 and piece.patch.image is None:
         colour = _average(model, material, rgba)
         piece = Piece(vertices=piece.vertices, faces=piece.faces, patch=flat(len(piece.faces), colour))
+    piece = replace(piece, surface=_surface(model, material, rgba))
     rotation = np.array(data.geom_xmat[geom]).reshape(3, 3)
     position = np.array(data.geom_xpos[geom])
     return piece.placed(frame[0].T @ rotation, frame[0].T @ (position - frame[1]))
@@ -140,6 +178,17 @@ def _mesh(model: Any, mesh: int, material: int, rgba: Points, notes: list[str]) 
     uv = np.stack([uv[..., 0], 1.0 - uv[..., 1]], axis=-1)
     tint = np.clip(np.asarray(rgba[:3]), 0.0, 1.0)
     return Piece(vertices=vertices, faces=triangles, patch=Patch(uv=uv, image=np.round(image * tint).astype(np.uint8)))
+
+
+def _surface(model: Any, material: int, rgba: Points) -> dict[str, float]:
+    """What the file says of a surface beside its colour; MuJoCo's -1 means that it says nothing."""
+    said = {"opacity": float(rgba[3])} if rgba[3] < 1.0 else {}
+    if material >= 0:
+        for name in ("roughness", "metallic"):
+            value = float(getattr(model, f"mat_{name}")[material])
+            if value >= 0.0:
+                said[name] = min(value, 1.0)
+    return said
 
 
 def _image(model: Any, material: int) -> Any:
@@ -169,7 +218,7 @@ def _average(model: Any, material: int, rgba: Points) -> Points:
     return np.asarray(rgba[:3]) * _texels(model, textures[0]).reshape(-1, 3).mean(axis=0) / 255.0
 
 
-def _inertial(model: Any, data: Any, bodies: list[int], frame: tuple[Points, Points]) -> Inertial | None:
+def _inertial(model: Any, data: Any, bodies: Sequence[int], frame: tuple[Points, Points]) -> Inertial | None:
     parts = []
     for body in bodies:
         mass = float(model.body_mass[body])
