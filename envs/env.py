@@ -154,6 +154,10 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         """How far the episode is, and what the next move is about."""
         return Verdict(success=False) if self._judge is None else self._verdicts.of(0, self.scene)
 
+    def observe(self) -> Observation:
+        """What a policy sees of the present state."""
+        return self._observation()
+
     def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.judge(self.simulation.states)
         self._verdicts = self._judge.update(np.zeros(1))

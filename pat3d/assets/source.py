@@ -7,10 +7,11 @@ all that is needed to make its objects, and what a sentence means by "drill" is 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from pat3d.assets.variant import USUAL, Variant
 from pat3d.scene.asset import Asset
 
 CATALOGUE = "catalogue"
@@ -57,28 +58,11 @@ class AssetSource(Protocol):
         ...
 
     def digest(self, noun: str) -> str:
-        """A checksum of what the asset of `noun` is made from, other than the arguments of `make`."""
+        """A checksum of what the asset of `noun` is made from, beside its variant."""
         ...
 
-    def make(
-        self,
-        noun: str,
-        *,
-        seed: int = 0,
-        scale: float = 1.0,
-        colours: Iterable[str] = (),
-        material: str | None = None,
-        adjectives: Iterable[str] = (),
-    ) -> Asset:
+    def make(self, noun: str, variant: Variant = USUAL) -> Asset:
         """The asset of one of its nouns, as `Candidate.noun` names it.
-
-        Args:
-            noun: what to make.
-            seed: decides what the other arguments leave open.
-            scale: factor on its usual size.
-            colours: names, the main one first.
-            material: name; None for its own.
-            adjectives: words that the source may heed.
 
         Raises:
             PromptError: there is no such noun.

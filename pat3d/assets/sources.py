@@ -9,6 +9,7 @@ from pat3d.assets.generated.source import MeshServers
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.nouns.source import OwnNouns
 from pat3d.assets.source import CATALOGUE, AssetSource, Candidate, Known, candidates
+from pat3d.assets.variant import USUAL, Variant
 from pat3d.scene.asset import Asset
 from pat3d.scene.naming import APART
 
@@ -30,18 +31,9 @@ class Catalogue:
         """Nothing: recipes change with the version of the program."""
         return ""
 
-    def make(
-        self,
-        noun: str,
-        *,
-        seed: int = 0,
-        scale: float = 1.0,
-        colours: Iterable[str] = (),
-        material: str | None = None,
-        adjectives: Iterable[str] = (),
-    ) -> Asset:
+    def make(self, noun: str, variant: Variant = USUAL) -> Asset:
         """What the recipe of `noun` makes."""
-        return lookup.make(noun, seed=seed, scale=scale, colours=colours, material=material, adjectives=adjectives)
+        return lookup.make_variant(noun, variant)
 
 
 def source_of(noun: str) -> AssetSource:
@@ -68,22 +60,14 @@ def source_named(name: str) -> AssetSource:
     return OwnNouns(name) if name in OwnNouns.NAMES else LibrarySource(name)
 
 
-def make(
-    noun: str,
-    *,
-    seed: int = 0,
-    scale: float = 1.0,
-    colours: Iterable[str] = (),
-    material: str | None = None,
-    adjectives: Iterable[str] = (),
-) -> Asset:
-    """The asset of `noun`, whatever source it is of; the arguments as for `AssetSource.make`.
+def make(noun: str, variant: Variant = USUAL) -> Asset:
+    """The asset of `noun`, whatever source it is of.
 
     Raises:
         PromptError: there is no such noun.
         AssetError: it cannot be made so.
     """
-    return source_of(noun).make(noun, seed=seed, scale=scale, colours=colours, material=material, adjectives=adjectives)
+    return source_of(noun).make(noun, variant)
 
 
 def sources(libraries: Sequence[str] = ()) -> tuple[AssetSource, ...]:

@@ -14,6 +14,7 @@ from typing import Literal
 
 from pat3d.cli.console import console, watch
 from pat3d.cli.extras import DEVELOPMENT, ENABLES, requirements
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command
 from pat3d.errors import ModelError
 from pat3d.progress import Event, Progress
@@ -34,18 +35,21 @@ class Table:
         self.rows.add_column()
         self.rows.add_column(overflow="fold")
         self.faults = 0
+        self.parts: list[tuple[State, str, str]] = []
 
     def add(self, state: State, what: str, text: str) -> None:
         """Add a row; a fault makes the exit code 1."""
         self.faults += state == "FAULT"
+        self.parts.append((state, what, text))
         colour = {"ok": "green", "no": "yellow", "FAULT": "red"}[state]
         self.rows.add_row(f"[{colour}]{state}[/]", what, text.replace("[", r"\["))
 
 
 @command(
+    JSON,
     examples="""
     pat3d doctor
-    """
+    """,
 )
 def doctor(options: argparse.Namespace) -> int:
     """`pat3d doctor`: 1 where something that is needed is missing, or something that is installed does not work."""
@@ -63,7 +67,12 @@ def doctor(options: argparse.Namespace) -> int:
     from pat3d.scene.cache import cache_root
 
     table.add("ok", "mesh cache", _folder(cache_root()))
-    console().print(table.rows)
+    if options.json:
+        from pat3d.cli.documents import PartFacts
+
+        print_facts([PartFacts(state=state, part=what, found=text) for state, what, text in table.parts])
+    else:
+        console().print(table.rows)
     return 1 if table.faults else 0
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
 from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
 from pat3d.errors import SpecError

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, watch
-from pat3d.cli.machines import JSON
+from pat3d.cli.json_output import JSON
 from pat3d.cli.options import command, option
 from pat3d.scene.folder import write_json
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import re
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import QUIET_SECONDS, console, verdict
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
@@ -52,6 +53,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         default=LIMIT,
         metavar="SECONDS",
     ),
+    JSON,
     summary="make a suite, or what is missing of it",
     examples="""
     pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
@@ -72,6 +74,8 @@ def generate(options: argparse.Namespace) -> int:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
         )
+    if options.json:
+        return _document(Suite.open(options.folder))
     _summary(Suite.open(options.folder))
     if status.made:
         console().print(
@@ -86,6 +90,7 @@ def generate(options: argparse.Namespace) -> int:
     _FOLDER,
     option("--quick", "checksums and splits only", action="store_true"),
     _WORKERS,
+    JSON,
     summary="verify a suite again: files, splits, stillness in MuJoCo",
 )
 def check(options: argparse.Namespace) -> int:
@@ -97,13 +102,15 @@ def check(options: argparse.Namespace) -> int:
     suite = Suite.open(options.folder)
     with _counting("checking") as tell:
         lines = check_suite(suite, settle=not options.quick, workers=worker_count(options.workers), tell=tell)
+    if options.json:
+        return _document(suite, lines)
     how = "files and splits" if options.quick else "files, splits and stillness in MuJoCo"
     if not lines:
         console().print(f"pass  {len(suite.entries)} scenes: {how}", markup=False)
     return verdict(lines)
 
 
-@command(_FOLDER, summary="numbers in the terminal; pictures on the page index.html")
+@command(_FOLDER, JSON, summary="numbers in the terminal; pictures on the page index.html")
 def show(options: argparse.Namespace) -> int:
     """`pat3d suite show`."""
     from pat3d.envs.suites.folder import PAGE, write_text
@@ -111,8 +118,10 @@ def show(options: argparse.Namespace) -> int:
     from pat3d.envs.suites.suite import Suite
 
     suite = Suite.open(options.folder)
-    _summary(suite)
     write_text(suite.folder.path / PAGE, page(suite.folder.path.name, suite.document))
+    if options.json:
+        return _document(suite)
+    _summary(suite)
     console().print(f"\n  {suite.folder.path / PAGE}", markup=False, soft_wrap=True)
     return 0
 
@@ -127,6 +136,14 @@ suite = with_verbs(
     pat3d suite show suites/tabletop
     """,
 )
+
+
+def _document(suite: Any, failures: Sequence[str] = ()) -> int:
+    """Print the suite as JSON; returns the exit code."""
+    from pat3d.cli.documents import suite_facts
+
+    print_facts(suite_facts(suite, failures))
+    return verdict(failures)
 
 
 def _range(text: str) -> tuple[int, int]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
-from functools import partial
+from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -118,6 +117,7 @@ def foreign_assets(nouns: Iterable[str]) -> Mapping[str, str]:
 def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[UnplacedObject, ...]:
     """An asset for every planned object; equal objects of a set share one."""
     from pat3d.assets import catalogue, sources
+    from pat3d.assets.variant import Variant
     from pat3d.generation.sizing import enlarged_trays
 
     planned = {obj.name: obj for obj in plan.objects}
@@ -125,18 +125,17 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
 
     def make(name: str, factor: float = 1.0) -> Asset:
         obj = planned[name]
-        shape = partial(
-            sources.make,
-            obj.noun,
+        asked = Variant(
+            seed=derived_seed(seed, name),
+            scale=obj.scale,
             colours=obj.colours or colours.get(name, ()),
             material=obj.material,
             adjectives=obj.adjectives,
-            seed=derived_seed(seed, name),
         )
-        asked = obj.scale
         if obj.extent is not None:
-            asked *= obj.extent.factor(shape(scale=asked).size.tolist())
-        return shape(scale=asked * factor)
+            usual = sources.make(obj.noun, asked)
+            asked = replace(asked, scale=asked.scale * obj.extent.factor(usual.size.tolist()))
+        return sources.make(obj.noun, replace(asked, scale=asked.scale * factor))
 
     together = built_together([obj.name for obj in plan.objects], plan.relations)
     made: dict[tuple, Asset] = {}

@@ -231,7 +231,7 @@ def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) 
             raise source.error((*place, "name"), f'"{GROUND}" is the plane z = 0; choose another name.')
         seen[name] = number
         if sum(key in obj for key in SOURCES) != 1:
-            raise source.error(place, f'"{name}" needs one of a noun from the catalogue, a mesh file and a model file.')
+            raise source.error(place, f'"{name}" needs either a noun from the catalogue, a mesh file or a model file.')
         for pair in (("mass", "density"), ("size", "scale"), ("size", "units"), ("colour", "colours")):
             if all(key in obj for key in pair):
                 raise source.error((*place, pair[1]), f'"{name}": give {pair[0]} or {pair[1]}, not both.')
@@ -284,15 +284,12 @@ def _timeless(asset: Asset) -> Asset:
 def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
     """An asset of a noun with the size, mass and friction that `obj` asks for."""
     from pat3d.assets import sources
+    from pat3d.assets.variant import Variant
 
     def made(scale: float) -> Asset:
-        return sources.make(
-            obj["noun"],
-            colours=obj.get("colours", [obj["colour"]] if "colour" in obj else []),
-            material=obj.get("material"),
-            scale=scale,
-            seed=seed,
-        )
+        colours = tuple(obj.get("colours", [obj["colour"]] if "colour" in obj else []))
+        variant = Variant(seed=seed, scale=scale, colours=colours, material=obj.get("material"))
+        return sources.make(obj["noun"], variant)
 
     asset = made(float(obj.get("scale", 1.0)))
     if "size" in obj:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.assets.library.readers.sdf import Frame, body_of, pose_of
+from pat3d.assets.library.readers.links import Frame
+from pat3d.assets.library.readers.sdf import body_of, pose_of
 from pat3d.assets.library.readers.xml import address, numbers, read_root
 from pat3d.errors import AssetError
 from pat3d.geometry.pose import Pose

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from pat3d.assets.library.body import Body
-from pat3d.assets.library.readers.urdf import Frame, body_of, origin_of
+from pat3d.assets.library.readers.links import Frame
+from pat3d.assets.library.readers.urdf import body_of, origin_of
 from pat3d.assets.library.readers.xml import read_root
 from pat3d.errors import AssetError
 from pat3d.exporters.urdf.reader import read_manifest

@@ -15,6 +15,7 @@ from pat3d.assets.library.readers.mjcf import read_mjcf
 from pat3d.assets.library.readers.urdf import read_urdf
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.library.store import load_asset, save_asset, scaled
+from pat3d.assets.variant import Variant
 from pat3d.errors import AssetError, PromptError, SpecError
 from pat3d.plan.grammar.names import known_names
 from pat3d.plan.grammar.planner import GrammarPlanner
@@ -82,7 +83,7 @@ def test_the_cavity_of_an_indexed_bowl_is_where_things_go(home):
 def test_textures_survive_and_the_textured_file_is_taken(home):
     assert entry("cracker_box").path.endswith("textured.obj")
     assert entry("cracker_box").facts["others"] == ["003_cracker_box/google_16k/nontextured.stl"]
-    asset = LibrarySource("lab").make("lab/cracker_box", colours=("green",))
+    asset = LibrarySource("lab").make("lab/cracker_box", Variant(colours=("green",)))
     np.testing.assert_allclose(sorted(asset.size), sorted(SIDES), rtol=1e-6)
     seen = {tuple(colour) for colour in asset.visual.texture.reshape(-1, 3)}
     assert {(200, 30, 30), (30, 30, 200)} <= seen
@@ -300,7 +301,7 @@ def test_sources_answer_alike(home):
 def test_the_catalogue_makes_the_same_through_the_sources():
     from pat3d.assets import catalogue
 
-    one, other = catalogue.make("mug", seed=3, colours=("red",)), sources.make("mug", seed=3, colours=("red",))
+    one, other = catalogue.make("mug", seed=3, colours=("red",)), sources.make("mug", Variant(seed=3, colours=("red",)))
     np.testing.assert_array_equal(one.visual.vertices, other.visual.vertices)
     assert dict(one.provenance) == dict(other.provenance)
 

@@ -14,6 +14,7 @@ from pat3d.assets.generated.orders import Orders, orders_of
 from pat3d.assets.generated.settings import ServerSettings, server_settings
 from pat3d.assets.generated.sizes import usual_size
 from pat3d.assets.generated.source import MeshServers
+from pat3d.assets.variant import Variant
 from pat3d.errors import AssetError, PromptError
 from pat3d.generation.request import objects_of_plan
 from pat3d.plan.grammar.planner import GrammarPlanner
@@ -90,7 +91,7 @@ def ordered(server, words="teapot dinosaur") -> str:
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_mesh_has_its_size_from_words_and_stands_upright(source, kind):
     with serving(kind, glb(), busy=2) as server:
-        asset = source.make(ordered(server, "gramophone"), seed=7, colours=("red",), adjectives=("old",))
+        asset = source.make(ordered(server, "gramophone"), Variant(seed=7, colours=("red",), adjectives=("old",)))
     # 0.6 m by the table of usual sizes along the file's y axis, whatever the file's 2 units are.
     assert asset.size.tolist() == pytest.approx([0.3, 0.3, 0.6], abs=2e-4)
     assert asset.bounds[0][2] == 0.0
@@ -115,20 +116,20 @@ def test_a_mesh_has_its_size_from_words_and_stands_upright(source, kind):
 def test_the_same_wish_is_asked_once(source, tmp_path):
     with serving("sglang", glb()) as server:
         noun = ordered(server)
-        first = source.make(noun, seed=1)
-        assert np.array_equal(source.make(noun, seed=1).visual.vertices, first.visual.vertices)
+        first = source.make(noun, Variant(seed=1))
+        assert np.array_equal(source.make(noun, Variant(seed=1)).visual.vertices, first.visual.vertices)
         # A larger one is the same mesh.
-        assert source.make(noun, seed=1, scale=2.0).size.tolist() == pytest.approx((2 * first.size).tolist())
+        assert source.make(noun, Variant(seed=1, scale=2.0)).size.tolist() == pytest.approx((2 * first.size).tolist())
         assert server.count("POST /v1/meshes") == 1
-        source.make(noun, seed=2)
-        source.make(noun, seed=1, adjectives=("old",))
+        source.make(noun, Variant(seed=2))
+        source.make(noun, Variant(seed=1, adjectives=("old",)))
         assert server.count("POST /v1/meshes") == 3
         for path in (tmp_path / "cache").glob("meshes/*/mesh.glb"):
             path.write_bytes(path.read_bytes()[:-4])
-        source.make(noun, seed=1)
+        source.make(noun, Variant(seed=1))
         assert server.count("POST /v1/meshes") == 4
     # What is kept needs no server.
-    source.make(noun, seed=1)
+    source.make(noun, Variant(seed=1))
 
 
 def test_a_sentence_becomes_a_plan_whose_nouns_say_all(source, monkeypatch):
@@ -329,11 +330,11 @@ def test_the_key_goes_to_the_server_and_nowhere_else(source, monkeypatch, tmp_pa
         # A redirect would carry it along.
         server.faults = {"POST": [Reply(status=307, headers={"Location": f"{other.url}/v1/meshes"})]}
         with pytest.raises(AssetError, match="status 307"):
-            source.make(ordered(server), seed=5)
+            source.make(ordered(server), Variant(seed=5))
         assert other.requests == []
         server.faults = {"POST": [said({"detail": "bad key sesame"}, 401)]}
         with pytest.raises(AssetError, match=r"bad key \*\*\*"):
-            source.make(ordered(server), seed=6)
+            source.make(ordered(server), Variant(seed=6))
     assert "sesame" not in json.dumps(asset.provenance)
     assert "sesame" not in repr(server_settings(server.url))
     kept = [path for path in tmp_path.rglob("*") if path.is_file()]

@@ -15,6 +15,7 @@ from pat3d.assets.nouns.language import SCHEMA, STEPS, VERBS
 from pat3d.assets.nouns.program import WITHIN, read_noun
 from pat3d.assets.nouns.source import OwnNouns, keep
 from pat3d.assets.nouns.verbs import MADE
+from pat3d.assets.variant import Variant
 from pat3d.cli.main import main
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.grammar.names import known_names
@@ -50,7 +51,7 @@ def written(tmp_path: Path, text: str = CANDLE) -> Path:
 def shape_of(tmp_path: Path, shape: str, seed: int = 0):
     """The asset of one shape, in YAML."""
     program = read_noun(written(tmp_path, f"noun: thing\nparts:\n  - colour: 0\n    shape: {shape}\n"))
-    return make_entry(program.entry, "thing", seed=seed)
+    return make_entry(program.entry, "thing", Variant(seed=seed))
 
 
 @pytest.mark.parametrize("path", NOUNS, ids=lambda path: path.stem)
@@ -61,7 +62,7 @@ def test_a_noun_in_yaml_has_the_hulls_of_its_python_recipe(path):
     assert entry is not None
     assert (program.entry.family, program.entry.material) == (entry.family, entry.material)
     for seed in (0, 7):
-        one, other = (make_entry(each, entry.noun, seed=seed) for each in (entry, program.entry))
+        one, other = (make_entry(each, entry.noun, Variant(seed=seed)) for each in (entry, program.entry))
         assert len(one.parts) == len(other.parts)
         for first, second in zip(one.parts, other.parts, strict=True):
             np.testing.assert_allclose(second.vertices, first.vertices, atol=1e-9)
@@ -85,16 +86,16 @@ def test_the_schema_is_a_schema_and_every_verb_is_made():
 
 def test_parameters_vary_and_follow_adjectives(tmp_path):
     entry = read_noun(written(tmp_path)).entry
-    heights = {round(float(make_entry(entry, entry.noun, seed=seed).size[2]), 6) for seed in range(5)}
+    heights = {round(float(make_entry(entry, entry.noun, Variant(seed=seed)).size[2]), 6) for seed in range(5)}
     assert len(heights) == 5
-    plain, tall = (make_entry(entry, entry.noun, adjectives=words) for words in ((), ("tall",)))
+    plain, tall = (make_entry(entry, entry.noun, Variant(adjectives=words)) for words in ((), ("tall",)))
     assert tall.size[2] > 1.25 * plain.size[2]
     assert tall.size[0] == plain.size[0]
 
 
 def test_places_colours_and_mass_are_as_written(tmp_path):
     text = CANDLE + "mass: {h: 2}\n"
-    made = make_entry(read_noun(written(tmp_path, text)).entry, "x", colours=("blue",), seed=1)
+    made = make_entry(read_noun(written(tmp_path, text)).entry, "x", Variant(colours=("blue",), seed=1))
     region = made.region("on")
     assert region is not None
     assert region.floor[2] == pytest.approx(float(made.size[2]), abs=1e-9)
@@ -214,7 +215,7 @@ def test_sentences_may_say_what_was_added(tmp_path, monkeypatch, capsys):
     assert "own/prayer_candle" in capsys.readouterr().out
     plan = GrammarPlanner(vocabulary=known_names()).plan("two tall red prayer candles and a votive on a table")
     assert [obj.noun for obj in plan.objects if obj.noun != "table"] == ["own/prayer_candle"] * 3
-    asset = sources.make("own/prayer_candle", colours=("red",), adjectives=("tall",), seed=4)
+    asset = sources.make("own/prayer_candle", Variant(colours=("red",), adjectives=("tall",), seed=4))
     assert asset.provenance["source"] == "own"
     assert asset.provenance["sha256"] == OwnNouns("own").digest("own/prayer_candle")
     assert main(["catalogue", "remove", "prayer candle"]) == 0

@@ -11,6 +11,7 @@ from pat3d.assets.catalogue.registry import ENTRIES, NAMES, Entry, Style
 from pat3d.assets.colours import COLOURS, find_colour
 from pat3d.assets.materials import NATURAL_COLOURS
 from pat3d.assets.materials import material as find_material_entry
+from pat3d.assets.variant import USUAL, Variant
 from pat3d.errors import AssetError, PromptError
 from pat3d.scene.asset import Asset
 
@@ -60,59 +61,57 @@ def make(
     Raises:
         PromptError: `noun` is not in the catalogue.
     """
+    words = {"colours": tuple(colours), "adjectives": tuple(adjectives)}
+    return make_variant(noun, Variant(seed=seed, scale=scale, material=material, **words))
+
+
+def make_variant(noun: str, variant: Variant) -> Asset:
+    """Make the asset of catalogue noun (or synonym) `noun` that `variant` says.
+
+    Raises:
+        PromptError: `noun` is not in the catalogue.
+    """
     found = find(noun)
     if found is None:
         near = ", ".join(f'"{name}"' for name in nearest(noun)) or "see `pat3d catalogue`"
         raise PromptError(f'"{noun}" is not in the catalogue. Nearest: {near}.')
-    return make_entry(found, noun, colours=colours, material=material, scale=scale, adjectives=adjectives, seed=seed)
+    return make_entry(found, noun, variant)
 
 
-def make_entry(
-    found: Entry,
-    noun: str,
-    *,
-    colours: Iterable[str] = (),
-    material: str | None = None,
-    scale: float = 1.0,
-    adjectives: Iterable[str] = (),
-    seed: int = 0,
-) -> Asset:
-    """Make an asset of an entry that need not be registered, which was called `noun`; the rest as for `make`.
+def make_entry(found: Entry, noun: str, variant: Variant = USUAL) -> Asset:
+    """Make an asset of an entry that need not be registered, which was called `noun`.
 
     Raises:
-        AssetError: the recipe's solids do not join, or an argument is out of range.
+        AssetError: the recipe's solids do not join, or a colour or the material is not known.
     """
     from pat3d.assets.catalogue.assemble import assemble
 
-    colours = tuple(colours)
-    if not (np.isfinite(scale) and 0.01 <= scale <= 100.0):
-        raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
-    rng = np.random.default_rng([seed, *noun.encode()])
+    rng = np.random.default_rng([variant.seed, *noun.encode()])
     default = found.colours[int(rng.integers(len(found.colours)))]
-    natural = NATURAL_COLOURS.get(material or "", (default,))
+    natural = NATURAL_COLOURS.get(variant.material or "", (default,))
     default = default if default in natural else natural[0]
-    asked = [find_colour(name) for name in colours]
+    asked = [find_colour(name) for name in variant.colours]
     if None in asked:
-        raise AssetError(f"unknown colour among {list(colours)}. Known: {', '.join(COLOURS)}.")
+        raise AssetError(f"unknown colour among {list(variant.colours)}. Known: {', '.join(COLOURS)}.")
     main = [COLOURS[name] for name in asked if name] or [COLOURS[default]]
     accents = [COLOURS[name] for name in found.accents]
-    chosen = find_material_entry(material or found.material)
+    chosen = find_material_entry(variant.material or found.material)
     style = Style(
         rng=rng,
         colours=(*main, *accents[max(0, len(main) - 1) :]),
         material=chosen.name,
-        adjectives=frozenset(adjectives),
+        adjectives=frozenset(variant.adjectives),
     )
     build = found.recipe(style)
     provenance = {
         "source": "catalogue",
         "noun": found.noun,
-        "seed": seed,
-        "scale": scale,
+        "seed": variant.seed,
+        "scale": variant.scale,
         "colours": list(asked) or [default],
         "material": chosen.name,
     }
-    return assemble(found.noun, build, material=chosen, scale=scale, provenance=provenance)
+    return assemble(found.noun, build, material=chosen, scale=variant.scale, provenance=provenance)
 
 
 def _load_families() -> None:

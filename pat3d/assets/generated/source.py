@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
@@ -19,11 +19,12 @@ from pat3d.assets.generated.orders import SOURCE, Order, kept_order, kept_orders
 from pat3d.assets.generated.servers import VERSION, fetch, forget
 from pat3d.assets.generated.settings import ServerSettings, server_settings
 from pat3d.assets.library.resting import resting_poses, standing
-from pat3d.assets.library.store import scaled
+from pat3d.assets.library.store import is_plain, painted, scaled
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.importing import TO_Z_UP, Placing, asset_of
 from pat3d.assets.mesh.load import load_mesh
 from pat3d.assets.source import Candidate, Known, candidates
+from pat3d.assets.variant import USUAL, Variant
 from pat3d.errors import AssetError, PromptError
 from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset
@@ -70,35 +71,26 @@ class MeshServers:
         shown = {} if picture is None else {"picture": np.frombuffer(picture.data, dtype=np.uint8)}
         return content_key(shown, {"order": vars(order), "version": VERSION})
 
-    def make(
-        self,
-        noun: str,
-        *,
-        seed: int = 0,
-        scale: float = 1.0,
-        colours: Iterable[str] = (),
-        material: str | None = None,
-        adjectives: Iterable[str] = (),
-    ) -> Asset:
-        """What the server makes of the order's words, `adjectives`, `colours` and `material`, of the order's size.
+    def make(self, noun: str, variant: Variant = USUAL) -> Asset:
+        """What the server makes of the order's words and the variant's, of the order's size.
 
         Raises:
             PromptError: it was not ordered.
             AssetError: the server gives no mesh, or one that no object can be made of.
         """
         order = kept_order(noun)
-        if not (np.isfinite(scale) and 0.01 <= scale <= 100.0):
-            raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
         settings = server_settings(order.url)
-        named = [found for name in colours if (found := find_colour(name))]
-        said = " ".join(dict.fromkeys([*adjectives, " and ".join(named), material or "", *order.words.split()]))
+        named = [found for name in variant.colours if (found := find_colour(name))]
+        said = " ".join(
+            dict.fromkeys([*variant.adjectives, " and ".join(named), variant.material or "", *order.words.split()])
+        )
         wish = Wish(
             prompt=f"{' '.join(said.split())}, one object, standing upright",
-            seed=seed % 2**31,
+            seed=variant.seed % 2**31,
             picture=_picture(settings, order),
         )
         fetched = fetch(settings, wish, connect=self._connect)
-        made_of = material or ((entry.material if (entry := lookup.find(order.like)) else None) or "plastic")
+        made_of = variant.material or ((entry.material if (entry := lookup.find(order.like)) else None) or "plastic")
         try:
             asset = _imported(fetched.path, fetched.record["sha256"], fetched.up, order.words, order.metres, made_of)
         except AssetError as error:
@@ -113,13 +105,12 @@ class MeshServers:
             "up": fetched.up,
             "longest_side": order.metres,
             "size_from": order.why,
-            **({"scale_asked": scale} if scale != 1.0 else {}),
+            **({"scale_asked": variant.scale} if variant.scale != 1.0 else {}),
             **asset.provenance,
         }
-        asset = scaled(asset, scale)
-        if named and asset.visual.texture.reshape(-1, 3).std(axis=0).max() < 1.0:
-            texture = np.full_like(asset.visual.texture, 0) + np.array(COLOURS[named[0]], dtype=np.uint8)
-            asset = replace(asset, visual=replace(asset.visual, texture=texture))
+        asset = scaled(asset, variant.scale)
+        if named and is_plain(asset):
+            asset = painted(asset, COLOURS[named[0]])
             record["colours"] = named
         return replace(asset, provenance=record)
 

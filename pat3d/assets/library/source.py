@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
-import numpy as np
-
 from pat3d.assets.colours import COLOURS, find_colour
 from pat3d.assets.library.index import Library, open_library
-from pat3d.assets.library.store import VERSION, Entry, scaled, weighed
+from pat3d.assets.library.store import VERSION, Entry, is_plain, painted, scaled, weighed
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.source import Candidate, Known, candidates
-from pat3d.errors import AssetError, PromptError
+from pat3d.assets.variant import USUAL, Variant
+from pat3d.errors import PromptError
 from pat3d.scene.asset import Asset
 from pat3d.scene.cache import content_key
 
@@ -51,40 +50,30 @@ class LibrarySource:
         entry = self._entry(noun)
         return content_key({}, {"files": dict(entry.files), "settings": dict(entry.settings), "version": VERSION})
 
-    def make(
-        self,
-        noun: str,
-        *,
-        seed: int = 0,
-        scale: float = 1.0,
-        colours: Iterable[str] = (),
-        material: str | None = None,
-        adjectives: Iterable[str] = (),
-    ) -> Asset:
-        """The object as it is indexed, whatever `seed` and `adjectives`; a colour where it has no texture of its own.
+    def make(self, noun: str, variant: Variant = USUAL) -> Asset:
+        """The object as it is indexed, whatever seed and adjectives; a colour where it has no texture of its own.
 
         Raises:
             PromptError: there is no such object, or it is not ready.
-            AssetError: the index is damaged, or the scale is out of range.
+            AssetError: the index is damaged.
         """
         entry = self._entry(noun)
-        if not (np.isfinite(scale) and 0.01 <= scale <= 100.0):
-            raise AssetError(f'scale of "{noun}" must be between 0.01 and 100, got {scale}.')
-        asset = scaled(self._library.asset(entry.key), scale)
-        record = {**asset.provenance, "scale_asked": scale} if scale != 1.0 else dict(asset.provenance)
-        asked = [found for name in colours if (found := find_colour(name))]
-        if asked and asset.visual.texture.reshape(-1, 3).std(axis=0).max() < 1.0:
-            texture = np.full_like(asset.visual.texture, 0) + np.array(COLOURS[asked[0]], dtype=np.uint8)
-            asset = replace(asset, visual=replace(asset.visual, texture=texture))
+        asset = scaled(self._library.asset(entry.key), variant.scale)
+        record = dict(asset.provenance)
+        if variant.scale != 1.0:
+            record["scale_asked"] = variant.scale
+        asked = [found for name in variant.colours if (found := find_colour(name))]
+        if asked and is_plain(asset):
+            asset = painted(asset, COLOURS[asked[0]])
             record["colours"] = asked
         elif asked:
             record["not_coloured"] = f"{', '.join(asked)}: it has a texture of its own"
-        if material is not None and material != asset.material.name:
-            made_of = find_material(material)
+        if variant.material is not None and variant.material != asset.material.name:
+            made_of = find_material(variant.material)
             factor = made_of.density * asset.mass_properties.volume / asset.mass_properties.mass
             asset = weighed(asset, factor)
             asset = replace(asset, material=made_of)
-            record["material"] = material
+            record["material"] = variant.material
         return replace(asset, provenance=record)
 
     def _entry(self, noun: str) -> Entry:

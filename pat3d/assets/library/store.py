@@ -191,6 +191,17 @@ def weighed(asset: Asset, factor: float) -> Asset:
     )
 
 
+def is_plain(asset: Asset) -> bool:
+    """Whether `asset` is of one colour."""
+    return bool(asset.visual.texture.reshape(-1, 3).std(axis=0).max() < 1.0)
+
+
+def painted(asset: Asset, rgb: tuple[int, int, int]) -> Asset:
+    """`asset` in one colour."""
+    texture = np.zeros_like(asset.visual.texture) + np.array(rgb, dtype=np.uint8)
+    return replace(asset, visual=replace(asset.visual, texture=texture))
+
+
 def _times(values: tuple[float, ...], factor: float) -> Any:
     return tuple(value * factor for value in values)
 

@@ -59,7 +59,7 @@ MAX_HULLS = 80
 ROOM = 7 / 8
 """Share of them that the decomposition may use; the rest is for cutting those that few faces do not fit."""
 
-PASSES = 3
+PASSES = 8
 """Most times that parts which had to grow are cut once more."""
 
 MAX_HULL_CUTS = 16
@@ -71,7 +71,7 @@ DECOMPOSITION_SECONDS = 120.0
 PATIENCE = 20.0
 """The clock only ends what has hung, after so many times the processor time: a busy machine refuses nothing more."""
 
-_VERSION = 5
+_VERSION = 6
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ from pat3d.assets.library.resting import resting_poses
 from pat3d.assets.mesh.cover import outside, surface_points
 from pat3d.assets.mesh.topology import signed_volume
 from pat3d.assets.nouns.program import Program
+from pat3d.assets.variant import Variant
 from pat3d.errors import Pat3dError
 from pat3d.scene.asset import Asset
 
@@ -31,7 +32,7 @@ def faults_of(program: Program) -> tuple[list[str], list[str], Asset | None]:
     faults, oddities, first = list[str](), list[str](), None
     for seed in SEEDS:
         try:
-            made = make_entry(program.entry, program.entry.noun, seed=seed)
+            made = make_entry(program.entry, program.entry.noun, Variant(seed=seed))
         except Pat3dError as error:
             faults.append(f"seed {seed}: {error}")
             continue

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +13,7 @@ from pat3d.assets.catalogue.lookup import make_entry
 from pat3d.assets.nouns.program import Program, read_noun
 from pat3d.assets.nouns.where import COMPOSED, OWN, noun_folder
 from pat3d.assets.source import Candidate, Known, candidates
+from pat3d.assets.variant import USUAL, Variant
 from pat3d.errors import PromptError, SpecError
 from pat3d.scene.asset import Asset
 from pat3d.scene.naming import APART, slug
@@ -58,16 +59,7 @@ class OwnNouns:
         """
         return hashlib.sha256(self._path(noun).read_bytes()).hexdigest()
 
-    def make(
-        self,
-        noun: str,
-        *,
-        seed: int = 0,
-        scale: float = 1.0,
-        colours: Iterable[str] = (),
-        material: str | None = None,
-        adjectives: Iterable[str] = (),
-    ) -> Asset:
+    def make(self, noun: str, variant: Variant = USUAL) -> Asset:
         """The asset that the noun's program makes.
 
         Raises:
@@ -76,10 +68,7 @@ class OwnNouns:
         """
         path = self._path(noun)
         program = self._programs.get(path.stem) or read_noun(path)
-        asset = make_entry(
-            program.entry, program.entry.noun, seed=seed, scale=scale, colours=colours, material=material,
-            adjectives=adjectives,
-        )  # fmt: skip
+        asset = make_entry(program.entry, program.entry.noun, variant)
         record = {**asset.provenance, "source": self.name, "file": path.name, "sha256": self.digest(noun)}
         return replace(asset, provenance=record)
 

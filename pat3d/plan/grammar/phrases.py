@@ -184,6 +184,9 @@ class PhraseReader:
                 count = lexicon.NUMBERS[word]
             elif word == "more" and count is not None and "another" not in flags:
                 flags["another"] = True
+            elif word in ("a", "an") and flags.get("determined"):
+                # "and that one a lemon" is of two things.
+                break
             elif word in lexicon.DETERMINERS:
                 flags["determined"] = True
                 if word == "another":

@@ -21,6 +21,10 @@ _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its b
 """What an object may lie on that is a part of itself, and how it is turned then."""
 
 
+_HARDLY_IN = 1.7
+"""Cost of being inside what has no inside, see Plausible.within."""
+
+
 class Placing:
     """Places the objects of one sentence by what is implied, or as a whole."""
 
@@ -55,6 +59,8 @@ class Placing:
                 others = [item for item in self._on(owners[0]) if item not in children]
                 world.place(children, "on", owners, weak=True)
                 parents = others[:1] or owners
+            if chunk.link.kind == "in" and parents and not owners:
+                parents = self._that_holds(children[0], parents)
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
@@ -84,6 +90,9 @@ class Placing:
         landmark, surface = (
             self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
         )
+        if landmark and side == "other" and not surface:
+            # "On one side of the plate is a fork, on the other a knife."
+            side = "right"
         if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
             sides = [edge.child for edge in self._world.laterals if edge.parent in landmark]
             before = [item for item in sides if item not in (*landmark, *children)]
@@ -97,6 +106,20 @@ class Placing:
             self._relating.relate(children, link, landmark)
             return
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _that_holds(self, child: Item, meant: list[Item]) -> list[Item]:
+        """What `child` is inside: `meant`, or what was named last that can hold it where that cannot."""
+        world = self._world
+
+        def within(item: Item) -> float:
+            return world.likely.within(world.noun(child), world.noun(item))
+
+        if world.is_a(meant[0], tuple(lexicon.OPENED)) or within(meant[0]) < _HARDLY_IN:
+            return meant
+        fit = [item for item in world.items() if item is not child and (
+            world.is_a(item, tuple(lexicon.OPENED)) or world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN
+        )]  # fmt: skip
+        return fit[-1:] or meant
 
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
         """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""

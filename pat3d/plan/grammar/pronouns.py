@@ -14,6 +14,10 @@ from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
 
 
+_CLOSE = 0.1
+"""Readings of a pronoun that differ by less in cost are both told."""
+
+
 class Pronouns:
     """What the phrases of one sentence speak of so far."""
 
@@ -92,6 +96,7 @@ class Pronouns:
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         best: tuple[float, list[Item]] | None = None
+        rival: tuple[float, list[Item]] | None = None
         for cost, items in candidates:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
@@ -106,11 +111,18 @@ class Pronouns:
                 pair = (items[0], other[0]) if child else (other[0], items[0])
                 cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
             if best is None or cost < best[0]:
+                if best is not None and set(best[1]) != set(items):
+                    rival = best
                 best = (cost, list(items))
+            elif set(best[1]) != set(items) and (rival is None or cost < rival[0]):
+                rival = (cost, list(items))
         if best is None:
             raise PromptError(
                 f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
             )
+        if not which and rival is not None and rival[0] - best[0] < _CLOSE and not set(rival[1]) & set(best[1]):
+            read, other_words = (each[1][0].group.words for each in (best, rival))
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
         self.cost += min(best[0], 1.5)
         return best[1]
 

@@ -97,8 +97,15 @@ class References(Pronouns):
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
+                if self._told_by_noun(phrase, group.phrase):
+                    continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
+        alike = [item for group in world.groups if same_noun(group, phrase) and group not in besides and not group.replaced
+                 for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
+        if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
+            # "Both burners" of which one was named after the other.
+            return alike
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             storage = [
                 item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
@@ -108,6 +115,11 @@ class References(Pronouns):
             ]
             return storage[-1:] or None
         return None
+
+    def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
+        """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
+        ours, theirs = ({word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other))
+        return bool(ours and theirs) and not ours & theirs
 
     def _note_adjectives(self, phrase: Phrase) -> None:
         """Name what describes `phrase` and makes no difference to it; "top" tells which one."""
@@ -168,6 +180,9 @@ class References(Pronouns):
         words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
+        if phrase.words.lower() in ("the one", "that one") and (subject := self._subject_before(at)):
+            # "The book on the chair is red, the one on the desk is blue": another book.
+            return self._one_like(subject, phrase)
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
             # "the smaller of two boxes inside the larger one"
@@ -236,6 +251,19 @@ class References(Pronouns):
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
+    def _subject_before(self, at: int) -> list[Item]:
+        """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""
+        told = [head for one, _ in self.related for head in sorted(one)]
+        phrases = [self._chunks[head].phrase for head in told if head < at]
+        if at not in told or not phrases or phrases[0] is None or self._plural_before(at):
+            return []
+        items = self.ref(min(head for head in told if head < at))
+        return items if phrases[0].kind == "object" and len(items) == 1 == len(items[0].group.items) else []
+
+    def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
+        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False)
+        return list(self._maker.make(self._world, like).items)
+
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
@@ -256,9 +284,9 @@ class References(Pronouns):
         if whole is None:
             return []
         told = next((group for group in self._world.groups[::-1] if group.modifiers.colours), None)
-        anew = phrase.determined and not phrase.definite and len(whole.items) == 1 and not colours_of(whole.items[0])
+        anew = phrase.determined and len(whole.items) == 1 and not colours_of(whole.items[0])
         if words.colours and anew and told is not None and told is not whole:
-            # "a red ball in the left box and a blue one in the right box": of what has another colour.
+            # "a red ball in the left box and the blue one in the right box": of what has another colour.
             whole = told
         if (
             words.palette

@@ -66,6 +66,8 @@ class Relating:
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
             lid = world.is_a(children[0], lexicon.ON_RIMS)
+            if not lid and link.manner == "source" and world.is_a(parents[0], lexicon.SHUT):
+                world.note(f"not arranged: {said.format('inside')}; it is placed on it")
             self.relate(children, Link(kind="on" if lid else world.containment(parents[0])), parents)
         elif link.kind in SUPPORT_KINDS:
             self._carried(children, link, parents, said)
@@ -140,6 +142,8 @@ class Relating:
                 kind = "on"
             elif world.on_floor(parent):
                 kind = "on"
+                if world.is_a(parent, lexicon.SHUT):
+                    world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         self._settle(children, parents)
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")

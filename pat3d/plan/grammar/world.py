@@ -299,6 +299,10 @@ class World:
         if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
             self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
         hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
+        closed = self.likely.closet(self.noun(parent)) or self.likely.level(self.noun(parent))
+        if kind == "in" and not weak and not hollow and not closed and not self.is_a(parent, lexicon.HOLLOW):
+            if not self.is_a(parent, tuple(lexicon.OPENED), lexicon.HOLDERS):
+                self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
         if hollow and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:
             self.note(f'"{child.group.words}" in "{parent.group.words}": it hardly fits there.')
         if not weak:

@@ -8,13 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from pat3d.assets.library.body import Body, Inertial, Piece, Points, flat, merged, primitive
-from pat3d.assets.library.readers.collision import hulls_of
-from pat3d.assets.library.readers.inertials import together
-from pat3d.assets.library.readers.xml import GRAY, inertia_of, mesh_piece, numbers, read_root, turned
+from pat3d.assets.library.body import Body, Piece, flat, primitive
+from pat3d.assets.library.readers.links import REST, Frame, Links, refuse_moving, shape_of, within
+from pat3d.assets.library.readers.xml import GRAY, mesh_piece, numbers, read_root, turned
 from pat3d.errors import AssetError
-
-Frame = tuple[Points, Points]
 
 
 def read_urdf(path: Path, root: Path) -> Body:
@@ -36,53 +33,33 @@ def body_of(
         AssetError: a mesh is missing, or nothing is to be seen.
     """
     colours = {one.get("name"): _rgb(one) for one in robot.findall("material")}
-    notes: list[str] = []
-    seen: list[Piece] = []
-    touched: list[Piece] = []
-    inertials: list[Inertial] = []
-    frictions: list[float] = []
-    same, lost = True, False
+    found, lost = Links(), False
     for link in links:
         frame = frames[link.get("name", "")]
         shapes = {}
-        for kind, into in (("visual", seen), ("collision", touched)):
+        for kind, into in (("visual", found.seen), ("collision", found.touched)):
             for one in link.findall(kind):
                 rgb = _colour(one.find("material"), colours)
                 shapes.setdefault(kind, []).append(_named(one))
                 try:
-                    into.append(_piece(one, frame, rgb, path, root, notes))
+                    into.append(_piece(one, frame, rgb, path, root, found.notes))
                 except AssetError as error:
                     if kind == "visual":
                         raise
-                    notes.append(f"a collision shape was left out, so the picture's mesh is cut instead: {error}")
+                    told = f"a collision shape was left out, so the picture's mesh is cut instead: {error}"
+                    found.notes.append(told)
                     lost = True
-        same = same and (shapes.get("visual") == shapes.get("collision"))
-        if (found := _inertial(link.find("inertial"), frame)) is not None:
-            inertials.append(found)
+        found.alike &= shapes.get("visual") == shapes.get("collision")
+        if (inertial := link.find("inertial")) is not None and (mass := inertial.find("mass")) is not None:
+            pose = within(frame, origin_of(inertial.find("origin")))
+            found.weigh(mass.get("value", ""), pose, inertial.find("inertia"), lambda one, key: one.get(key))
         said = link.find("contact/lateral_friction")
         if said is not None:
-            frictions.append(float(numbers(said.get("value"), 1)[0]))
+            found.frictions.append(float(numbers(said.get("value"), 1)[0]))
     for element in robot.findall(".//gazebo/mu1"):
-        frictions.append(float(numbers(element.text, 1)[0]))
-    hulls: tuple[Points, ...] = ()
+        found.frictions.append(float(numbers(element.text, 1)[0]))
     meshes = any(_named(one).startswith("mesh") for link in links for one in link.findall("collision"))
-    if touched and not lost and not (same and meshes):
-        hulls, note = hulls_of(touched)
-        notes += [note] if note else []
-    mesh = merged(seen or touched, notes)
-    return Body(
-        name=name,
-        mesh=mesh,
-        hulls=hulls,
-        touched=tuple(touched),
-        metres=1.0,
-        up="z",
-        declared="URDF",
-        inertial=together(inertials),
-        friction=frictions[0] if frictions else None,
-        files=(path, *mesh.files, *(file for piece in touched for file in piece.files)),
-        notes=tuple(notes),
-    )
+    return found.body(name, path, "URDF", convex=not lost and not (found.alike and meshes))
 
 
 def _frames(robot: ET.Element) -> dict[str, Frame]:
@@ -91,11 +68,7 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
     if not links:
         raise AssetError("the URDF has no link.")
     joints = robot.findall("joint")
-    moving = [joint.get("name", "?") for joint in joints if joint.get("type") not in ("fixed", "floating")]
-    if moving:
-        raise AssetError(
-            f"it has joints that move ({', '.join(moving[:4])}); libraries hold rigid objects, so fix or remove them."
-        )
+    refuse_moving(joints, ("fixed", "floating"))
     if any(joint.get("type") == "floating" for joint in joints):
         raise AssetError("it has several bodies that float; one object a file.")
     above: dict[str, tuple[str, Frame]] = {}
@@ -119,17 +92,13 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
 def origin_of(element: ET.Element | None) -> Frame:
     """Rotation and position [m] of an <origin>; none where there is none."""
     if element is None:
-        return np.eye(3), np.zeros(3)
+        return REST
     return turned(*numbers(element.get("rpy"), 3, 0.0)), numbers(element.get("xyz"), 3, 0.0)
 
 
 def _piece(one: ET.Element, frame: Frame, rgb, path: Path, root: Path, notes: list[str]) -> Piece:
-    turn, offset = origin_of(one.find("origin"))
-    rotation, position = frame[0] @ turn, frame[0] @ offset + frame[1]
-    geometry = one.find("geometry")
-    shape = None if geometry is None else next(iter(geometry), None)
-    if shape is None:
-        raise AssetError(f"a <{one.tag}> has no geometry.")
+    rotation, position = within(frame, origin_of(one.find("origin")))
+    shape = shape_of(one)
     if shape.tag == "mesh":
         piece = mesh_piece(shape.get("filename", ""), path, root, notes)
         if rgb is not None and not any(file.suffix.lower() == ".mtl" for file in piece.files) and _untextured(piece):
@@ -157,23 +126,6 @@ def _named(one: ET.Element) -> str:
     geometry = one.find("geometry")
     shape = None if geometry is None else next(iter(geometry), None)
     return "" if shape is None else f"{shape.tag} {sorted(shape.attrib.items())}"
-
-
-def _inertial(element: ET.Element | None, frame: Frame) -> Inertial | None:
-    mass = None if element is None else element.find("mass")
-    if element is None or mass is None:
-        return None
-    value = float(numbers(mass.get("value"), 1)[0])
-    if value <= 0:
-        return None
-    turn, offset = origin_of(element.find("origin"))
-    rotation = frame[0] @ turn
-    tensor = inertia_of(element.find("inertia"), lambda one, key: one.get(key))
-    return Inertial(
-        mass=value,
-        centre=frame[0] @ offset + frame[1],
-        inertia=None if tensor is None else rotation @ tensor @ rotation.T,
-    )
 
 
 def _rgb(material: ET.Element) -> tuple[float, ...] | None:
