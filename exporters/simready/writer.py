@@ -64,8 +64,8 @@ def _write(asset: Asset, name: str, folder: Path) -> Path:
     write_asset(asset, name, path)
     layer = Sdf.Layer.FindOrOpen(str(path))
     facts = _facts(asset, name)
-    # Earlier versions of the profile look for these outside the dictionary.
-    outside = {key: facts.pop(key) for key in ("asset_name", "asset_type", "source_file", "usd_date_generated")}
+    # Versions of the profile differ in where they look for these.
+    outside = {key: facts[key] for key in ("asset_name", "asset_type", "source_file", "usd_date_generated")}
     layer.customLayerData = {**outside, "SimReady_Metadata": facts}
     layer.Save()
     _draw(asset, path.parent / ".thumbs" / f"{THUMBNAIL}x{THUMBNAIL}" / f"{path.name}.png")
