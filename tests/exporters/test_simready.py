@@ -34,11 +34,9 @@ def test_every_asset_has_its_layer_thumbnail_facts_and_labels(tmp_path):
             assert np.asarray(picture).std() > 5.0
         stage = Usd.Stage.Open(str(path))
         data = dict(stage.GetRootLayer().customLayerData)
-        facts = {
-            **{key: value for key, value in data.items() if key != "SimReady_Metadata"},
-            **data["SimReady_Metadata"],
-        }
+        facts = dict(data.pop("SimReady_Metadata"))
         assert set(facts) == FIELDS
+        assert data == {key: facts[key] for key in ("asset_name", "asset_type", "source_file", "usd_date_generated")}
         assert all(value not in ("", None) for value in facts.values())
         root = stage.GetDefaultPrim()
         assert facts["mass"] == pytest.approx(UsdPhysics.MassAPI(root).GetMassAttr().Get())
