@@ -18,7 +18,7 @@ def clip_judge(model: str) -> tuple[str, Judge]:
         CheckError: transformers is not installed, or the weights are not there.
     """
     try:
-        import transformers
+        import transformers  # pyright: ignore[reportMissingImports]
     except ImportError:
         raise CheckError("needs transformers: pip install 'pat3d[scores]'") from None
     try:
