@@ -106,7 +106,7 @@ def _metadata(raw: Mapping[str, Any]) -> Metadata | None:
     mass = raw.get("mass")
     names = [name for name in names if 0 < len(name) <= 100][:20]
     said = (_axis(raw.get(key)) for key in ("up", "up_axis", "upAxis", "upaxis"))
-    up: UpAxis | None = next((axis for axis in said if axis is not None), None)
+    up = cast("UpAxis | None", next((axis for axis in said if axis is not None), None))
     if not names and not licence and mass is None and up is None:
         return None
     return Metadata(
