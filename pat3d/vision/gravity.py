@@ -1,6 +1,6 @@
 """Which way is up, and how high the camera is: the plane on which things stand.
 
-A plane n . X + d = 0 in camera axes is linear in what a depth camera measures. With X = z s for the slopes s of a pixel,
+A plane n . X + d = 0 in camera axes is linear in what a depth camera measures: with X = z s, s the slopes of a pixel,
 
     1/z = -(n . s) / d = a . s,      n = -a / |a| turned upwards,      d = 1 / |a|.
 
@@ -91,6 +91,9 @@ def _find_plane(
         error = depth * (slopes @ best) - 1.0
         weight = np.clip(1.0 - (error / (1.6 * tolerance)) ** 2, 0.0, None) * depth
         best = np.linalg.lstsq(slopes * weight[:, None], weight / depth, rcond=None)[0]
+    if not _may_carry(best, others, tolerance):
+        # The front of a thing passes for a floor until it is looked at closely.
+        return None
     length = float(np.linalg.norm(best))
     share = float(np.mean(np.abs(depth * (slopes @ best) - 1.0) < tolerance))
     return Plane(up=-best / length, height=1.0 / length, share=share)
