@@ -1,6 +1,6 @@
 """How well the offline planner reads text that nobody wrote for it, judged against labels made by hand.
 
-    python benchmarks/language.py corpus.tsv [--part dev|held|all] [--show]
+    python benchmarks/language.py corpus.tsv [--part PART] [--show]
     python benchmarks/language.py            the sentences of language_fresh.tsv, labelled before the planner saw them
 
 The corpus is a table (text, kind, source, ...) that is not part of the repository; language_labels.tsv holds, by line
@@ -238,7 +238,7 @@ def main() -> None:
     """Print the verdicts per source and over all."""
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("corpus", type=Path, nargs="?")
-    arguments.add_argument("--part", choices=("dev", "held", "all"), default="all")
+    arguments.add_argument("--part", choices=("dev", "held", "eighth", "ninth", "all"), default="all")
     arguments.add_argument("--show", action="store_true", help="every line that is not right, with what differs")
     options = arguments.parse_args()
     rows = _fresh() if options.corpus is None else _labelled(options.corpus, options.part)

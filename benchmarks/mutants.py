@@ -226,6 +226,9 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=60, help="mutants (default 60)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--tests", nargs="+", default=[], help="further test files or folders for all of them")
+    parser.add_argument(
+        "--ignore", nargs="+", default=[], help="test files left out, where this machine cannot run them"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="mutants at a time, each in its own copy (default 1)")
     parser.add_argument("--factor", type=float, default=10.0, help="time limit over the unchanged run (default 10)")
     parser.add_argument("--least", type=float, default=0.0, help="share that must be killed, 0 to 1")
@@ -268,7 +271,12 @@ def main() -> int:
 
         homes = dict.fromkeys(mirrored(one.path) for one in chosen if str(one) not in known)
         baselines = {
-            home: [pool.submit(baseline, home, file) for file in test_files([home, *options.tests])] for home in homes
+            home: [
+                pool.submit(baseline, home, file)
+                for file in test_files([home, *options.tests])
+                if file not in options.ignore
+            ]
+            for home in homes
         }
         # Mutants of different folders by turns: those whose baseline is there first need not wait for the others.
         verdicts = list(pool.map(judge, by_turns(chosen)))

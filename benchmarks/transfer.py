@@ -1,6 +1,7 @@
 """Does a scene stay still in every engine? Scenes of a prompt file, random catalogue scenes and scenes of real meshes.
 
 python benchmarks/transfer.py --prompts benchmarks/prompts.txt --random 100 --work work/transfer --out table.md
+python benchmarks/transfer.py --scenes scenes/* --seconds 60 --work work/minute        what creeps?
 
 Everything that is made or measured lies under --work, and what is there already is not done again, so a run that was
 interrupted goes on. `make engines` makes the engines; those that are absent are left out of the table. Scenes that
@@ -24,11 +25,13 @@ from typing import Any
 import yaml
 
 from pat3d.check.engines.check import check_engines
-from pat3d.check.engines.protocol import Absent, Engine, Failed
+from pat3d.check.engines.protocol import Absent, Engine
+from pat3d.check.engines.record import as_dict
 from pat3d.check.engines.registry import chosen
+from pat3d.check.settle import CREEP_SECONDS
 from pat3d.errors import Pat3dError
 from pat3d.exporters.formats import export
-from pat3d.scene.folder import write_json
+from pat3d.scene.folder import read_json, write_json
 from pat3d.scene.io import load_scene
 from pat3d.scene.model import Scene
 
@@ -120,10 +123,7 @@ def measure(scene: Scene, engine: Engine, exports: Path, path: Path, seconds: fl
     (verdict,) = check_engines(scene, (engine,), exports, seconds=seconds)
     if isinstance(verdict, Absent):
         return None
-    if isinstance(verdict, Failed):
-        document: dict[str, Any] = {"failed": verdict.reason, "objects": [], "settings": {}}
-    else:
-        document = verdict.as_dict()
+    document = as_dict(verdict)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_json(path, document)
     return document
@@ -147,9 +147,20 @@ def fastest(documents: list[dict[str, Any]], unit: str) -> str:
     return f"{max(known):.2g}" if (known := [creep for creep in creeps if creep is not None]) else "-"
 
 
+def largest(document: dict[str, Any], seconds: float) -> str:
+    """Largest drift of any object [mm / degrees], and in long runs its creep [mm / degrees a minute]."""
+    found = strays(document)
+    mm, degrees = max((mm for _, mm, _ in found), default=0.0), max((d for *_, d in found), default=0.0)
+    if seconds < CREEP_SECONDS:
+        return f"{mm:.3f} / {degrees:.3f}"
+    return f"{mm:.3f} / {degrees:.3f}; {fastest([document], 'mm')} / {fastest([document], 'degrees')}"
+
+
 def failures(folder: Path) -> list[str]:
     """Why the scene in `folder` is not verified; nothing where it is."""
-    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    report = read_json(folder / "report.json")
+    if not report:
+        return ["no report.json says so."]
     return [] if report["passed"] else [str(line) for line in report["failures"]] or ["not passed"]
 
 
@@ -190,7 +201,8 @@ def table(
         )
     lines += [
         "",
-        "Largest drift, mm / degrees.",
+        "Largest drift, mm / degrees"
+        + ("; what still moves at the end, mm / degrees a minute." if seconds >= CREEP_SECONDS else "."),
         "",
         "| scene | " + " | ".join(engine.title for engine in here) + " |",
         "| --- |" + " ---: |" * len(here),
@@ -204,12 +216,10 @@ def table(
                 cells.append("" if document is None else "failed")
                 moved += [] if document is None else [f"- {name}, {document['failed']}"]
                 continue
-            found = strays(document)
-            mm, degrees = max((mm for _, mm, _ in found), default=0.0), max((d for *_, d in found), default=0.0)
-            cells.append(f"{mm:.3f} / {degrees:.3f}")
+            cells.append(largest(document, seconds))
             moved += [
                 f"- {name}, {engine.title}: {obj} {m:.2f} mm, {d:.2f} degrees"
-                for obj, m, d in found
+                for obj, m, d in strays(document)
                 if not (m < MM and d < DEGREES)
             ]
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
@@ -229,6 +239,7 @@ def main() -> int:
     parser.add_argument(
         "--specs", type=Path, nargs="+", default=[], help="specifications to build, of real meshes, say"
     )
+    parser.add_argument("--scenes", type=Path, nargs="+", default=[], help="folders of scenes that are made already")
     parser.add_argument("--engines", nargs="+", default=["all"])
     parser.add_argument("--seconds", type=float, default=5.0)
     parser.add_argument("--work", type=Path, default=Path("work/transfer"), help="scenes, exports and results")
@@ -240,12 +251,13 @@ def main() -> int:
     results: dict[str, dict[str, dict[str, Any]]] = {}
     unverified: dict[str, list[str]] = {}
     wanted = orders(options, work)
+    made = {path.resolve().name: path.resolve() for path in options.scenes}
     start = time.perf_counter()
-    for number, (name, arguments) in enumerate(wanted.items(), start=1):
+    for number, name in enumerate([*wanted, *made], start=1):
         slug = name.replace(" ", "_")
-        folder = work / "scenes" / slug
-        folder.parent.mkdir(exist_ok=True)
-        if not make(arguments, folder, work / f"{slug}.log"):
+        folder = made.get(name, work / "scenes" / slug)
+        (work / "scenes").mkdir(exist_ok=True)
+        if name in wanted and not make(wanted[name], folder, work / f"{slug}.log"):
             print(f"{name}: no scene, see {work / f'{slug}.log'}", file=sys.stderr, flush=True)
             continue
         if reasons := failures(folder):
@@ -262,7 +274,11 @@ def main() -> int:
             document = measure(scene, engine, exports, path, options.seconds)
             if document is not None:
                 results[name][engine.name] = document
-        print(f"{name}: {number} of {len(wanted)}, {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
+        print(
+            f"{name}: {number} of {len(wanted) + len(made)}, {time.perf_counter() - start:.0f} s",
+            file=sys.stderr,
+            flush=True,
+        )
         if options.out is not None:
             options.out.write_text(table(results, unverified, engines, options.seconds), encoding="utf-8")
     if options.out is None:

@@ -15,6 +15,7 @@ FLOORS = (
     ("envs", "robots, tasks, suites, GPU worlds"),
     ("generation", "the stages in order, attempts, the report"),
     ("optimize", "layouts that hold, by gradients"),
+    ("importers", "scenes and objects of other programs"),
     ("check", "certificate, penetration, stillness"),
     ("exporters", "mjcf, usd, urdf, sdf: writer beside reader"),
     ("layout", "poses without contact, relation predicates"),

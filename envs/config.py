@@ -13,6 +13,7 @@ from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.controllers import CONTROLS
 from pat3d.envs.robots.pairs import SIDES, pair_of, robot_name
+from pat3d.envs.suites.suite import Suite
 from pat3d.envs.tasks.task import Task
 from pat3d.errors import EnvironmentSetupError
 from pat3d.scene.model import Scene
@@ -36,8 +37,9 @@ class EpisodeConfig:
     task ("pick"); None for all."""
     robot: str | Sequence[str] = ""
     """"panda", "fr3", "ur5e", "ur10e", "iiwa14", "gen3", "xarm7", ... of MuJoCo Menagerie, PATH.xml for one's own, or
-    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for `default_robot()`. Two
-    arms are "aloha" or any two names, ["panda", "panda"] or "panda+panda"."""
+    with robosuite installed "robosuite:Panda" (or "Panda"), "UR5e", "Sawyer", "IIWA"; "" for the one that the suite was
+    made for, without a suite for `default_robot()`. Two arms are "aloha" or any two names, ["panda", "panda"] or
+    "panda+panda"."""
     suite: str | os.PathLike[str] | None = None
     """A suite folder instead of a scene; every reset draws one of its scenes with that scene's own task."""
     split: str | None = None
@@ -58,7 +60,8 @@ class EpisodeConfig:
     """Standard deviation of the robot's posture at the start [rad]."""
 
     def __post_init__(self) -> None:
-        self._set("robot", robot_name(self.robot) or default_robot())
+        own = default_robot() if self.suite is None else Suite.open(self.suite).request.robot
+        self._set("robot", robot_name(self.robot) or own)
         one_of("reward", self.reward, REWARDS)
         self._set("discount", number("discount", self.discount, 0.0, 1.0, "a step"))
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))

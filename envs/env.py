@@ -154,6 +154,10 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         """How far the episode is, and what the next move is about."""
         return Verdict(success=False) if self._judge is None else self._verdicts.of(0, self.scene)
 
+    def observe(self) -> Observation:
+        """What a policy sees of the present state."""
+        return self._observation()
+
     def _begin(self) -> tuple[Observation, dict[str, Any]]:
         self._judge = self.task.judge(self.simulation.states)
         self._verdicts = self._judge.update(np.zeros(1))
@@ -184,7 +188,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             gymnasium.logger.warn('render needs a mode: gymnasium.make("PAT3D-v0", render_mode="rgb_array").')
             return None
         depth = self.render_mode == "depth_array"
-        picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth, fine=True)
+        # Depth is no mean of several rays.
+        picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth, fine=not depth)
         return picture.depth if depth else picture.image
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -102,9 +102,8 @@ class Site:
     focus: Array
     middle: Array
     """Middle of what the task is about [m]."""
-    view: Array
-    """Middle of what the cameras show [m]."""
-    radius: float
+    shown: tuple[str, ...]
+    """What the cameras show."""
     work: tuple[str, ...]
 
     @staticmethod
@@ -127,8 +126,6 @@ class Site:
         surface = 0.0 if bench else min(float(boxes[name][0][2]) for name in work)
         # On a table the cameras show everything on it; in a room, what the task is about.
         beside = {name for name in boxes if bench or (name != host and _root(scene, name) == host)} | set(work)
-        shown_low = np.min([boxes[name][0] for name in beside], axis=0)
-        shown_high = np.max([boxes[name][1] for name in beside], axis=0)
         return Site(
             boxes=boxes,
             bench=bench,
@@ -137,8 +134,7 @@ class Site:
             # On a workbench the same place serves every task of a scene, where it can.
             focus=np.array([*((low + high) / 2)[:2], middle[2]]) if bench else middle,
             middle=middle,
-            view=np.array([*((shown_low + shown_high) / 2)[:2], middle[2]]),
-            radius=float((shown_high - shown_low)[:2].max()) / 2,
+            shown=tuple(name for name in boxes if name in beside),
             work=work,
         )
 
@@ -228,8 +224,7 @@ class Site:
             host=self.host,
             surface=self.surface,
             floor=-BENCH_HEIGHT if self.bench else 0.0,
-            focus=(float(self.view[0]), float(self.view[1]), float(self.view[2])),
-            focus_radius=self.radius,
+            shown=self.shown,
             start=tuple(map(float, self.start(arm, frame, tip))),
             grasps=grasps,
             reach={name: math.dist(frame.position[:2], middle[:2]) for name, middle in centre.items()},

@@ -53,10 +53,8 @@ class Placement:
     """Height of the surface that the work stands on [m]."""
     floor: float
     """Height of the floor [m]."""
-    focus: tuple[float, float, float]
-    """Middle of the work [m], where the cameras look."""
-    focus_radius: float
-    """Half of the largest horizontal extent of the work [m]."""
+    shown: tuple[str, ...]
+    """Objects that the cameras show."""
     start: tuple[float, ...]
     """Joint positions of the arm at the start [rad]."""
     grasps: Mapping[str, tuple[Grasp, ...]] = field(default_factory=dict)

@@ -17,15 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.standing import Placement, Stand
+from pat3d.envs.physics.views import ANGLES, aim
+from pat3d.envs.rendering.lights import light_up
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.assembly import take_options
 from pat3d.envs.robots.robot import Robot
 from pat3d.errors import EnvironmentSetupError
 from pat3d.exporters.common.objects import GROUND_HALF_THICKNESS, body_names
-from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Scene
-
-Array = NDArray[np.float64]
 
 PREFIX = "robot/"
 """Of every name that belongs to the robot."""
@@ -139,7 +138,7 @@ def _mounts(robot: Robot, placement: Placement) -> list[tuple[Mounted, Placement
 
 
 def furnish(spec: Any, placement: Placement) -> None:
-    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
+    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, cameras, and light."""
     import mujoco
 
     if placement.bench is not None:
@@ -147,7 +146,9 @@ def furnish(spec: Any, placement: Placement) -> None:
     _pedestal(mujoco, spec, placement, placement.base_position, "pedestal")
     if placement.other is not None:
         _pedestal(mujoco, spec, placement, placement.other.base_position, "pedestal/other")
-    _cameras(spec, placement)
+    light_up(spec)
+    for name in ANGLES:
+        spec.worldbody.add_camera(name=name)
     # Shadows reach as far as the robot does, not only around the objects.
     spec.visual.map.shadowclip = max(1.0, _SHADOW_REACH / spec.stat.extent)
 
@@ -180,7 +181,7 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
     ground.rgba = [0, 0, 0, 0]
     drawn = spec.geom("ground_visual")
     drawn.pos = [0, 0, placement.floor]
-    wood = spec.add_material(name="bench", rgba=[0.80, 0.77, 0.72, 1.0], specular=0.15, shininess=0.2)
+    wood = spec.add_material(name="bench", rgba=[0.90, 0.87, 0.81, 1.0], specular=0.15, shininess=0.2)
     steel = spec.add_material(name="bench/legs", rgba=[0.33, 0.34, 0.36, 1.0], specular=0.3, shininess=0.4)
 
     def box(name: str, position: list[float], size: list[float], material: Any) -> None:
@@ -231,39 +232,8 @@ def _pedestal(mujoco: Any, spec: Any, placement: Placement, base: tuple[float, f
     )
 
 
-def _cameras(spec: Any, placement: Placement) -> None:
-    """Views: agentview looks across the work at the robot, frontview from further back."""
-    centre = np.array(placement.focus)
-    view = placement.yaw if placement.view is None else placement.view
-    towards = np.array([math.cos(view), math.sin(view), 0.0])
-    reach = placement.focus_radius
-    views = {
-        "agentview": (
-            centre + towards * (0.32 + 1.3 * reach) + [0, 0, 0.46 + 0.8 * reach],
-            centre + [0, 0, 0.07],
-            45.0,
-        ),
-        "frontview": (
-            centre + towards * (1.1 + 2.0 * reach) + [0, 0, 0.55 + 0.8 * reach],
-            centre - 0.15 * towards,
-            45.0,
-        ),
-    }
-    for name, (eye, target, fovy) in views.items():
-        back = (eye - target) / np.linalg.norm(eye - target)
-        right = np.cross([0.0, 0.0, 1.0], back)
-        right /= np.linalg.norm(right)
-        up = np.cross(back, right).astype(np.float64)
-        spec.worldbody.add_camera(name=name, pos=eye, fovy=fovy, quat=_quat(right, up))
-
-
-def _quat(x: Array, y: Array) -> list[float]:
-    """Orientation (wxyz) of a camera whose picture spans x to the right and y upwards."""
-    return list(Pose.from_matrix(np.stack([x, y, np.cross(x, y)], axis=1), np.zeros(3)).quat_wxyz)
-
-
 def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: str = PREFIX) -> World:
-    """Where the parts of a compiled world are.
+    """Where the parts of a compiled world are; its fixed cameras are placed to show them.
 
     Args:
         model: MuJoCo's.
@@ -294,6 +264,14 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
             idle[geom] = other is not None and (model.body(body).name.startswith(other) or name == "pedestal/other")
         elif name == "floor" or (name == "ground" and placement.host is not None):
             owner[geom] = FLOOR
+    posture = {
+        arm.prefix + joint: value
+        for arm in arms
+        for joint, value in zip(
+            (*arm.robot.arm_joints, *arm.robot.gripper_joints), (*arm.start, *arm.robot.gripper_home), strict=True
+        )
+    }
+    aim(model, scene, placement, owner == ROBOT, posture)
     return World(
         model=model,
         scene=scene,

@@ -22,6 +22,8 @@ class Body:
 
     number: int
     scene: RayScene
+    corners: Array
+    """Of every face [m], shape (faces, 3, 3)."""
     centre: Array
     radius: float
     normals: Array
@@ -83,6 +85,7 @@ class Surfaces:
         return Body(
             number=number,
             scene=RayScene(points),
+            corners=points,
             centre=centre,
             radius=float(np.linalg.norm(flat - centre, axis=1).max()),
             normals=np.concatenate(normals).astype(np.float32),

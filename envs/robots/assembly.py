@@ -31,6 +31,9 @@ TURNS = 2.0 * np.pi
 CAMERA_BACK, CAMERA_ASIDE = 0.14, 0.07
 """The wrist camera is so far behind the grip site, and beside it [m]."""
 
+DRAWN, HIDDEN = 2, 3
+"""MuJoCo's groups of geoms that are drawn at most, and of those that are not."""
+
 JAW_TURN = 0.7
 """By how much single jaws open [rad]."""
 
@@ -124,13 +127,21 @@ def _joined(told: Description) -> Any:
         spec.attach(gripper, prefix="gripper/", site=carrier)
     for number, geom in enumerate(spec.geoms):
         geom.name = geom.name or f"pat3d/geom{number}"
-        if geom.group == 0 and not (geom.contype or geom.conaffinity):
-            geom.group = 2
     for number, actuator in enumerate(spec.actuators):
         actuator.name = actuator.name or f"pat3d/actuator{number}"
     for body in spec.bodies:
         body.gravcomp = 0.0
+        _show(body)
     return spec
+
+
+def _show(body: Any) -> None:
+    """Sort geoms of the common group 0 into drawn and hidden ones: what collides is drawn where nothing else is."""
+    collides = {geom.name: bool(geom.contype or geom.conaffinity) for geom in body.geoms}
+    dressed = any(geom.group <= DRAWN and not collides[geom.name] for geom in body.geoms)
+    for geom in body.geoms:
+        if geom.group == 0:
+            geom.group = HIDDEN if dressed and collides[geom.name] else DRAWN
 
 
 def _keep(spec: Any, told: Description) -> None:

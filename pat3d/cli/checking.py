@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from pat3d.cli.console import console, show_engines, show_settings, show_verification, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import SpecError
 from pat3d.scene.physics import STILL_SECONDS
@@ -30,12 +30,14 @@ MAX_SECONDS = 600.0
         nargs="+",
         metavar="SETTING",
     ),
+    option("--record", "add what the engines did to FOLDER/report.json, the last run of each", action="store_true"),
     JSON,
     option("--seconds", "simulated time; 60 to see what creeps", type=float, default=STILL_SECONDS),
     examples="""
     pat3d check scenes/mug
     pat3d check scenes/mug --seconds 60                    a minute: what creeps?
     pat3d check scenes/mug --engines mujoco,newton,pybullet,drake,physx
+    pat3d check scenes/mug --engines all --seconds 60 --record    what creeps where, kept in report.json
     pat3d check scenes/mug --settings all                  other integrators, solvers, time steps: what still stands?
     """,
 )
@@ -47,6 +49,8 @@ def check(options: argparse.Namespace) -> int:
         )
     if options.json and (options.engines or options.settings):
         raise SpecError("--json tells of the whole check; leave out --engines and --settings.")
+    if options.record and not options.engines:
+        raise SpecError("--record keeps what other engines did; give --engines, such as --engines all.")
     if options.engines:
         return _check_engines(options)
     if options.settings:
@@ -89,6 +93,7 @@ def _check_engines(options: argparse.Namespace) -> int:
     """The drift table. An engine that is named and absent is a failure; with "all", those that are here count."""
     from pat3d.check.engines.check import check_engines, failures
     from pat3d.check.engines.protocol import Absent
+    from pat3d.check.engines.record import record
     from pat3d.check.engines.registry import chosen
     from pat3d.scene.io import load_scene
 
@@ -98,6 +103,8 @@ def _check_engines(options: argparse.Namespace) -> int:
     with watch(console(stderr=True)) as progress:
         verdicts = check_engines(scene, engines, folder, seconds=options.seconds, progress=progress)
     show_engines(console(), scene, verdicts)
+    if options.record:
+        console().print(f"recorded in {record(folder, engines, verdicts)}", markup=False)
     absent = [one for one in verdicts if isinstance(one, Absent)]
     lines = [f"{one.engine} was asked for and is not here: {one.reason}" for one in absent if one.engine in named]
     if len(absent) == len(verdicts):

@@ -6,6 +6,7 @@ The module is imported when its command is used, so `pat3d --help` loads none of
 from __future__ import annotations
 
 from importlib import import_module
+from keyword import iskeyword
 
 from pat3d.cli.options import Command
 
@@ -15,10 +16,12 @@ COMMANDS = {
     "build": ("making", "make a verified scene from a specification with your meshes, sizes and relations"),
     "edit": ("editing", "add, remove, move, turn or replace objects of a scene, which settles again and is verified"),
     "vary": ("editing", "make other scenes that the same relations describe"),
+    "import": ("importing", "take a scene or an object of another program (MJCF, URDF, SDF, USD) as a scene folder"),
     "settle": ("settling", "bring a scene whose poses were edited back to rest, and verify it"),
     "optimize": ("mending", "find an initial layout from which a scene settles with its relations where its own fails"),
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),
     "metrics": ("metrics", "the D and R of the paper's Table 1 of scenes, whoever made them: motion, overlaps"),
+    "bench": ("metrics", "the paper's Table 1 on your prompts, beside its published rows"),
     "verify": ("verify", "verify a scene file that is not ours: what overlaps, what is not balanced, what moves"),
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),
@@ -37,5 +40,5 @@ COMMANDS = {
 
 
 def find(name: str) -> Command:
-    """The command called `name`, which is one of COMMANDS: its namesake in its module."""
-    return getattr(import_module(f"pat3d.cli.{COMMANDS[name][0]}"), name)
+    """The command called `name`, which is one of COMMANDS: its namesake in its module (`import_` for import)."""
+    return getattr(import_module(f"pat3d.cli.{COMMANDS[name][0]}"), f"{name}_" if iskeyword(name) else name)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pat3d.check.certificate import Certificate
     from pat3d.check.engines.check import Verdict
     from pat3d.check.settings import SettingReport
-    from pat3d.check.settle import SettleReport
+    from pat3d.check.settle import ObjectDrift, SettleReport
     from pat3d.check.verification import Verification
     from pat3d.exporters.compare import ParityReport
     from pat3d.generation.many import Row
@@ -191,19 +191,13 @@ def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> 
 
     runs = [verdict for verdict in verdicts if not isinstance(verdict, Absent | Failed)]
     table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("mm, degrees", overflow="fold")
+    creeps = any(run.worst_creep_mm is not None for run in runs)
+    table.add_column("mm, degrees" + ("; and a minute at the end" if creeps else ""), overflow="fold")
     for run in runs:
         table.add_column(f"{run.engine} {run.version}", justify="right", overflow="fold")
     drifts = [{obj.name: obj for obj in run.objects} for run in runs]
     for obj in scene.objects:
-        cells = [drift.get(obj.name) for drift in drifts]
-        table.add_row(
-            obj.name,
-            *(
-                "fixed" if cell is None else f"{max(cell.centre_mm, cell.origin_mm):.3f}, {cell.degrees:.3f}"
-                for cell in cells
-            ),
-        )
+        table.add_row(obj.name, *(_drifted(drift.get(obj.name)) for drift in drifts))
     if runs:
         target.print(table)
         target.print()
@@ -223,6 +217,14 @@ def show_engines(target: Console, scene: Scene, verdicts: Sequence[Verdict]) -> 
                 f"{verdict.worst_mm:.3f} mm and {verdict.worst_degrees:.3f} degrees{_creep(verdict)} ({settings})",
                 markup=False,
             )
+
+
+def _drifted(obj: ObjectDrift | None) -> str:
+    """How far an object strayed in a run, and how fast it still moves at its end where that is known."""
+    if obj is None:
+        return "fixed"
+    text = f"{max(obj.centre_mm, obj.origin_mm):.3f}, {obj.degrees:.3f}"
+    return text if obj.creep_mm is None else f"{text}; {obj.creep_mm:.2g}, {obj.creep_degrees:.2g}"
 
 
 def _creep(report: SettleReport) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 from pat3d.cli.console import console, verdict
 from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.run.settings import NOISE
@@ -47,6 +48,7 @@ _HOW_MANY = (
         metavar="PATH",
     ),
     *(one for one in SETTINGS if one.name in ("--robot", "--obs", "--control-freq", "--max-steps", "--image-size")),
+    JSON,
     examples="""
     pat3d demonstrate --episodes 100 --perturb pose=0.04 --out mug.hdf5                  for robomimic
     pat3d demonstrate --suite suites/tabletop --split train --obs rgb --out tabletop     a LeRobotDataset, with films
@@ -68,6 +70,8 @@ def demonstrate(options: argparse.Namespace) -> int:
         target=console(stderr=True),
     )
     count = write_demonstrations(shown, options.out, settings, overwrite=options.overwrite)
+    if options.json:
+        return _document(options, count, len(episodes))
     of = "" if options.successes is not None else f" of {len(episodes)}"
     console().print(f"{options.out}: {count} demonstrations{of}", markup=False, highlight=False)
     return _enough(options, count, len(episodes))
@@ -78,6 +82,7 @@ def demonstrate(options: argparse.Namespace) -> int:
     option("--out", "checkpoint to write", required=True, metavar="FILE.pt"),
     option("--epochs", "passes over the demonstrations", type=int, default=200),
     option("--demonstrations", "write them too: see pat3d demonstrate --out", metavar="PATH"),
+    JSON,
     examples="""
     pat3d train --episodes 100 --perturb pose=0.04 --out cloned.pt
     """,
@@ -100,8 +105,10 @@ def train(options: argparse.Namespace) -> int:
         successes=options.successes,
         demonstrations=options.demonstrations,
         overwrite=options.overwrite,
-        target=console(),
+        target=console(stderr=options.json),
     )
+    if options.json:
+        return _document(options, count, len(episodes))
     return _enough(options, count, len(episodes))
 
 
@@ -113,7 +120,20 @@ def _attempts(options: argparse.Namespace) -> tuple[Any, ...]:
     return episodes_from(options, ATTEMPTS_PER_SUCCESS * options.successes if options.successes else count)[0]
 
 
+def _document(options: argparse.Namespace, count: int, attempts: int) -> int:
+    """Print what was written as JSON; returns the exit code."""
+    from pat3d.cli.documents import file_facts
+
+    failures = _lacking(options, count, attempts)
+    print_facts(file_facts(options.out, demonstrations=count, attempts=attempts, failures=failures))
+    return verdict(failures)
+
+
 def _enough(options: argparse.Namespace, count: int, attempts: int) -> int:
+    return verdict(_lacking(options, count, attempts))
+
+
+def _lacking(options: argparse.Namespace, count: int, attempts: int) -> tuple[str, ...]:
     if options.successes is None or count >= options.successes:
-        return 0
-    return verdict((f"{count} of {options.successes} demonstrations succeeded in {attempts} attempts.",))
+        return ()
+    return (f"{count} of {options.successes} demonstrations succeeded in {attempts} attempts.",)

@@ -14,6 +14,7 @@ from typing import Literal
 
 from pat3d.cli.console import console, watch
 from pat3d.cli.extras import DEVELOPMENT, ENABLES, requirements
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command
 from pat3d.errors import ModelError
 from pat3d.progress import Event, Progress
@@ -34,18 +35,21 @@ class Table:
         self.rows.add_column()
         self.rows.add_column(overflow="fold")
         self.faults = 0
+        self.parts: list[tuple[State, str, str]] = []
 
     def add(self, state: State, what: str, text: str) -> None:
         """Add a row; a fault makes the exit code 1."""
         self.faults += state == "FAULT"
+        self.parts.append((state, what, text))
         colour = {"ok": "green", "no": "yellow", "FAULT": "red"}[state]
         self.rows.add_row(f"[{colour}]{state}[/]", what, text.replace("[", r"\["))
 
 
 @command(
+    JSON,
     examples="""
     pat3d doctor
-    """
+    """,
 )
 def doctor(options: argparse.Namespace) -> int:
     """`pat3d doctor`: 1 where something that is needed is missing, or something that is installed does not work."""
@@ -56,7 +60,7 @@ def doctor(options: argparse.Namespace) -> int:
         _warp(table)
         _parts(table, progress)
         _menagerie(table)
-        _egl(table)
+        _renderers(table)
         _engines(table)
         _model(table)
         _embeddings(table)
@@ -64,7 +68,12 @@ def doctor(options: argparse.Namespace) -> int:
     from pat3d.scene.cache import cache_root
 
     table.add("ok", "mesh cache", _folder(cache_root()))
-    console().print(table.rows)
+    if options.json:
+        from pat3d.cli.documents import PartFacts
+
+        print_facts([PartFacts(state=state, part=what, found=text) for state, what, text in table.parts])
+    else:
+        console().print(table.rows)
     return 1 if table.faults else 0
 
 
@@ -199,16 +208,28 @@ def _metrics(table: Table) -> None:
         )
 
 
-def _egl(table: Table) -> None:
-    from pat3d.view.gl import egl_renderer, is_software
+def _renderers(table: Table) -> None:
+    """Report what draws the pictures of environments, and what else could."""
+    from pat3d.view.gl import KINDS, gl_renderer, is_software
 
-    card = egl_renderer()
-    if card is None:
-        table.add("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
-    elif is_software(card):
-        table.add("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
-    else:
-        table.add("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
+    found = {kind: gl_renderer(kind) for kind in KINDS}
+    used = next((kind for kind in KINDS if found[kind]), None)
+    for kind, name in found.items():
+        title = {"egl": "EGL", "osmesa": "OSMesa"}[kind]
+        if name is None:
+            table.add(
+                "no", title, f"MuJoCo's own renderer does not work through it; lib{kind}{_MAJOR[kind]} would enable it"
+            )
+        else:
+            where = "on the CPU, " if is_software(name) else ""
+            does = "draws the pictures of environments" if kind == used else "works too"
+            table.add("ok", title, f"MuJoCo's own renderer, {where}{does} ({name})")
+    if used is None:
+        table.add("ok", "ray tracer", "draws the pictures of environments, on the CPU")
+
+
+_MAJOR = {"egl": "1", "osmesa": "6"}
+"""Debian's versions of the libraries."""
 
 
 def _cores() -> int:

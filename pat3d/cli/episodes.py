@@ -44,8 +44,13 @@ SETTINGS = fields(
 
 
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
-    """What is the same for every episode."""
-    return RolloutSettings(**values(RolloutSettings, options))
+    """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
+    settings = values(RolloutSettings, options)
+    if options.suite and not settings["robot"]:
+        from pat3d.envs.suites.suite import Suite
+
+        settings["robot"] = Suite.open(options.suite).request.robot
+    return RolloutSettings(**settings)
 
 
 def episodes_from(options: argparse.Namespace, count: int | None = None) -> tuple[tuple[Any, ...], dict[str, Any]]:

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
 from pat3d.cli.episodes import EPISODES, SETTINGS, episodes_from, settings_of
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
 
 if TYPE_CHECKING:
+    from pat3d.policies_eval.run.records import Evaluation
     from pat3d.policies_eval.run.rollout import Result
 
 
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     option("--videos", "films for the report", type=int, default=0, metavar="N", shown="0"),
     option("--no-pictures", "no pictures in the report", action="store_true"),
     *SETTINGS,
+    JSON,
     examples="""
     pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
     pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
@@ -69,13 +72,23 @@ def evaluate(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.analysis.summary import show_summary, summarise
 
     summary = summarise(done, options.interval)
-    show_summary(console(), summary)
     write_report(done, summary, videos=options.videos, pictures=not options.no_pictures)
+    if options.json:
+        from pat3d.cli.documents import evaluation_facts
+
+        print_facts(evaluation_facts(done, summary))
+        return _scored(done)
+    show_summary(console(), summary)
     clipped = sum(one.clipped for one in done.results)
     if clipped:
         values = sum(one.actions.size for one in done.results)
         console().print(f"clipped: {clipped} of {values} action values were out of [-1, 1]", markup=False)
     console().print(f"report: {done.folder / 'report.html'}", markup=False, soft_wrap=True)
+    return _scored(done)
+
+
+def _scored(done: Evaluation) -> int:
+    """1 where every episode ended by an error of the policy, which is told; else 0."""
     if all(one.outcome == "policy_error" for one in done.results):
         reasons = Counter(one.reason for one in done.results)
         return verdict((f"every episode ended by an error of the policy, {reasons.most_common(1)[0][0]}: no score.",))
@@ -85,6 +98,7 @@ def evaluate(options: argparse.Namespace) -> int:
 @command(
     option("first", "what evaluate wrote", metavar="FOLDER"),
     option("second", "the same episodes by another policy", metavar="FOLDER"),
+    JSON,
     examples="""
     pat3d evaluate --policy scripted --episodes 50 --out eval/a
     pat3d evaluate --policy random --episodes 50 --out eval/b
@@ -97,12 +111,18 @@ def compare(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.records import read_evaluation
 
     found = compare_evaluations(read_evaluation(options.first), read_evaluation(options.second))
-    show_comparison(console(), found)
+    if options.json:
+        from pat3d.cli.documents import comparison_facts
+
+        print_facts(comparison_facts(found))
+    else:
+        show_comparison(console(), found)
     return 0
 
 
 @command(
     option("folders", "what evaluate wrote", metavar="FOLDER", nargs="+"),
+    JSON,
     examples="""
     pat3d leaderboard eval/*
     """,
@@ -112,7 +132,13 @@ def leaderboard(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.analysis.compare import show_leaderboard
     from pat3d.policies_eval.run.records import read_evaluation
 
-    show_leaderboard(console(), [read_evaluation(folder) for folder in options.folders])
+    evaluations = [read_evaluation(folder) for folder in options.folders]
+    if options.json:
+        from pat3d.cli.documents import ranked_facts
+
+        print_facts(ranked_facts(evaluations))
+    else:
+        show_leaderboard(console(), evaluations)
     return 0
 
 
@@ -123,6 +149,7 @@ def leaderboard(options: argparse.Namespace) -> int:
     option("--picture", "moments of the episode side by side", metavar="FILE.png"),
     option("--camera", "agentview, frontview or wrist", default="agentview"),
     option("--size", "of video and moments [pixel]", default="320x240", metavar="WxH"),
+    JSON,
     examples="""
     pat3d replay eval/a --episode 17 --video out.mp4
     pat3d replay eval/a                    do every episode again and compare every state
@@ -134,16 +161,29 @@ def replay(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.replay import replay_episodes
 
     with watch(console(stderr=True)) as progress:
-        return replay_episodes(
+        found = replay_episodes(
             read_evaluation(options.folder),
             options.episode,
             video=options.video,
             picture=options.picture,
             camera=options.camera,
             size=_size(options.size),
-            target=console(),
+            target=console(stderr=options.json),
             progress=progress,
         )
+    if options.json:
+        from pat3d.cli.documents import ReplayFacts
+
+        print_facts(
+            ReplayFacts(
+                folder=options.folder,
+                passed=not found.different,
+                replayed=found.episodes,
+                different=list(found.different),
+                files=[str(path) for path in found.files],
+            )
+        )
+    return 1 if found.different else 0
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -8,7 +8,9 @@ from pat3d.assets.library.index import CPU_LIMIT, Library, add_library, library_
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.library.store import Entry
 from pat3d.cli.console import console, watch
+from pat3d.cli.documents import library_facts, library_object_facts
 from pat3d.cli.gallery import write_gallery
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option, with_verbs
 from pat3d.errors import AssetError, SpecError
 
@@ -20,6 +22,7 @@ from pat3d.errors import AssetError, SpecError
     option("--workers", "processes", type=int, default=None, shown="one a core"),
     option("--cpu-limit", "processor time that one object may take [s]", type=float, default=CPU_LIMIT),
     option("--no-pictures", "write the gallery without pictures", action="store_true"),
+    JSON,
     examples="""
     pat3d library add ~/ycb --name ycb
     pat3d library add ~/ycb --name ycb          goes on where it stopped; only what has changed is read again
@@ -42,15 +45,21 @@ def add(options: argparse.Namespace) -> int:
             progress=progress,
         )
         page = write_gallery(library, pictures=not options.no_pictures, progress=progress)
+    if options.json:
+        print_facts(library_facts(library))
+        return 0 if library.ready else 1
     _told(library)
     console().print(f"gallery: {page}", markup=False, soft_wrap=True)
     return 0 if library.ready else 1
 
 
-@command(summary="every library that is indexed")
+@command(JSON, summary="every library that is indexed")
 def list_all(options: argparse.Namespace) -> int:
     """`pat3d library list`."""
     names = library_names()
+    if options.json:
+        print_facts([library_facts(open_library(name)) for name in names])
+        return 0
     if not names:
         console().print("no libraries yet; pat3d library add FOLDER --name NAME", markup=False)
     for name in names:
@@ -64,6 +73,7 @@ def list_all(options: argparse.Namespace) -> int:
 
 @command(
     option("name", "a library, or an object of one by its key or by what it is called", metavar="NAME[/OBJECT]"),
+    JSON,
     examples="""
     pat3d library show ycb
     pat3d library show ycb/drill
@@ -74,6 +84,9 @@ def show(options: argparse.Namespace) -> int:
     """`pat3d library show`."""
     name, _, said = options.name.partition("/")
     library = open_library(name)
+    if options.json:
+        print_facts(library_object_facts(_entry(library, said)) if said else library_facts(library))
+        return 0
     if not said:
         for entry in library.entries:
             facts = entry.reason if entry.state != "ready" else _size(entry)
@@ -112,10 +125,16 @@ def search(options: argparse.Namespace) -> int:
 
 @command(
     option("name", "a library", metavar="NAME"),
+    JSON,
     summary="forget a library: its index is removed, its objects stay",
 )
 def remove(options: argparse.Namespace) -> int:
     """`pat3d library remove`."""
+    if options.json:
+        facts = library_facts(open_library(options.name))
+        remove_library(options.name)
+        print_facts(facts)
+        return 0
     source = remove_library(options.name)
     console().print(f"removed the index of {options.name}; {source} is as it was.", markup=False, soft_wrap=True)
     return 0

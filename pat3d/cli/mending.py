@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from pat3d.cli.console import console, show_optimized, verdict, watch
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, fields
 from pat3d.cli.settling import DEVICE, OUT, SCENE
 from pat3d.generation.optimize_stage import available, missing
@@ -24,6 +25,7 @@ from pat3d.optimize.optimize import OptimizeOptions
         seed="of the layouts tried",
     ),
     *DEVICE,
+    JSON,
     examples="""
     pat3d optimize scenes/tower                    mend the scene in its folder
     pat3d optimize scenes/tower --out scenes/mend  write another folder, leave this one as it is
@@ -46,5 +48,20 @@ def optimize(options: argparse.Namespace) -> int:
             device=options.device,
             progress=progress,
         )
-    show_optimized(console(), outcome)
+    if options.json:
+        from pat3d.cli.documents import optimized_facts
+        from pat3d.generation.facts import outcome_facts
+
+        facts = outcome_facts(
+            outcome.scene,
+            folder=outcome.folder,
+            failures=outcome.failures,
+            verification=outcome.verification,
+            exports=outcome.exports,
+            seconds=outcome.seconds,
+        )
+        kept = outcome.optimized.settled is not None
+        print_facts(optimized_facts(facts, outcome.optimized.record(kept=kept), outcome.edited))
+    else:
+        show_optimized(console(), outcome)
     return verdict(outcome.failures)

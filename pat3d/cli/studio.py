@@ -10,12 +10,14 @@ from pat3d.errors import SpecError
 
 
 @command(
-    option("folder", "scene folder to open", metavar="SCENE", nargs="?"),
-    option("--root", "scenes are saved as its subfolders", metavar="FOLDER", shown="where SCENE is, else scenes"),
+    option("folders", "a scene, a suite, or one or two evaluations of the same episodes", metavar="FOLDER", nargs="*"),
+    option("--root", "scenes are saved as its subfolders", metavar="FOLDER", shown="where the scene is, else scenes"),
     option("--host", "address to listen at; any but this machine's own needs a token", default="127.0.0.1"),
     option("--port", "0 for any that is free", type=int, default=8790),
     examples="""
     pat3d studio scenes/desk
+    pat3d studio suites/tabletop                    a gallery of its scenes, with filters
+    pat3d studio eval/picker eval/scripted          episodes of both side by side, with timelines of their states
     pat3d studio                                    begins with an empty page and a field for a sentence
     pat3d studio scenes/desk --host 0.0.0.0         for other machines; prints an address with a token
     """,
@@ -27,7 +29,7 @@ def studio(options: argparse.Namespace) -> int:
         raise SpecError(f"--port {options.port}: give 0 to 65535.")
     from pat3d.studio.server import opened
 
-    with opened(options.folder, root=options.root, host=options.host, port=options.port) as made:
+    with opened(*options.folders, root=options.root, host=options.host, port=options.port) as made:
         print(f"open {made.address}    (Ctrl-C ends the studio)", flush=True)
         try:
             threading.Event().wait()

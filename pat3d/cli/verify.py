@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import CheckError, SpecError
 from pat3d.progress import Event
@@ -27,6 +28,7 @@ MOST_ROWS = 60
     option("--seconds", "simulated time", type=float, default=STILL_SECONDS),
     option("--settle", "write the nearest layout at rest here, as MJCF", metavar="OUT.xml"),
     option("--report", "write everything that was found here, as JSON", metavar="OUT.json"),
+    JSON,
     examples="""
     pat3d verify scene.xml
     pat3d verify scene.xml --keyframe home --seconds 60
@@ -56,9 +58,16 @@ def verify(options: argparse.Namespace) -> int:
             write_settled(scene, settled, options.settle)
             progress(Event(stage="verifying", detail=Path(options.settle).name))
             again = verify_foreign(load_foreign(options.settle), seconds=options.seconds)
-    show(report)
     if options.report:
         write_json(Path(options.report), report.as_dict())
+    if options.json:
+        from pat3d.cli.documents import foreign_facts
+
+        if settled is not None:
+            _require_rest(settled, Path(options.settle))
+        print_facts(foreign_facts(report, None if settled is None else (options.settle, settled, again)))
+        return verdict(report.failures if settled is None else again.failures)
+    show(report)
     if settled is None:
         return verdict(report.failures)
     _tell(settled, Path(options.settle))
@@ -95,9 +104,13 @@ def show(report: ForeignReport) -> None:
         target.print(f"note  {note}", markup=False)
 
 
-def _tell(settled: SettledForeign, out: Path) -> None:
+def _require_rest(settled: SettledForeign, out: Path) -> None:
     if not settled.at_rest:
         raise CheckError(f"the scene does not come to rest in MuJoCo; {out} holds the last state.")
+
+
+def _tell(settled: SettledForeign, out: Path) -> None:
+    _require_rest(settled, out)
     far = sorted(settled.moved_mm.items(), key=lambda item: -item[1])[:5]
     moved = ", ".join(f'"{name}" {millimetres:.1f} mm' for name, millimetres in far)
     console().print(f"\nsettled: {out} ({moved})\n", markup=False, soft_wrap=True)

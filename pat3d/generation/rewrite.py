@@ -20,8 +20,9 @@ from pat3d.scene.folder import OWN, read_json, replacing, write_json
 from pat3d.scene.io import load_scene, save_scene
 from pat3d.scene.model import Scene
 
-_STALE = ("inputs", "reused", "delivered_attempt", "edits")
-"""Of a report: what would let --resume of another command take the changed scene for its own, and earlier edits."""
+_STALE = ("inputs", "reused", "delivered_attempt", "edits", "engines")
+"""Of a report: what would let --resume of another command take the changed scene for its own, earlier edits, and what
+other engines did with the scene as it was."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

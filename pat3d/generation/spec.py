@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from pat3d.errors import AssetError, Pat3dError, PromptError, SpecError
+from pat3d.errors import AssetError, CheckError, ExportError, Pat3dError, PromptError, SpecError
 from pat3d.generation.optimize_stage import GIVEN
 from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed, foreign_assets
 from pat3d.generation.spec_schema import BUILD_SCHEMA
@@ -29,8 +29,13 @@ LIGHTEST, HEAVIEST = 1e-5, 1e5
 """Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
 held to, heavier ones sink through what carries them."""
 
+SOURCES = ("noun", "mesh", "model")
+"""Where an object comes from: one of them."""
+
 MESH_KEYS = ("units", "up", "parts", "threshold", "max_hulls", "decomposition_limit", "thickness")
 NOUN_KEYS = ("colour", "colours")
+MODEL_KEYS = ("scale", "size", "material")
+"""What decides about objects that are made, not about a model, which says it itself."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -60,7 +65,7 @@ class Spec:
     def request(self, budget: CpuBudget | None = None) -> SceneRequest:
         """What to make; decompositions take no more of the processor than `budget` has left."""
         document = self.source.document
-        hashes = [_hash(self._mesh(obj)) if "mesh" in obj else None for obj in self.objects]
+        hashes = [_hash(path) if (path := self._file(obj)) is not None else None for obj in self.objects]
         return SceneRequest(
             prompt="",
             names=tuple(obj["name"] for obj in self.objects),
@@ -87,6 +92,7 @@ class Spec:
         """The assets, in the order of the specification."""
         found: list[UnplacedObject] = []
         same: dict[int, tuple[Asset, Asset]] = {}
+        models: dict[Path, Asset] = {}
         # Of what carries one thing together, the same noun is the same thing: a pyramid needs cans of one height.
         together = built_together([obj["name"] for obj in self.objects], self.relations)
         for number, obj in enumerate(self.objects):
@@ -94,16 +100,19 @@ class Spec:
             name: str = obj["name"]
             own = derived_seed(seed, together.get(name, name))
             try:
-                made = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
-            except (AssetError, PromptError) as error:
-                key = "mesh" if "mesh" in obj else "noun"
+                if "model" in obj:
+                    made = self._model(obj, models, budget.left)
+                else:
+                    made = self._import(obj, budget.left) if "mesh" in obj else _from_catalogue(obj, own)
+            except (AssetError, PromptError, CheckError, ExportError) as error:
+                key = next(one for one in SOURCES if one in obj)
                 place = ("objects", number, key)
                 raise self.source.error(place, f'"{obj["name"]}": {error}') from error
             # One asset is stored once. What was made is kept beside it, so that its identity is not used again.
             _, asset = same.setdefault(id(made), (made, _timeless(made)))
             mass = asset.mass_properties.mass
             if not LIGHTEST <= mass <= HEAVIEST:
-                key = next((key for key in ("mass", "density", "mesh") if key in obj), "noun")
+                key = next((key for key in ("mass", "density", "mesh", "model") if key in obj), "noun")
                 raise self.source.error(
                     ("objects", number, key),
                     f'"{obj["name"]}" has a mass of {mass:.3g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be simulated.',
@@ -119,13 +128,26 @@ class Spec:
             )
         return tuple(found)
 
-    def _mesh(self, obj: Mapping[str, Any]) -> Path:
-        return self.source.path.parent / os.path.expanduser(obj["mesh"])
+    def _file(self, obj: Mapping[str, Any]) -> Path | None:
+        """The file that an object comes from; None for nouns."""
+        said = obj.get("mesh", obj.get("model"))
+        return None if said is None else self.source.path.parent / os.path.expanduser(said)
+
+    def _model(self, obj: Mapping[str, Any], known: dict[Path, Asset], cpu_limit: float | None) -> Asset:
+        """The object of a description, read once, with the mass and the friction that `obj` asks for."""
+        from pat3d.importers.scene import import_object
+
+        path = self.source.path.parent / os.path.expanduser(obj["model"])
+        if path not in known:
+            home = self.source.path.parent.resolve()
+            root = home if path.resolve().is_relative_to(home) else None
+            known[path] = import_object(path, root=root, cpu_limit=cpu_limit)
+        return _weighing(known[path], obj)
 
     def _import(self, obj: Mapping[str, Any], cpu_limit: float | None) -> Asset:
         from pat3d.assets.mesh.importing import import_mesh
 
-        path = self._mesh(obj)
+        path = self.source.path.parent / os.path.expanduser(obj["mesh"])
         keys = ("scale", "size", "density", "mass", "friction", "material", *MESH_KEYS)
         # Textures often lie in a folder beside the meshes'; anywhere under the specification is the user's own data.
         home = self.source.path.parent.resolve()
@@ -208,14 +230,17 @@ def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) 
         if name == GROUND:
             raise source.error((*place, "name"), f'"{GROUND}" is the plane z = 0; choose another name.')
         seen[name] = number
-        if ("noun" in obj) == ("mesh" in obj):
-            raise source.error(place, f'"{name}" needs either a noun from the catalogue or a mesh file.')
+        if sum(key in obj for key in SOURCES) != 1:
+            raise source.error(place, f'"{name}" needs either a noun from the catalogue, a mesh file or a model file.')
         for pair in (("mass", "density"), ("size", "scale"), ("size", "units"), ("colour", "colours")):
             if all(key in obj for key in pair):
                 raise source.error((*place, pair[1]), f'"{name}": give {pair[0]} or {pair[1]}, not both.')
-        wrong = next((key for key in (MESH_KEYS if "noun" in obj else NOUN_KEYS) if key in obj), None)
+        foreign = MESH_KEYS if "noun" in obj else NOUN_KEYS
+        if "model" in obj:
+            foreign = (*MESH_KEYS, *NOUN_KEYS, *MODEL_KEYS)
+        wrong = next((key for key in foreign if key in obj), None)
         if wrong:
-            other = "meshes" if "noun" in obj else "catalogue nouns"
+            other = "meshes" if wrong in MESH_KEYS else "catalogue nouns" if wrong in NOUN_KEYS else "what is no model"
             raise source.error((*place, wrong), f'"{wrong}" is for {other} only.')
         if "noun" in obj:
             if APART in obj["noun"]:
@@ -228,8 +253,10 @@ def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) 
                 raise source.error((*place, "noun"), f'"{obj["noun"]}" is not in the catalogue.{near}')
             if isinstance(obj.get("size"), list):
                 raise source.error((*place, "size"), "the size of a noun is one length, its longest side [m].")
-        elif not (folder / os.path.expanduser(obj["mesh"])).is_file():
-            raise source.error((*place, "mesh"), f'there is no mesh file "{obj["mesh"]}" in {folder.resolve()}.')
+        else:
+            key = "mesh" if "mesh" in obj else "model"
+            if not (folder / os.path.expanduser(obj[key])).is_file():
+                raise source.error((*place, key), f'there is no {key} file "{obj[key]}" in {folder.resolve()}.')
 
 
 def _pose(source: Source, number: int, entry: Mapping[str, Any]) -> Pose:
@@ -267,6 +294,13 @@ def _from_catalogue(obj: Mapping[str, Any], seed: int) -> Asset:
     asset = made(float(obj.get("scale", 1.0)))
     if "size" in obj:
         asset = made(float(obj["size"]) / float(asset.size.max()))
+    return _weighing(asset, obj)
+
+
+def _weighing(asset: Asset, obj: Mapping[str, Any]) -> Asset:
+    """`asset` with the mass and the friction that `obj` asks for, if any."""
+    if not {"mass", "density", "friction"} & obj.keys():
+        return asset
     properties, material = asset.mass_properties, asset.material
     mass = obj.get("mass", obj["density"] * properties.volume if "density" in obj else None)
     if mass is not None:

@@ -46,6 +46,13 @@ _OBJECT = {
             "maxLength": 1000,
             "description": "OBJ, STL, PLY, OFF, GLB or glTF file instead of a noun, relative to this file.",
         },
+        "model": {
+            "type": "string",
+            "minLength": 1,
+            "maxLength": 1000,
+            "description": "MJCF, URDF, SDF or USD file of one rigid object instead of a noun, relative to this file: "
+            "its collision shapes, mass, inertia and friction are kept.",
+        },
         "colour": {**_NAME, "description": "Main colour of a noun."},
         "colours": {"type": "array", "items": _NAME, "minItems": 1, "maxItems": 16, "description": "Of a noun."},
         "material": {**_NAME, "description": "Decides density and friction where they are not given."},

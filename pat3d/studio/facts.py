@@ -54,12 +54,26 @@ def about(session: Session) -> str:
     return "\n".join(lines)
 
 
+def changed(session: Session) -> str:
+    """What the edits changed, a row for every object that moved; empty where they are not settled."""
+    changes = session.current.changes
+    if changes is None:
+        return ""
+    lines = [f"Added: {plain(', '.join(changes.added))}"] if changes.added else []
+    lines += [f"Removed: {plain(', '.join(changes.removed))}"] if changes.removed else []
+    moved = sorted(changes.moved.items(), key=lambda one: -one[1].mm)
+    rows = [f"| {plain(name)} | {one.mm:.2f} | {one.degrees:.2f} |" for name, one in moved]
+    return "\n".join(
+        [*(f"- {line}" for line in lines), "", "| moved by | mm | degrees |", "| --- | --- | --- |", *rows]
+    )
+
+
 def verdict(session: Session) -> str:
     """Whether the scene is verified, and by how much."""
     found = session.verification
     if not found:
         if session.at_rest:
-            return "Not verified: the folder has no report."
+            return "Its folder has no report of a verification."
         waiting = len(session.current.edits)
         return f"{waiting} edit{'s' if waiting > 1 else ''} to be settled: {plain('; '.join(_said(session)))}"
     certificate = _part(found, "certificate")
@@ -103,7 +117,7 @@ def _drifts(verification: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """Of every object, of its centre of mass [mm] and [degrees]."""
     found = {}
     objects = _part(verification, "mujoco").get("objects")
-    for one in objects if isinstance(objects, list) else ():
+    for one in objects if isinstance(objects, list | tuple) else ():
         if isinstance(one, dict):
             name, mm, degrees = one.get("name"), one.get("centre_mm"), one.get("degrees")
             if isinstance(mm, int | float) and isinstance(degrees, int | float):

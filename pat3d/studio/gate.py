@@ -43,16 +43,18 @@ class Gate:
         """
         self.inner, self._token = inner, token
         self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True, name="pat3d studio gate")
+        self._thread.start()
+        # In its own thread from the beginning: a notebook's thread has a loop that runs already.
+        starting = asyncio.start_server(self._serve, host, port, limit=MAX_HEAD)
         try:
-            self._server = self._loop.run_until_complete(asyncio.start_server(self._serve, host, port, limit=MAX_HEAD))
+            self._server = asyncio.run_coroutine_threadsafe(starting, self._loop).result()
         except OSError as error:
-            self._loop.close()
+            self._end_loop()
             raise EnvironmentSetupError(
                 f"{host}:{port} cannot be used ({error.strerror or error}). Give another: --port 0."
             ) from error
         self.port = int(self._server.sockets[0].getsockname()[1])
-        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True, name="pat3d studio gate")
-        self._thread.start()
 
     def close(self) -> None:
         """Let nobody through any more."""
@@ -65,6 +67,9 @@ class Gate:
             await asyncio.gather(*waiting, return_exceptions=True)
 
         asyncio.run_coroutine_threadsafe(end(), self._loop).result()
+        self._end_loop()
+
+    def _end_loop(self) -> None:
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()

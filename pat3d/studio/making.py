@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from pat3d.errors import CheckError, PromptError
-from pat3d.progress import Progress
+from pat3d.errors import PromptError
+from pat3d.progress import Progress, silent
+from pat3d.studio.jobs import generated
 from pat3d.studio.session import MAX_WORDS, Session
+from pat3d.studio.worker import Run, here
 
 
 @lru_cache(maxsize=32)
@@ -25,7 +27,9 @@ def told(sentence: str) -> str:
     return f"{tell(plan)} {notes}".strip()
 
 
-def made(now: Session | None, sentence: str, *, seed: int, folder: Path, progress: Progress) -> tuple[Session, str]:
+def made(
+    now: Session | None, sentence: str, *, seed: int, folder: Path, progress: Progress = silent, run: Run = here
+) -> tuple[Session, str]:
     """The scene that `sentence` describes, as the next step of the session `now`, and what to say of it.
 
     Args:
@@ -34,23 +38,17 @@ def made(now: Session | None, sentence: str, *, seed: int, folder: Path, progres
         seed: the same seed gives the same scene.
         folder: written; it has to stay while the session is used.
         progress: told of the stages.
+        run: does the work.
 
     Raises:
-        PromptError: the sentence cannot be read.
-        LayoutError: something does not fit.
-        SimulationError: the layout cannot be simulated.
-        CheckError: no attempt passed the verification.
+        Pat3dError: as `generated`.
     """
     from pat3d.generation.editing.editable import load
-    from pat3d.generation.pipeline import run_prompt
-    from pat3d.generation.settings import Settings
 
-    outcome = run_prompt(_checked(sentence), out=folder, settings=Settings(seed=seed), progress=progress)
-    if outcome.report.failures:
-        raise CheckError(f"no attempt passed its verification: {outcome.report.failures[0]}")
+    seconds = run(generated, _checked(sentence), seed, folder, progress=progress)
     scene = load(folder)
     session = Session(current=scene) if now is None else now.stepped(scene)
-    return session, f"made and verified in {outcome.report.seconds['total']:.1f} s."
+    return session, f"made and verified in {seconds:.1f} s."
 
 
 def _checked(sentence: str) -> str:

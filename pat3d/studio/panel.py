@@ -6,14 +6,16 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import Pat3dError
-from pat3d.exporters.formats import FORMATS, VIEWS, has_usd
+from pat3d.exporters.formats import FORMATS, NEED_USD, VIEWS, has_usd
 from pat3d.geometry.pose import Pose
-from pat3d.progress import Progress
 from pat3d.studio import facts
 from pat3d.studio.session import Session
+from pat3d.studio.settling import SettlingFolder
+from pat3d.studio.status import StatusLine
 from pat3d.studio.store import Store
 from pat3d.studio.view import Shown, View
-from pat3d.studio.workbench import Workbench, needed
+from pat3d.studio.workbench import Watch, Workbench, needed
+from pat3d.studio.worker import Run, here
 
 if TYPE_CHECKING:
     import viser
@@ -25,17 +27,26 @@ _VERBS = ("move", "turn", "replace", "scale", "set", "fix", "free")
 class Panel:
     """The interface of one server; all browsers see the same."""
 
-    def __init__(self, server: viser.ViserServer, bench: Workbench, store: Store, name: str) -> None:
-        """Show `bench`; scenes are saved into `store`, under `name` where nobody says another."""
-        self._bench, self._store = bench, store
+    def __init__(
+        self, server: viser.ViserServer, bench: Workbench, status: StatusLine, store: Store, name: str, run: Run = here
+    ) -> None:
+        """Show `bench`; scenes are saved into `store`, under `name` where nobody says another; `run` does long work."""
+        self._bench, self._status, self._store, self._run = bench, status, store, run
         self._drawing = threading.RLock()
         self._filling = False
+        self._veiled = False
         self._view = View(server, self._click, self._drag)
         self.gui: Any = server.gui
         self.scene: Any = server.scene
+        self.server = server
         self._build(name)
         bench.changed = self.show
         self._looked: Any = None
+        self.show()
+
+    def veil(self, veiled: bool) -> None:
+        """Take the scene out of sight, or show it again."""
+        self._veiled, self._looked = veiled, None
         self.show()
 
     def show(self) -> None:
@@ -44,7 +55,7 @@ class Panel:
             session, status = self._bench.session, self._bench.status
             self._filling = True
             try:
-                self._show_status(status)
+                self._status.show()
                 if status.working and session is self._looked:
                     return
                 self._show_session(session)
@@ -52,34 +63,33 @@ class Panel:
                 self._filling = False
 
     @property
+    def name(self) -> str:
+        """Under which scenes are saved."""
+        return self._name.value
+
+    @property
     def verdict(self) -> str:
         """What it says of the scene as a whole, in Markdown."""
         return self._verdict.content
 
-    def _show_status(self, status: Any) -> None:
-        if status.working:
-            said = f"**{status.working}**: {facts.plain(status.stage)}"
-        else:
-            said = f"{'**Refused:** ' if status.failed else ''}{facts.plain(status.said)}" if status.said else "Ready."
-        if said != self._status.content:
-            self._status.content = said
-        self._bar.visible = self._stop.visible = bool(status.working)
-        self._bar.value = 100.0 * (status.share or 0.0)
-
     def _show_session(self, session: Session | None) -> None:
-        if session is not None and (self._looked is None or self._looked.current.folder != session.current.folder):
+        before, self._looked = self._looked, session
+        other = session is not None and (before is None or before.current.folder != session.current.folder)
+        if session is not None and other and not self._veiled:
             self._view.look_at(session.scene)
-        self._looked = session
-        shown = Shown(**{name: box.value for name, box in self._boxes.items()})
-        self._view.draw(session, shown)
+        self._draw()
+        self._settling.show(session)
         if session is None:
             self._told.content = "No scene yet. Write a sentence below and press **Make**."
-            self._table.content = self._about.content = self._verdict.content = ""
+            for button in (self._settle, self._undo, self._redo, self._delete):
+                button.disabled = True
+            self._table.content = self._about.content = self._verdict.content = self._changed.content = ""
             return
         self._told.content = _told(session)
         self._verdict.content = facts.verdict(session)
         self._table.content = facts.table(session)
         self._about.content = facts.about(session)
+        self._changed.content = facts.changed(session)
         self._list.options = (NOTHING, *(obj.name for obj in session.scene.objects))
         self._list.value = session.selected or NOTHING
         self._undo.disabled, self._redo.disabled = not session.past, not session.future
@@ -88,10 +98,6 @@ class Panel:
 
     def _build(self, name: str) -> None:
         gui = self.gui
-        self._status = gui.add_markdown("Ready.")
-        self._bar = gui.add_progress_bar(0.0, animated=True, visible=False)
-        self._stop = gui.add_button("Cancel", color="red", visible=False)
-        self._stop.on_click(lambda _: self._bench.cancel())
         with gui.add_folder("Scene"):
             self._told = gui.add_markdown("")
             self._verdict = gui.add_markdown("")
@@ -100,6 +106,7 @@ class Panel:
                 "hulls": gui.add_checkbox("Convex hulls", False),
                 "forces": gui.add_checkbox("Contact forces", False),
                 "ghost": gui.add_checkbox("Initial layout", False),
+                "before": gui.add_checkbox("Before the edits", False),
             }
             for box in self._boxes.values():
                 box.on_update(lambda _: self._toggle())
@@ -108,7 +115,7 @@ class Panel:
             self._list.on_update(lambda _: self._choose())
             self._about = gui.add_markdown("")
             self._settle = gui.add_button("Settle", color="green", hint="bring it to rest and verify it")
-            self._settle.on_click(lambda _: self._bench.start("Settling", _settle))
+            self._settle.on_click(lambda _: self._bench.start("Settling", self._settled))
             self._undo, self._redo = gui.add_button("Undo"), gui.add_button("Redo")
             self._undo.on_click(lambda _: self._bench.do(lambda now: needed(now).undone()))
             self._redo.on_click(lambda _: self._bench.do(lambda now: needed(now).redone()))
@@ -121,10 +128,12 @@ class Panel:
             gui.add_button("Do it").on_click(lambda _: self._edit(self._verb.value, self._words.value))
         with gui.add_folder("Objects"):
             self._table = gui.add_markdown("")
+            self._changed = gui.add_markdown("")
+        self._settling = SettlingFolder(gui, self._view)
         with gui.add_folder("Save and export", expand_by_default=False):
             self._name = gui.add_text("Name", name, hint="a subfolder of the studio's folder")
             gui.add_button("Save").on_click(lambda _: self._save())
-            kinds = [one for one in (*FORMATS, *VIEWS) if one != "usd" or has_usd()]
+            kinds = [one for one in (*FORMATS, *VIEWS) if one not in NEED_USD or has_usd()]
             self._formats = {one: gui.add_checkbox(one, one == "mjcf") for one in kinds}
             gui.add_button("Export").on_click(lambda _: self._export())
         with gui.add_folder("New scene"):
@@ -150,11 +159,15 @@ class Panel:
 
     def _toggle(self) -> None:
         with self._drawing:
-            self._view.draw(self._bench.session, Shown(**{name: box.value for name, box in self._boxes.items()}))
+            self._draw()
+
+    def _draw(self) -> None:
+        shown = Shown(**{name: box.value for name, box in self._boxes.items()})
+        self._view.draw(None if self._veiled else self._bench.session, shown)
 
     def _edit(self, verb: str, words: str) -> None:
-        def work(now: Session | None, progress: Progress) -> tuple[Session, str]:
-            found = needed(now).edited(verb, words)
+        def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
+            found = needed(now).edited(verb, words, progress=progress, run=self._run)
             return found, "; ".join(found.current.draft.notes[-3:])
 
         # Adding makes assets, which can take seconds.
@@ -163,18 +176,18 @@ class Panel:
     def _save(self) -> None:
         name = self._name.value
 
-        def work(now: Session | None, progress: Progress) -> tuple[Session, str]:
+        def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
             session = needed(now)
-            return session, f"saved: {self._store.saved(session, name, progress)}"
+            return session, f"saved: {self._store.saved(session, name, progress, run=self._run)}"
 
         self._bench.start("Saving", work)
 
     def _export(self) -> None:
         name, formats = self._name.value, [kind for kind, box in self._formats.items() if box.value]
 
-        def work(now: Session | None, progress: Progress) -> tuple[Session, str]:
+        def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
             session = needed(now)
-            paths = self._store.exported(session, name, formats, progress)
+            paths = self._store.exported(session, name, formats, progress, run=self._run)
             return session, f"exported and read back: {', '.join(map(str, paths))}"
 
         self._bench.start("Exporting", work)
@@ -190,23 +203,23 @@ class Panel:
 
         sentence, seed = self._prompt.value, int(self._seed.value)
 
-        def work(now: Session | None, progress: Progress) -> tuple[Session, str]:
-            session, said = made(now, sentence, seed=seed, folder=self._store.fresh(), progress=progress)
+        def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
+            folder = self._store.fresh()
+            session, said = made(now, sentence, seed=seed, folder=folder, progress=progress, run=self._run)
             self._name.value = self._store.name_for(sentence)
             return session, said
 
         self._bench.start("Making", work)
 
-
-def _settle(now: Session | None, progress: Progress) -> tuple[Session, str]:
-    session = needed(now).settled(progress)
-    changes = session.current.changes
-    farthest = None if changes is None else changes.farthest
-    if changes is None or farthest is None:
-        return session, "settled and verified."
-    name, motion = farthest
-    lines = [f'settled and verified. Moved farthest: "{name}" by {motion.mm:.1f} mm.', *changes.notes, *changes.broke]
-    return session, " ".join(lines)
+    def _settled(self, now: Session | None, progress: Watch) -> tuple[Session, str]:
+        session = needed(now).settled(progress, run=self._run)
+        changes = session.current.changes
+        farthest = None if changes is None else changes.farthest
+        if changes is None or farthest is None:
+            return session, "settled and verified."
+        name, motion = farthest
+        moved = f'settled and verified. Moved farthest: "{name}" by {motion.mm:.1f} mm.'
+        return session, " ".join((moved, *changes.notes, *changes.broke))
 
 
 def _told(session: Session) -> str:

@@ -5,19 +5,30 @@ from __future__ import annotations
 import io
 import secrets
 import socket
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Literal
 
+from pat3d.errors import SpecError
 from pat3d.mcp_server.root import Root
+from pat3d.progress import Event
+from pat3d.studio.episodes import MOST, Episodes
+from pat3d.studio.gallery import Gallery
 from pat3d.studio.gate import Gate, is_loopback
 from pat3d.studio.panel import Panel
+from pat3d.studio.session import Session
+from pat3d.studio.status import StatusLine
 from pat3d.studio.store import Store, name_of
-from pat3d.studio.workbench import Workbench
+from pat3d.studio.workbench import Watch, Workbench
+from pat3d.studio.worker import Run, Worker
 
 PORT = 8790
 """Where nobody says another."""
+
+Page = Panel | Episodes
+"""What a browser shows."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,33 +39,38 @@ class Studio:
     """To open in a browser; with the token where one is needed."""
     bench: Workbench
     store: Store
-    panel: Panel
+    page: Page
 
 
 @contextmanager
 def opened(
-    scene: str | Path | None = None, *, root: str | Path | None = None, host: str = "127.0.0.1", port: int = PORT
+    *shown: str | Path, root: str | Path | None = None, host: str = "127.0.0.1", port: int = PORT
 ) -> Iterator[Studio]:
     """A studio that serves browsers until the block ends.
 
     Args:
-        scene: folder to open; None to begin without.
-        root: folder that scenes are saved in; the one that `scene` is in where None, else "scenes".
+        shown: a folder with a scene or a suite, or one or two with evaluations; none to begin without.
+        root: folder that scenes are saved in; where None the one that the scene is in, else "scenes".
         host: address to listen at. Other machines reach any but the loopback, and need the token of the address.
         port: 0 for any that is free.
 
     Raises:
-        SpecError: there is no scene, or no such root.
+        SpecError: there is no scene, or no such root; or the folders cannot be shown together.
+        SuiteError: the suite is unfinished or damaged.
+        EvaluationError: an evaluation cannot be read.
         EnvironmentSetupError: nothing can listen there.
     """
     import viser
 
     with ExitStack() as stack:
-        folder = None if scene is None else Path(scene).expanduser().absolute()
-        store = Store(Root.at(root if root is not None else "scenes" if folder is None else folder.parent))
+        folders = [Path(one).expanduser().absolute() for one in shown]
+        kind = kind_of(folders)
+        beside = "scenes" if kind != "scene" else folders[0].parent
+        store = Store(Root.at(root if root is not None else beside))
         stack.callback(store.close)
-        session = None if folder is None else store.opened(folder)
-        bench = Workbench(session)
+        bench = Workbench(store.opened(folders[0]) if kind == "scene" else None)
+        worker = Worker(store.scratch)
+        stack.callback(worker.close)
         with redirect_stdout(io.StringIO()):
             # viser prints its own address, which is not the one to open.
             server = viser.ViserServer(host="127.0.0.1", port=0, label="PAT3D studio", verbose=False)
@@ -62,11 +78,59 @@ def opened(
         stack.callback(bench.wait, 60.0)
         stack.callback(bench.cancel)
         server.gui.configure_theme(control_width="large", show_logo=False)
-        panel = Panel(server, bench, store, name_of(folder) if folder is not None else "scene")
+        page = _page(kind, server, folders, bench, store, worker.run)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         gate = Gate(host, port, inner=server.get_port(), token=token)
         stack.callback(gate.close)
         named = socket.gethostname() if host in ("0.0.0.0", "::", "") else host
         where = f"http://{f'[{named}]' if ':' in named else named}:{gate.port}/"
         address = where if token is None else f"{where}?token={token}"
-        yield Studio(address=address, bench=bench, store=store, panel=panel)
+        yield Studio(address=address, bench=bench, store=store, page=page)
+
+
+Kind = Literal["nothing", "scene", "suite", "evaluations"]
+
+
+def kind_of(folders: Sequence[Path]) -> Kind:
+    """What `folders` are, by the files in them.
+
+    Raises:
+        SpecError: they cannot be shown together.
+    """
+    if not folders:
+        return "nothing"
+    suites = [(folder / "suite.json").is_file() for folder in folders]
+    evaluations = [(folder / "manifest.json").is_file() for folder in folders]
+    if all(evaluations):
+        if len(folders) > MOST:
+            raise SpecError(f"{len(folders)} evaluations: {MOST} can be seen side by side.")
+        return "evaluations"
+    if len(folders) > 1:
+        raise SpecError("give one scene, one suite, or one or two evaluations; several folders have to be evaluations.")
+    return "suite" if suites[0] else "scene"
+
+
+def _page(kind: Kind, server: Any, folders: Sequence[Path], bench: Workbench, store: Store, run: Run) -> Page:
+    status = StatusLine(server.gui, bench)
+    if kind == "evaluations":
+        from pat3d.policies_eval.run.records import read_evaluation
+
+        return Episodes(server, bench, status, run, [read_evaluation(folder) for folder in folders])
+    if kind == "suite":
+        from pat3d.envs.suites.suite import Suite
+
+        suite = Suite.open(folders[0])
+
+        def take(folder: Path) -> None:
+            def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
+                progress(Event(stage="opening", detail=folder.name))
+                found = store.opened(folder)
+                gallery.hide()
+                panel.veil(False)
+                return found if now is None else now.stepped(found.current), f"opened {folder.name}."
+
+            bench.start("Opening", work)
+
+        gallery = Gallery(server, suite, take, lambda: panel.veil(True))
+    panel = Panel(server, bench, status, store, name_of(folders[0]) if kind == "scene" else "scene", run)
+    return panel

@@ -10,11 +10,12 @@ from typing import Any
 
 from pat3d.errors import EditError
 from pat3d.generation.editing.editable import EditableScene, load
-from pat3d.generation.editing.said import applied
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Progress, silent
 from pat3d.scene.folder import read_json
 from pat3d.scene.model import Scene
+from pat3d.studio import jobs
+from pat3d.studio.worker import Run, here
 
 MAX_WORDS = 4000
 """Longest text that is read [characters]."""
@@ -58,6 +59,11 @@ class Session:
         return self.current.verified is not None or not self.current.edits
 
     @property
+    def before(self) -> Scene | None:
+        """At rest as it was before the edits; None where nothing was edited."""
+        return self.current.before if self.current.edits else None
+
+    @property
     def verification(self) -> Mapping[str, Any]:
         """Plain data as in report.json, of the scene as it is; empty while edits wait, or where nobody verified it."""
         if self.current.verified is not None:
@@ -77,8 +83,8 @@ class Session:
             raise EditError(f'there is no "{name}". Objects: {", ".join(_names(self.scene))}.')
         return replace(self, selected=name)
 
-    def edited(self, verb: str, words: str) -> Session:
-        """After one edit, in the words of `pat3d edit`; what is new is selected.
+    def edited(self, verb: str, words: str, *, progress: Progress = silent, run: Run = here) -> Session:
+        """After one edit, in the words of `pat3d edit`; what is new is selected. `run` does the work.
 
         Raises:
             EditError: it cannot be, or its words cannot be read.
@@ -90,7 +96,8 @@ class Session:
             raise EditError(f"say what to {verb}.")
         if len(said) > MAX_WORDS:
             raise EditError(f"the text has {len(said)} characters; at most {MAX_WORDS} are read.")
-        found = self.stepped(applied(self.current, [(verb, said)]))
+        made = run(jobs.edited, self.current, verb, said, progress=progress)
+        found = self.stepped(jobs.with_assets_of(made, self.current))
         new = [name for name in _names(found.scene) if name not in _names(self.scene)]
         return replace(found, selected=new[0]) if new else found
 
@@ -121,14 +128,15 @@ class Session:
             scene = scene.turn(name, f"{turn:.2f} degrees")
         return self if scene is self.current else self.stepped(scene)
 
-    def settled(self, progress: Progress = silent) -> Session:
-        """At rest again and verified; a step that can be undone.
+    def settled(self, progress: Progress = silent, *, run: Run = here) -> Session:
+        """At rest again and verified; a step that can be undone. `run` does the work.
 
         Raises:
             EditError: it does not come to rest, something topples, or a check fails; the message says why.
             SimulationError: it cannot be simulated.
         """
-        return self.stepped(self.current.settle(progress=progress))
+        made = run(jobs.settled, self.current, progress=progress)
+        return self.stepped(jobs.with_assets_of(made, self.current))
 
     def undone(self) -> Session:
         """As before the last step.

@@ -14,11 +14,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from pat3d.errors import CheckError, EditError, ExportError, SpecError
+from pat3d.errors import EditError, ExportError, SpecError
 from pat3d.mcp_server.root import NAME, Root
-from pat3d.progress import Event, Progress, silent
+from pat3d.progress import Progress, silent
 from pat3d.scene.folder import check_target
+from pat3d.studio import jobs
 from pat3d.studio.session import Session
+from pat3d.studio.worker import Run, here
 
 
 class Store:
@@ -31,6 +33,11 @@ class Store:
         self._known: dict[Path, str] = {}
         self._copies = 0
 
+    @property
+    def scratch(self) -> Path:
+        """Where copies and temporary files are until `close`."""
+        return Path(self._scratch.name)
+
     def close(self) -> None:
         """Remove the copies; sessions that were opened cannot be saved any more."""
         self._scratch.cleanup()
@@ -38,7 +45,7 @@ class Store:
     def fresh(self) -> Path:
         """A folder that is not there yet, for a copy or a new scene."""
         self._copies += 1
-        return Path(self._scratch.name) / f"scene-{self._copies}"
+        return self.scratch / f"scene-{self._copies}"
 
     def opened(self, folder: str | Path) -> Session:
         """A copy of the scene in `folder`.
@@ -56,16 +63,14 @@ class Store:
             self._known[source.resolve()] = _state(source)
         return Session.opened(copy)
 
-    def saved(self, session: Session, name: str, progress: Progress = silent) -> Path:
-        """Write the scene, which is at rest, into the folder called `name` of the root.
+    def saved(self, session: Session, name: str, progress: Progress = silent, *, run: Run = here) -> Path:
+        """Write the scene, which is at rest, into the folder called `name` of the root. `run` does the work.
 
         Raises:
             SpecError: `name` is none.
             EditError: edits wait to be settled.
             ExportError: the folder holds a scene of somebody else, or cannot be written.
         """
-        from pat3d.generation.rewrite import copy_folder
-
         target = self._target(name)
         if not session.at_rest:
             raise EditError("edits wait to be settled: Settle first, then save. Nothing was written.")
@@ -75,16 +80,14 @@ class Store:
                     f'"{name}" holds a scene that was not opened here, or that was changed since; give another name. '
                     "Nothing was written."
                 )
-            if session.current.verified is None:
-                progress(Event(stage="writing the folder"))
-                copy_folder(session.current.folder, target)
-            else:
-                session.current.save(target, progress=progress)
+            run(jobs.saved, session.current, target, progress=progress)
             self._known[target] = _state(target)
         return target
 
-    def exported(self, session: Session, name: str, formats: Sequence[str], progress: Progress = silent) -> list[Path]:
-        """Write the scene, which is at rest, in `formats` into the folder NAME-export of the root.
+    def exported(
+        self, session: Session, name: str, formats: Sequence[str], progress: Progress = silent, *, run: Run = here
+    ) -> list[Path]:
+        """Write the scene, which is at rest, in `formats` into the folder NAME-export of the root. `run` does the work.
 
         Raises:
             SpecError: `name` is none, or no format is chosen.
@@ -92,20 +95,11 @@ class Store:
             ExportError: a format's packages are missing, or a folder cannot be written.
             CheckError: what was written does not read back as the same scene.
         """
-        from pat3d.exporters.compare import parity
-        from pat3d.exporters.formats import VIEWS, export
-
         if not session.at_rest:
             raise EditError("edits wait to be settled: Settle first, then export. Nothing was written.")
         target = self._target(f"{name}-export")
         with _locked(target):
-            paths = export(session.scene, formats, target, progress=progress)
-            for kind, path in paths.items():
-                if kind not in VIEWS:
-                    progress(Event(stage="reading back", detail=kind))
-                    for line in parity(session.scene, path).failures:
-                        raise CheckError(line)
-        return list(paths.values())
+            return run(jobs.exported, session.scene, tuple(formats), target, progress=progress)
 
     def name_for(self, words: str) -> str:
         """A name of letters and digits that `words` suggest, and that no folder of the root has."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     import viser
 
 HULL_COLOURS = ((230, 120, 50), (60, 140, 220), (90, 180, 90), (200, 90, 180), (220, 190, 60), (90, 190, 190))
-FORCE_COLOUR, CONTACT_COLOUR, GHOST_COLOUR = (220, 40, 40), (255, 150, 0), (150, 160, 190)
+FORCE_COLOUR, CONTACT_COLOUR = (220, 40, 40), (255, 150, 0)
+GHOST_COLOUR, BEFORE_COLOUR = (150, 160, 190), (230, 170, 60)
 
 ARROW = 0.15
 """Length of the arrow of the largest force, as a share of the scene's size."""
@@ -32,6 +33,7 @@ class Shown:
     hulls: bool = False
     forces: bool = False
     ghost: bool = False
+    before: bool = False
 
 
 class View:
@@ -41,7 +43,7 @@ class View:
         self, server: viser.ViserServer, clicked: Callable[[str], None], dragged: Callable[[Pose], None]
     ) -> None:
         """`clicked` hears the name of an object, `dragged` where the gizmo let go of the selected one."""
-        self._scene, self._camera = server.scene, server.initial_camera
+        self._server, self._scene = server, server.scene
         self._clicked, self._dragged = clicked, dragged
         self._objects: dict[str, tuple[Any, Any]] = {}
         """Asset and handle of every object, by name."""
@@ -49,18 +51,13 @@ class View:
         """What was drawn of hulls, names and so on, and what it was drawn for."""
         self._gizmo: Any = None
         self._made = 0
-        server.scene.set_up_direction("+z")
-        server.scene.configure_default_lights()
-        server.scene.add_grid(
-            "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
-        )
+        ground(server)
 
     def look_at(self, scene: Scene) -> None:
-        """Have those who open the page from now on see all of `scene`, from the front."""
+        """Have everybody see all of `scene`, from the front."""
         low, high = _bounds(scene)
         middle, size = (low + high) / 2, float(np.linalg.norm(high - low))
-        self._camera.look_at = middle
-        self._camera.position = middle + 0.95 * size * np.array([0.35, -0.85, 0.55])
+        look(self._server, middle, middle + 0.95 * size * np.array([0.35, -0.85, 0.55]))
 
     def draw(self, session: Session | None, shown: Shown) -> None:
         """Show `session`; nothing where it is None."""
@@ -76,8 +73,17 @@ class View:
         self._extra("names", shown.names and scene, poses, self._names)
         self._extra("hulls", shown.hulls and scene, poses, self._hulls)
         self._extra("ghost", shown.ghost and scene, starts, self._ghost)
+        before = None if session is None else session.before
+        rests = () if before is None else tuple((obj.name, obj.pose, id(obj.asset)) for obj in before.objects)
+        self._extra("before", shown.before and before, rests, self._before)
         self._extra("forces", shown.forces and at_rest and scene, poses, self._forces)
         self._hold(None if session is None or session.selected is None else objects[session.selected])
+
+    def pose(self, poses: Mapping[str, Pose]) -> None:
+        """Show objects elsewhere, by name, until the next `draw`."""
+        for name, pose in poses.items():
+            if name in self._objects:
+                _put(self._objects[name][1], pose)
 
     def _place(self, obj: SceneObject) -> None:
         if obj.name not in self._objects:
@@ -126,20 +132,24 @@ class View:
         return made
 
     def _ghost(self, scene: Scene) -> list[Any]:
-        made = []
-        for obj in scene.objects:
-            mesh = obj.asset.visual
-            handle = self._scene.add_mesh_simple(
-                self._path("ghost"),
-                mesh.vertices.astype(np.float32),
-                mesh.faces,
-                color=GHOST_COLOUR,
-                opacity=0.3,
-                cast_shadow=False,
-            )
-            _put(handle, obj.initial_pose)
-            made.append(handle)
-        return made
+        return [self._shade(obj, obj.initial_pose, GHOST_COLOUR) for obj in scene.objects]
+
+    def _before(self, scene: Scene) -> list[Any]:
+        return [self._shade(obj, obj.pose, BEFORE_COLOUR) for obj in scene.objects]
+
+    def _shade(self, obj: SceneObject, pose: Pose, colour: tuple[int, int, int]) -> Any:
+        """An object that one sees through, at `pose`."""
+        mesh = obj.asset.visual
+        handle = self._scene.add_mesh_simple(
+            self._path("shades"),
+            mesh.vertices.astype(np.float32),
+            mesh.faces,
+            color=colour,
+            opacity=0.3,
+            cast_shadow=False,
+        )
+        _put(handle, pose)
+        return handle
 
     def _forces(self, scene: Scene) -> list[Any]:
         from pat3d.check.forces import contact_forces
@@ -197,6 +207,22 @@ class View:
         # Names of objects may have slashes, and a name that comes back must not meet the old one's messages.
         self._made += 1
         return f"/{what}/{self._made}"
+
+
+def ground(server: viser.ViserServer) -> None:
+    """Light, and a grid at height 0 with a line every 0.1 m."""
+    server.scene.set_up_direction("+z")
+    server.scene.configure_default_lights()
+    server.scene.add_grid(
+        "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
+    )
+
+
+def look(server: viser.ViserServer, at: np.ndarray, position: np.ndarray) -> None:
+    """Have everybody look from `position` to `at` [m], those who open the page later too."""
+    for camera in (server.initial_camera, *(client.camera for client in server.get_clients().values())):
+        camera.position = position
+        camera.look_at = at
 
 
 def _turned(start: Pose, gizmo: Any) -> Pose:

@@ -8,16 +8,39 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from pat3d.errors import EditError, Pat3dError
-from pat3d.progress import Event, Progress
+from pat3d.progress import Event
 from pat3d.studio.session import Session
 
 Change = Callable[[Session | None], Session | None]
-Work = Callable[[Session | None, Progress], tuple[Session | None, str]]
-"""Takes minutes; returns the new session and what to say of it."""
 
 
 class CancelledError(Exception):
     """Somebody does not want the work any more."""
+
+
+class Watch:
+    """The progress of work that can be cancelled."""
+
+    def __init__(self, tell: Callable[[Event], None], cancelled: Callable[[], bool]) -> None:
+        self._tell, self._cancelled = tell, cancelled
+
+    def __call__(self, event: Event) -> None:
+        """Hear of an event.
+
+        Raises:
+            CancelledError: the work is to end.
+        """
+        self.check()
+        self._tell(event)
+
+    def check(self) -> None:
+        """Raise CancelledError where the work is to end."""
+        if self._cancelled():
+            raise CancelledError
+
+
+Work = Callable[[Session | None, Watch], tuple[Session | None, str]]
+"""Takes minutes; returns the new session and what to say of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +105,7 @@ class Workbench:
         return free
 
     def cancel(self) -> None:
-        """Ask the work that is going on to end; it does so at its next step."""
+        """Ask the work that is going on to end: at once where a worker does it, else at its next step."""
         self._cancel.set()
 
     def wait(self, seconds: float | None = None) -> bool:
@@ -96,8 +119,6 @@ class Workbench:
         before, cancel = self._session, self._cancel
 
         def tell(event: Event) -> None:
-            if cancel.is_set():
-                raise CancelledError
             step, steps = event.step, event.steps
             share = None if step is None or not steps else min(1.0, (step + 1) / steps)
             words = f"{event.stage}: {event.detail}" if event.detail else event.stage
@@ -107,7 +128,7 @@ class Workbench:
 
         def ended() -> tuple[Session | None, str]:
             try:
-                return work(before, tell)
+                return work(before, Watch(tell, cancel.is_set))
             except CancelledError:
                 return before, f"{name} was cancelled; nothing changed."
 

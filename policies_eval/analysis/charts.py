@@ -18,44 +18,40 @@ OUTCOME_COLOURS = {
     "simulation_error": "#111827",
 }
 
+CHART_STYLE = """
+.axis, .interval { position: relative; margin: 0 18px; }
+.axis { height: 15px; font-size: 11px; font-weight: 400; color: #667085; }
+.axis i { position: absolute; transform: translateX(-50%); font-style: normal; white-space: nowrap; }
+.interval { height: 24px; border-top: 0; }
+.interval i { position: absolute; }
+.interval .line { left: 0; right: 0; top: 12px; border-top: 1px solid #e4e7ec; }
+.interval .tick { top: 6px; height: 12px; border-left: 1px solid #d0d5dd; }
+.interval .span { top: 8px; height: 8px; min-width: 2px; border-radius: 4px; background: #9ec9b5; }
+.interval .rate { top: 7px; width: 10px; height: 10px; margin-left: -5px; border-radius: 5px; background: #1f7a51; }
+@media (max-width: 600px) { .axis .fine { display: none; } }
+"""
+"""Of `axis` and `interval_bar`; the axis leaves out its labels at the odd quarters where there is little room."""
 
-EDGE = 18
-"""Room at both ends of an axis for half of its labels [pixel]."""
+_QUARTERS = (0, 25, 50, 75, 100)
 
 
-def axis(width: int) -> str:
+def axis() -> str:
     """Labels of the line that `interval_bar` draws, to stand above or below bars of the same width."""
-    labels = "".join(
-        f'<text x="{_x(k / 4, width):.1f}" y="11" text-anchor="middle" font-size="11" fill="#667085">{25 * k} %</text>'
-        for k in range(5)
-    )
-    return f'<svg viewBox="0 0 {width} 14" role="img" style="{_fits(width)}">{labels}</svg>'
+    labels = "".join(f'<i style="left:{at}%"{" class=fine" if at % 50 else ""}>{at} %</i>' for at in _QUARTERS)
+    return f'<div class="axis">{labels}</div>'
 
 
-def interval_bar(rate: Rate, width: int) -> str:
-    """A rate and its interval on a line from 0 to 100 %."""
+def interval_bar(rate: Rate) -> str:
+    """A rate and its interval on a line from 0 to 100 %, as wide as its place."""
     if not rate.episodes:
         return ""
-    ticks = "".join(
-        f'<line x1="{_x(k / 4, width):.1f}" x2="{_x(k / 4, width):.1f}" y1="6" y2="18" stroke="#d0d5dd"/>'
-        for k in range(5)
-    )
-    low, high = _x(rate.low, width), _x(rate.high, width)
+    low, high, value = (100.0 * one for one in (rate.low, rate.high, rate.value))
+    ticks = "".join(f'<i class="tick" style="left:{at}%"></i>' for at in _QUARTERS)
     return (
-        f'<svg viewBox="0 0 {width} 24" role="img" style="{_fits(width)}"><title>{rate}</title>'
-        f'<line x1="{_x(0.0, width):.1f}" x2="{_x(1.0, width):.1f}" y1="12" y2="12" stroke="#e4e7ec"/>{ticks}'
-        f'<rect x="{low:.1f}" y="8" width="{max(high - low, 2):.1f}" height="8" rx="4" '
-        f'fill="#9ec9b5"/><circle cx="{_x(rate.value, width):.1f}" cy="12" r="5" fill="#1f7a51"/></svg>'
+        f'<div class="interval" role="img" title="{rate}"><i class="line"></i>{ticks}'
+        f'<i class="span" style="left:{low:.2f}%;width:{high - low:.2f}%"></i>'
+        f'<i class="rate" style="left:{value:.2f}%"></i></div>'
     )
-
-
-def _x(share: float, width: int) -> float:
-    return EDGE + share * (width - 2 * EDGE)
-
-
-def _fits(width: int) -> str:
-    """As wide as its place, up to `width`: bars and their axis shrink together."""
-    return f"display:block;width:100%;max-width:{width}px"
 
 
 def outcome_bar(outcomes: Mapping[str, int], width: int) -> str:

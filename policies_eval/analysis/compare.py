@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -110,15 +111,21 @@ def leaderboard(evaluations: list[Evaluation]) -> list[tuple[Evaluation, Rate, i
     return sorted(rows, key=lambda row: (-row[1].value if row[1].episodes else 1.0, row[0].name))
 
 
-def show_leaderboard(target: Any, evaluations: list[Evaluation]) -> None:
-    """Print a table, one for each set of episodes and engine: rates of different ones are not comparable."""
-    from rich.table import Table
-
+def comparable(evaluations: Sequence[Evaluation]) -> list[tuple[str, list[Evaluation]]]:
+    """Evaluations of the same episodes and engine together, under what those are."""
     groups: dict[str, list[Evaluation]] = {}
     for one in evaluations:
         engine = ", ".join(f"{name} {value}" for name, value in sorted(one.manifest["engine"].items()))
         groups.setdefault(f"{_source(one.manifest['source'])} | {engine}", []).append(one)
-    for number, (title, group) in enumerate(sorted(groups.items())):
+    return sorted(groups.items())
+
+
+def show_leaderboard(target: Any, evaluations: list[Evaluation]) -> None:
+    """Print a table, one for each set of episodes and engine: rates of different ones are not comparable."""
+    from rich.table import Table
+
+    groups = comparable(evaluations)
+    for number, (title, group) in enumerate(groups):
         if number:
             target.print("")
         target.print(title, markup=False, highlight=False, soft_wrap=True)

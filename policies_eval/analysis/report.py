@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from pat3d.policies_eval.analysis.charts import OUTCOME_COLOURS, axis, interval_bar, outcome_bar
+from pat3d.policies_eval.analysis.charts import CHART_STYLE, OUTCOME_COLOURS, axis, interval_bar, outcome_bar
 from pat3d.policies_eval.analysis.summary import Summary
 from pat3d.policies_eval.run.failures import OUTCOMES
 from pat3d.policies_eval.run.records import Evaluation, write_text
@@ -48,6 +48,7 @@ section { margin-top: 16px; }
 .soft { color: var(--soft); } .warn { background: #fff4e5; border-color: #f5c27a; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th { text-align: left; font-weight: 600; color: var(--soft); font-size: 13px; }
+td:has(.chip) { white-space: nowrap; }
 th, td { padding: 5px 10px 5px 0; border-bottom: 1px solid var(--line); vertical-align: middle; }
 .num { text-align: right; white-space: nowrap; }
 .strip { display: flex; gap: 4px; flex-wrap: wrap; margin: 6px 0 18px; }
@@ -55,13 +56,36 @@ th, td { padding: 5px 10px 5px 0; border-bottom: 1px solid var(--line); vertical
 .chip { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 7px; }
 video { max-width: 100%; border-radius: 6px; } details summary { cursor: pointer; color: var(--soft); }
 code { background: var(--back); padding: 1px 5px; border-radius: 4px; font-size: 13px; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; } .bar { width: 45%; min-width: 180px; }
-.facts th { width: 180px; vertical-align: top; } .facts td { overflow-wrap: anywhere; }
+.whole { max-width: 680px; }
+.scroll { overflow-x: auto; } .rates { table-layout: fixed; } .rates td { overflow-wrap: anywhere; }
+.rates .name { width: 28%; } .rates .num { width: 11%; } .rates .bar { width: 50%; padding-right: 0; }
+.facts { display: grid; grid-template-columns: repeat(auto-fill, minmax(300px, 1fr)); gap: 0 32px; margin: 0; }
+.facts div { display: flex; gap: 12px; padding: 5px 0; border-bottom: 1px solid var(--line); }
+.facts dt { flex: 0 0 130px; color: var(--soft); } .facts dd { margin: 0; overflow-wrap: anywhere; }
 @media (max-width: 600px) {
   main { padding: 16px 10px 40px; } section { padding: 14px 12px; } .big { font-size: 34px; }
-  body { font-size: 14px; } .facts th { width: 110px; } .strip img { width: calc(50% - 4px); }
+  body { font-size: 14px; } .facts dt { flex-basis: 110px; } .strip img { width: calc(50% - 4px); }
+  .rates .name { width: 26%; } .rates .num { width: 17%; } .rates .bar { width: 40%; }
+  th, td { padding-right: 6px; }
 }
 """
+
+LONGEST_TABLE = 12
+"""Rows; longer ones are folded."""
+
+UNITS = {
+    "act_seconds": ("time for an action", "{} s"),
+    "control": ("control", "{}"),
+    "control_freq": ("actions a second", "{}"),
+    "image_size": ("pictures", "{0} x {0} pixels"),
+    "max_objects": ("rows for objects", "{}"),
+    "max_steps": ("steps of an episode", "{}"),
+    "obs": ("observations", "{}"),
+    "replan": ("actions of a chunk", "{}"),
+    "strict": ("strict about actions", "{}"),
+    "suite_sha256": ("checksum of the suite", "{:.16}"),
+}
+"""How settings are called on the page, and with which unit their value is told."""
 
 
 def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, pictures: bool = True) -> Path:
@@ -85,15 +109,15 @@ def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, p
         _head(evaluation, summary),
         _settings(evaluation),
         _failures(summary),
-        _tables(summary),
         _section("What it looked like", "".join([*films, *strips])) if films or strips else "",
+        _tables(summary),
         _episodes(evaluation.results),
         _made_with(evaluation, summary),
     ]
     page = (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{escape(summary.policy)}: PAT3D evaluation</title><style>{STYLE}</style></head>"
+        f"<title>{escape(summary.policy)}: PAT3D evaluation</title><style>{STYLE}{CHART_STYLE}</style></head>"
         f"<body><main>{''.join(parts)}</main></body></html>\n"
     )
     file = evaluation.folder / "report.html"
@@ -124,19 +148,20 @@ def _head(evaluation: Evaluation, summary: Summary) -> str:
         f'<section><div class="big">{100 * rate.value:.1f} %</div>'
         f"<p>of the episodes were successful. With 95 % confidence the true rate is between "
         f"<b>{100 * rate.low:.1f} %</b> and <b>{100 * rate.high:.1f} %</b> "
-        f'<span class="soft">({escape(summary.interval)} interval, {rate.successes} of {rate.episodes}).</span></p>'
-        f"{interval_bar(rate, 640)}{axis(640)}</section>"
+        f'<span class="soft">({escape(summary.interval.title())} interval, {rate.successes} of {rate.episodes}).'
+        f'</span></p><div class="whole">{interval_bar(rate)}{axis()}</div></section>'
     )
 
 
 def _settings(evaluation: Evaluation) -> str:
     """What was asked for, in words."""
     said = {**evaluation.manifest["source"], **evaluation.manifest["settings"]}
-    rows = "".join(
-        f"<tr><th>{escape(name.replace('_', ' '))}</th><td>{escape(_in_words(value))}</td></tr>"
-        for name, value in said.items()
-    )
-    return _section("Settings", f'<table class="facts">{rows}</table>')
+    rows = []
+    for name, value in said.items():
+        title, unit = UNITS.get(name, (name.replace("_", " "), "{}"))
+        told = "as many as the task takes" if name == "max_steps" and not value else unit.format(_in_words(value))
+        rows.append(f"<div><dt>{escape(title)}</dt><dd>{escape(told)}</dd></div>")
+    return _section("Settings", f'<dl class="facts">{"".join(rows)}</dl>')
 
 
 def _in_words(value: Any) -> str:
@@ -172,18 +197,24 @@ def _tables(summary: Summary) -> str:
         if len(table) < 2:
             continue
         rows = "".join(
-            f'<tr><td>{escape(key)}</td><td class="num">{rate.successes}/{rate.episodes}</td>'
-            f'<td class="num">{100 * rate.value:.1f} %</td><td class="bar">{interval_bar(rate, 320)}</td></tr>'
+            f'<tr><td>{escape(_WORDS.get(key, key))}</td><td class="num">{rate.successes}/{rate.episodes}</td>'
+            f'<td class="num">{100 * rate.value:.1f} %</td><td class="bar">{interval_bar(rate)}</td></tr>'
             for key, rate in table.items()
         )
-        shown.append(
-            _section(
-                f"By {name}",
-                f"<div class='scroll'><table><tr><th>{escape(name)}</th><th class='num'>successes</th>"
-                f"<th class='num'>rate</th><th class='bar'>95 % interval{axis(320)}</th></tr>{rows}</table></div>",
-            )
+        title = escape(name.replace("_", " "))
+        shown_table = (
+            f"<table class='rates'><tr><th class='name'>{title}</th><th class='num'>of</th>"
+            f"<th class='num'>rate</th><th class='bar'>{axis()}</th></tr>{rows}</table>"
         )
-    return "".join(shown)
+        if len(table) > LONGEST_TABLE:
+            shown_table = f"<details><summary>{len(table)} rows</summary>{shown_table}</details>"
+        shown.append(_section(f"By {name.replace('_', ' ')}", shown_table))
+    note = "Bars are 95 % intervals." if shown else ""
+    return "".join(shown) + (f'<p class="soft">{note}</p>' if note else "")
+
+
+_WORDS = {"True": "yes", "False": "no"}
+"""Values of a suite's axes as a page says them."""
 
 
 def _episodes(results: Sequence[Result]) -> str:

@@ -20,8 +20,8 @@ PHYSICS = ("mujoco", "robosuite", "numpy", "gymnasium")
 
 PARTS = {
     "envs": ("**/*.py",),
-    "exporters": ("mjcf.py", "meshes.py"),
-    "policies_eval": ("episodes.py", "failures.py", "perturb.py", "policy.py", "rollout.py"),
+    "exporters": ("mjcf/*.py", "common/*.py"),
+    "policies_eval": ("run/episodes.py", "run/failures.py", "run/perturb.py", "run/rollout.py", "policies/policy.py"),
 }
 """Modules of ours that do."""
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -43,12 +44,17 @@ class Replayer:
         except TypeError as error:
             raise EvaluationError(f"{evaluation.folder}: settings that are none: {error}") from error
         self._runner = Runner(settings)
-        self._rate = settings.control_freq
+        self.rate = float(settings.control_freq)
+        """Steps a second."""
         self._cameras = cameras_of(() if pair_of(settings.robot) is None else SIDES)
 
     def same(self, result: Result) -> bool:
         """Whether the episode goes as it was recorded, bit for bit."""
         return self._runner.replay(result.episode, result.actions) == result.state_hash
+
+    def watched(self, result: Result, watch: Callable[[Any], None]) -> bool:
+        """The same, with `watch` called with the environment after the reset and after every step."""
+        return self._runner.replay(result.episode, result.actions, watch) == result.state_hash
 
     def film(
         self,
@@ -59,7 +65,7 @@ class Replayer:
     ) -> tuple[bool, list[NDArray[np.uint8]]]:
         """The same, with pictures at FILM_RATE, shape (height, width, 3)."""
         self._require(camera)
-        every = max(1, round(self._rate / FILM_RATE))
+        every = max(1, round(self.rate / FILM_RATE))
         frames: list[NDArray[np.uint8]] = []
         step = 0
 
@@ -99,6 +105,17 @@ class Replayer:
         self._runner.close()
 
 
+@dataclass(frozen=True, kw_only=True)
+class Replayed:
+    """What came of doing episodes again."""
+
+    episodes: int
+    different: tuple[int, ...]
+    """Indexes of those that went otherwise than they were recorded."""
+    files: tuple[Path, ...]
+    """Films and pictures that were written."""
+
+
 def replay_episodes(
     evaluation: Evaluation,
     episodes: list[int] | None,
@@ -109,8 +126,8 @@ def replay_episodes(
     size: tuple[int, int],
     target: Any,
     progress: Progress = silent,
-) -> int:
-    """Replay and report; returns 1 where an episode goes otherwise than it was recorded.
+) -> Replayed:
+    """Replay, and report on `target`.
 
     Args:
         evaluation: the records.
@@ -136,7 +153,7 @@ def replay_episodes(
     changed = [f"{name} {then.get(name)} then, {now[name]} now" for name in now if now[name] != then.get(name)]
     if changed:
         line("note: recorded with another engine: " + "; ".join(changed))
-    replayer, different = Replayer(evaluation), []
+    replayer, different, files = Replayer(evaluation), [], []
     try:
         for number, result in enumerate(chosen):
             if video is None:
@@ -147,10 +164,12 @@ def replay_episodes(
             if picture is not None:
                 frames = replayer.moments(result, moments_of(result.steps, MOMENTS), camera, size)
                 caption = f"{result.instruction}: {result.outcome.replace('_', ' ')}"
-                line(f"wrote {write_strip([(caption, frames)], picture)}")
+                files.append(write_strip([(caption, frames)], picture))
+                line(f"wrote {files[-1]}")
             if video is not None:
                 same, frames = replayer.film(result, camera, size, progress)
-                line(f"wrote {write_video(frames, Path(video), FILM_RATE)}, {len(frames)} frames")
+                files.append(write_video(frames, Path(video), FILM_RATE))
+                line(f"wrote {files[-1]}, {len(frames)} frames")
             else:
                 same = replayer.same(result)
             if not same:
@@ -159,4 +178,4 @@ def replay_episodes(
     finally:
         replayer.close()
     line(f"{len(chosen) - len(different)} of {len(chosen)} episodes went as recorded, bit for bit")
-    return 1 if different else 0
+    return Replayed(episodes=len(chosen), different=tuple(different), files=tuple(files))

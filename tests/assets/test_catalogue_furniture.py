@@ -12,6 +12,7 @@ from pat3d.assets.catalogue.joinery import padded, resting_ball, wrapped
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import convex
 from pat3d.scene.asset import Asset
+from tests.assets.sampling import sampled
 
 FAMILIES = ("appliances", "basics", "desk", "electronics", "furniture", "room", "storage", "tools")
 NOUNS = [made.noun for made in entries() if made.family in FAMILIES]
@@ -63,7 +64,7 @@ def test_there_are_more_than_fifty_nouns():
     assert len(NOUNS) >= 50
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 @pytest.mark.parametrize("seed", [0, 1])
 def test_surface_is_closed_and_encloses_volume(noun, seed):
     asset = made(noun, seed)
@@ -74,7 +75,7 @@ def test_surface_is_closed_and_encloses_volume(noun, seed):
     assert asset.mass_properties.volume == pytest.approx(mesh.volume, rel=1e-6)
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 @pytest.mark.parametrize("seed", [0, 1])
 def test_what_is_seen_lies_inside_what_is_simulated(noun, seed):
     asset = made(noun, seed)
@@ -84,7 +85,7 @@ def test_what_is_seen_lies_inside_what_is_simulated(noun, seed):
     assert distance_outside(asset, np.concatenate([asset.visual.vertices, inner])).max() < 1e-6
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_parts_are_few_small_and_at_least_a_millimetre_thick(noun):
     asset = made(noun)
     assert len(asset.parts) <= 32
@@ -96,7 +97,7 @@ def test_parts_are_few_small_and_at_least_a_millimetre_thick(noun):
         assert width > 0.99e-3
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_stands_flat_with_its_weight_inside_its_base(noun, seed):
     """The lowest corners are on z = 0 to 1e-9 m, none hovers a hair above; a tilt of 4 degrees does not topple it."""
@@ -112,7 +113,7 @@ def test_stands_flat_with_its_weight_inside_its_base(noun, seed):
     assert np.abs(asset.bounds[:, :2].sum(axis=0)).max() < 1e-9
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_same_seed_same_bits_and_other_seed_other_shape(noun):
     first, again, other = made(noun, 1), make(noun, seed=1), made(noun, 0)
     assert first.visual.vertices.tobytes() == again.visual.vertices.tobytes()
@@ -121,7 +122,7 @@ def test_same_seed_same_bits_and_other_seed_other_shape(noun):
     assert not np.allclose(first.size, other.size, rtol=1e-4)
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_regions_are_free_and_their_floors_are_solid(noun):
     asset = made(noun, 1)
     for region in asset.regions:
@@ -137,7 +138,7 @@ def test_regions_are_free_and_their_floors_are_solid(noun):
         assert region.enclosed == (region.kind == "on" and np.isfinite(region.height))
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_the_colour_asked_for_is_the_most_visible_one(noun):
     """Magenta, which no default or detail is, covers a good part of every object in some shade of light."""
     asset = made(noun, colours=["magenta"])

@@ -13,6 +13,7 @@ from pat3d.assets.catalogue import entries, find, make
 from pat3d.assets.colours import COLOURS
 from pat3d.assets.shapes import SMOOTH_SEGMENTS
 from pat3d.scene.asset import Asset
+from tests.assets.sampling import sampled
 
 FAMILIES = ("bathroom", "decor", "food", "grocery", "household", "kitchen", "laboratory", "tableware")
 NOUNS = [entry.noun for entry in entries() if entry.family in FAMILIES]
@@ -57,7 +58,7 @@ def depth_outside(points: np.ndarray, asset: Asset) -> np.ndarray:
     return outside
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_picture_is_one_closed_surface_that_faces_outwards(noun: str):
     visual = made(noun).visual
     mesh = trimesh.Trimesh(visual.vertices, visual.faces, process=False)
@@ -66,7 +67,7 @@ def test_picture_is_one_closed_surface_that_faces_outwards(noun: str):
     assert len(visual.faces) < 40_000
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_picture_lies_within_the_convex_parts(noun: str):
     """Disjoint parts mean disjoint pictures only if no vertex or face sticks out."""
     asset = made(noun)
@@ -77,7 +78,7 @@ def test_picture_lies_within_the_convex_parts(noun: str):
     assert depth_outside(np.concatenate([asset.visual.vertices, inner]), asset).max() < 1e-6
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_convex_parts_are_few_small_and_not_slivers(noun: str):
     asset = made(noun)
     assert len(asset.parts) <= 32
@@ -89,7 +90,7 @@ def test_convex_parts_are_few_small_and_not_slivers(noun: str):
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_stands_still_on_the_ground(noun: str, seed: int):
     """At least three coplanar lowest points whose polygon holds the centre of mass with a margin."""
     asset = made(noun, seed)
@@ -112,14 +113,14 @@ def test_sizes_and_masses_are_those_of_the_real_thing(noun: str):
         assert light <= asset.mass_properties.mass <= heavy
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_every_object_weighs_as_something_between_foam_and_steel(noun: str):
     properties = made(noun).mass_properties
     assert 0.003 < properties.mass < 8.0
     assert np.linalg.eigvalsh(np.array(properties.inertia)).min() > 0
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_seed_decides_the_shape_bit_for_bit(noun: str):
     first, again, other = made(noun), make(noun, seed=1), made(noun, 2)
     assert np.array_equal(first.visual.vertices, again.visual.vertices)
@@ -130,7 +131,7 @@ def test_seed_decides_the_shape_bit_for_bit(noun: str):
     assert not np.allclose(first.size, other.size, atol=1e-7)
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_regions_are_free_of_the_object_itself(noun: str):
     asset = made(noun)
     rng = np.random.default_rng(0)
@@ -150,7 +151,7 @@ def test_regions_are_free_of_the_object_itself(noun: str):
             assert depth_outside(below, asset).max() < 0
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_asked_colour_is_a_main_colour_of_the_picture(noun: str):
     """At least a twelfth of the surface has exactly the colour asked for (a knife's handle, a donut's icing)."""
     asset = make(noun, colours=["violet"], seed=3)

@@ -9,6 +9,7 @@ from scipy.spatial import ConvexHull
 
 from pat3d.assets.catalogue import entries, make
 from pat3d.assets.colours import COLOURS
+from tests.assets.sampling import sampled
 
 FAMILIES = ("animals", "plush", "toys", "wear", "outdoor")
 NOUNS = [made.noun for made in entries() if made.family in FAMILIES]
@@ -29,7 +30,7 @@ def _outside(points, parts):
     return distance
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 @pytest.mark.parametrize("seed", [0, 1])
 def test_visual_is_closed_and_lies_inside_small_convex_parts(noun, seed):
     asset = _made(noun, seed)
@@ -47,7 +48,7 @@ def test_visual_is_closed_and_lies_inside_small_convex_parts(noun, seed):
         assert np.ptp(part.vertices @ equations[:, :3].T, axis=0).min() > 0.99e-3
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 @pytest.mark.parametrize("seed", [0, 1])
 def test_stands_on_a_flat_base_below_its_centre_of_mass(noun, seed):
     asset = _made(noun, seed)
@@ -62,7 +63,7 @@ def test_stands_on_a_flat_base_below_its_centre_of_mass(noun, seed):
     assert margin > 0.1 * np.sqrt(support.volume)
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_another_seed_gives_another_shape(noun):
     assert not np.allclose(_made(noun).parts[0].vertices, _made(noun, 1).parts[0].vertices, atol=1e-6)
 
@@ -75,7 +76,7 @@ def test_the_same_seed_gives_the_same_bits(noun):
     assert all(np.array_equal(a.vertices, b.vertices) for a, b in zip(first.parts, same.parts, strict=True))
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_the_asked_colour_covers_a_large_part_of_the_surface(noun):
     visual = _made(noun, 1).visual
     height, width = visual.texture.shape[:2]
@@ -144,7 +145,7 @@ def test_the_table_of_plausible_sizes_is_complete():
     assert set(NOUNS) <= set(PLAUSIBLE)
 
 
-@pytest.mark.parametrize("noun", NOUNS)
+@pytest.mark.parametrize("noun", sampled(NOUNS))
 def test_size_and_mass_are_those_of_the_real_thing(noun):
     shortest, longest, lightest, heaviest = PLAUSIBLE[noun]
     asset = _made(noun)

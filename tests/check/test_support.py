@@ -3,9 +3,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 from pat3d.assets.shapes import Shape, box, cylinder, ellipsoid, frustum
 from pat3d.check.certificate import certify
+from pat3d.check.surfaces import beyond
 from pat3d.check.wear import WEAR
 from pat3d.geometry.pose import Pose
 from tests.scenes import GAP, asset_of, placed, scene_of, tower
@@ -192,3 +194,13 @@ def test_what_a_residual_may_leave_unbalanced_is_no_support_where_a_surface_a_li
     certificate = certify(scene, margin=True)
     assert certificate.passed
     assert certificate.largest_tilt == pytest.approx(8.0)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_distance_beyond_a_polygon_is_shapely_s(seed):
+    rng = np.random.default_rng(seed)
+    corners = np.array(shapely.MultiPoint(rng.normal(size=(8, 2))).convex_hull.exterior.coords)[:-1]
+    points = rng.normal(scale=0.3 * seed, size=(6, 2))
+    furthest = shapely.distance(shapely.Polygon(corners), shapely.points(points)).max()
+    # The corners may come in any order.
+    assert beyond(points, corners[rng.permutation(len(corners))]) == pytest.approx(furthest, abs=1e-12)

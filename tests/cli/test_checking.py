@@ -1,5 +1,8 @@
 """`pat3d check --engines`: an engine that is named has to be here."""
 
+import json
+from pathlib import Path
+
 import pytest
 
 from pat3d.check.engines import registry
@@ -68,3 +71,21 @@ def test_an_engine_that_was_named_and_is_absent_fails_the_check(scene, capfd, na
 def test_simulated_time_has_limits(scene, capfd, seconds):
     assert main(["check", scene, "--engines", "here", "--seconds", seconds]) == 2
     assert "at most 600 s" in capfd.readouterr().err
+
+
+def test_what_engines_did_is_recorded_in_the_report(scene, capfd):
+    report = Path(scene) / "report.json"
+    assert main(["check", scene, "--engines", "here", "--record"]) == 2
+    assert "there is no report to add to" in capfd.readouterr().err
+    report.write_text('{"passed": true, "engines": {"drake": {"worst_mm": 0.5}}}', encoding="utf-8")
+    assert main(["check", scene, "--engines", "all", "--seconds", "60", "--record"]) == 0
+    document = json.loads(report.read_text(encoding="utf-8"))
+    assert document["passed"] is True
+    # The absent ones leave nothing, and other engines' earlier runs stay.
+    assert set(document["engines"]) == {"drake", "here"}
+    assert document["engines"]["here"]["seconds"] == 60
+
+
+def test_nothing_is_recorded_of_the_check_itself(scene, capfd):
+    assert main(["check", scene, "--record"]) == 2
+    assert "--engines" in capfd.readouterr().err

@@ -10,7 +10,9 @@ from PIL import Image
 
 from pat3d.cli import doctor, extras, parts
 from pat3d.cli.doctor import _number
+from pat3d.cli.documents import PartFacts
 from pat3d.cli.main import main
+from tests.documents import document_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -136,6 +138,8 @@ def test_a_part_that_does_not_work_is_a_fault_and_the_others_are_still_tried(mon
     lines = capsys.readouterr().out.splitlines()
     assert any(line.startswith("FAULT") and "'MjData' object has no attribute 'qM'" in line for line in lines)
     assert any(line.split() == ["ok", "second", "worked"] for line in lines)
+    told = document_of(capsys, ["doctor"], list[PartFacts], code=1)
+    assert {"state": "ok", "part": "second", "found": "worked"} in told
 
 
 def test_doctor_names_a_package_that_is_too_old_or_missing(monkeypatch, capsys):

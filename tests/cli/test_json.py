@@ -8,14 +8,25 @@ import jsonschema
 import pytest
 
 from pat3d.assets.shapes import box
+from pat3d.cli import documents
+from pat3d.cli.commands import COMMANDS, find
+from pat3d.cli.documents import ForeignFacts
 from pat3d.cli.main import main
 from pat3d.generation import facts
 from pat3d.generation.facts import EditedFacts, ExportFacts, KindFacts, OutcomeFacts, PlanFacts, schema_of
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Relation, Scene
+from tests.documents import document_of
 from tests.scenes import GAP, asset_of, placed
 
-DOCUMENTS = [one for one in vars(facts).values() if dataclasses.is_dataclass(one) and one.__module__ == facts.__name__]
+DOCUMENTS = [
+    one
+    for module in (facts, documents)
+    for one in vars(module).values()
+    if dataclasses.is_dataclass(one) and one.__module__ == module.__name__
+]
+WITHOUT = {"studio", "mcp"}
+"""They serve until they are ended."""
 
 
 @pytest.fixture(scope="module")
@@ -37,6 +48,20 @@ def said(capfd, argv):
     capfd.readouterr()
     code = main([*argv, "--json"])
     return code, json.loads(capfd.readouterr().out)
+
+
+def commands(found, name):
+    """Every command line of a command, with its verbs."""
+    yield name, {one.name for one in found.options}
+    for verb, one in found.verbs.items():
+        yield from commands(one, f"{name} {verb}")
+
+
+@pytest.mark.parametrize("name", sorted(set(COMMANDS) - WITHOUT))
+def test_every_command_has_json(name):
+    found = find(name)
+    for words, options in commands(found, name):
+        assert "--json" in options or words in ("suite", "library"), words
 
 
 def valid(document, kind):
@@ -72,6 +97,23 @@ def test_the_catalogue_is_a_list_of_kinds(capfd):
     assert "mug" in {kind["noun"] for kind in document}
     for kind in document:
         valid(kind, KindFacts)
+
+
+def test_a_scene_of_somebody_else_is_a_document_before_and_after_it_is_settled(capfd, tmp_path):
+    """A block that floats 5 cm above another one."""
+    blocks = "".join(
+        f'<body name="{name}" pos="0 0 {height}"><freejoint/><geom type="box" size=".05 .05 .05" mass="1"/></body>'
+        for name, height in (("below", 0.05), ("above", 0.2))
+    )
+    path, out = tmp_path / "scene.xml", str(tmp_path / "settled.xml")
+    path.write_text(f'<mujoco><worldbody><geom type="plane" size="1 1 1"/>{blocks}</worldbody></mujoco>')
+    told = document_of(capfd, ["verify", str(path), "--seconds", "1"], ForeignFacts, code=1)
+    assert {one["name"]: one["unbalanced"] > 0.9 for one in told["objects"]} == {"below": False, "above": True}
+    assert told["settled"] is None
+    told = document_of(capfd, ["verify", str(path), "--seconds", "1", "--settle", out], ForeignFacts)
+    assert not told["passed"]
+    assert told["settled"]["passed"]
+    assert told["settled"]["moved_mm"]["above"] == pytest.approx(50.0, abs=1.0)
 
 
 def test_a_refusal_prints_no_document(capfd, folder):

@@ -2,8 +2,10 @@
 
 import pytest
 
+from pat3d.cli.documents import LibraryFacts, LibraryObjectFacts
 from pat3d.cli.main import main
 from tests.assets.things_to_index import DOOR, URDF
+from tests.documents import document_of
 
 
 @pytest.fixture
@@ -29,9 +31,15 @@ def test_a_folder_is_added_listed_shown_and_removed(folder, capsys):
     told = capsys.readouterr().out
     assert "0.25 kg, from URDF" in told
     assert "URDF says so" in told
+    sponge = document_of(capsys, ["library", "show", "lab/sponge"], LibraryObjectFacts)
+    assert sponge["mass_kg"] == pytest.approx(0.25)
+    (lab,) = document_of(capsys, ["library", "list"], list[LibraryFacts])
+    assert (lab["ready"], lab["refused"]) == (1, 1)
+    assert next(one["reason"] for one in lab["objects"] if one["state"] == "refused").startswith("it has joints")
     assert main(["plan", "a lab sponge on a tray", "--libraries", "lab"]) == 0
     assert "lab sponge" in capsys.readouterr().out
-    assert main(["library", "remove", "lab"]) == 0
+    assert document_of(capsys, ["library", "remove", "lab"], LibraryFacts) == lab
+    assert document_of(capsys, ["library", "list"], list[LibraryFacts]) == []
     assert sorted(path.name for path in folder.iterdir()) == ["door.urdf", "kitchen_sponge.urdf"]
 
 

@@ -13,6 +13,7 @@ from pat3d.check.certificate import steadiness
 from pat3d.check.settle import ObjectDrift
 from pat3d.check.verification import relations_at_rest
 from pat3d.check.verification import verify as verify_scene
+from pat3d.cli.documents import OptimizedFacts
 from pat3d.cli.main import main
 from pat3d.exporters.compare import parity
 from pat3d.exporters.formats import export
@@ -28,6 +29,7 @@ from pat3d.layout.clearance import require_clearance
 from pat3d.progress import Clock, silent
 from pat3d.scene.io import save_scene
 from pat3d.scene.model import Relation, Scene, SceneObject
+from tests.documents import document_of
 from tests.optimize.scenes import overhanging
 
 PICTURES = {"loss.png", "before_after.png"}
@@ -111,6 +113,8 @@ def test_a_scene_that_holds_is_left_as_it_is(mended, tmp_path, capfd):
     before = files(mended)
     assert main(["optimize", str(mended)]) == 0
     assert "left as it is" in capfd.readouterr().out
+    told = document_of(capfd, ["optimize", str(mended)], OptimizedFacts)
+    assert (told["skipped"], told["broken"], told["verification"]) == (True, [], None)
     assert files(mended) == before
     assert main(["optimize", str(mended), "--out", str(tmp_path / "copy")]) == 0
     assert files(tmp_path / "copy") == before

@@ -20,6 +20,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
+from pat3d.cli.documents import SuiteFacts  # noqa: E402
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
@@ -30,6 +31,7 @@ from pat3d.envs.suites.request import Request  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.envs.suites.worker_pool import WorkerPool  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
+from tests.documents import document_of  # noqa: E402
 from tests.envs.suites import SMALL, alive, files_of, wait, workers_of  # noqa: E402
 
 REQUEST = SMALL
@@ -389,12 +391,25 @@ def test_a_stable_suite_rejects_what_rests_on_its_round_side(tmp_path):
     assert make_unit(folder, replace(request, stable=False), 15, 0)["reason"] == ""
 
 
+def test_a_suite_s_robot_is_the_one_it_was_made_for(made, monkeypatch):
+    from pat3d.envs.config import TabletopConfig
+
+    monkeypatch.setenv("PAT3D_ROBOT", "ur5e")
+    assert TabletopConfig(suite=made).arms == Suite.open(made).request.robot == "Panda"
+    assert TabletopConfig(suite=made, robot="so101").arms == "so101"
+    assert TabletopConfig().arms == "ur5e"
+
+
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
     assert main(["suite", "show", str(made)]) == 0
     assert "scenes from" in capsys.readouterr().out
+    told = document_of(capsys, ["suite", "show", str(made)], SuiteFacts)
+    assert told["scenes"] == sum(told["splits"]["train"].values()) + sum(told["splits"]["test"].values()) == 4
     text = (made / "index.html").read_text()
-    assert text.count("<figure>") == 4
+    assert text.count("<figure ") == 4
     assert all((made / f"scenes/{place:06d}/preview.png").is_file() for place in range(4))
     document = Suite.open(made).document
     scenes = [{**document["scenes"][0], "prompt": "<script>"}, *document["scenes"][1:]]
-    assert "<script>" not in page("x", {**document, "scenes": scenes})
+    hostile = page("x", {**document, "scenes": scenes})
+    assert hostile.count("<script>") == text.count("<script>") == 1
+    assert text.index("<figure") < text.index("<table")

@@ -38,7 +38,11 @@ def test_an_edge_folded_back_on_itself_is_sharp():
     assert len(sharp_edges(sheet)) == 3
 
 
-@pytest.mark.parametrize("faces", [BOX.faces[1:], np.concatenate([BOX.faces, BOX.faces])])
+LOOSE = np.concatenate([BOX.faces, np.array([[8, 9, 10], [11, 12, 13]], dtype=np.int32)])
+"""All edges of the box have two faces; those of two triangles more have one."""
+
+
+@pytest.mark.parametrize("faces", [BOX.faces[1:], np.concatenate([BOX.faces, BOX.faces]), LOOSE])
 def test_an_open_or_doubled_surface_has_no_edges_to_speak_of(faces):
     with pytest.raises(AssetError, match="every edge needs exactly two faces"):
         sharp_edges(ConvexPart(vertices=BOX.vertices, faces=faces))

@@ -10,12 +10,14 @@ import pytest
 pytest.importorskip("h5py")
 pytest.importorskip("gymnasium")
 
+from pat3d.cli.documents import DemonstrationFacts
 from pat3d.cli.main import main, parser
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets import demonstrations as module
 from pat3d.policies_eval.datasets.files import require_free
 from pat3d.policies_eval.run.episodes import Setting, episodes_of
 from pat3d.policies_eval.run.settings import RolloutSettings
+from tests.documents import document_of
 
 STEPS = 3
 
@@ -77,6 +79,9 @@ def test_too_few_successes_are_written_and_exit_with_1(every_third_succeeds, tmp
     assert main(["demonstrate", "--successes", "5", "--out", str(tmp_path / "x.hdf5")]) == 1
     assert count(tmp_path / "x.hdf5") == 3
     assert "3 of 5 demonstrations succeeded in 10 attempts" in capsys.readouterr().err
+    again = ["demonstrate", "--successes", "5", "--out", str(tmp_path / "y.hdf5")]
+    told = document_of(capsys, again, DemonstrationFacts, code=1)
+    assert (told["demonstrations"], told["attempts"], len(told["failures"])) == (3, 10, 1)
 
 
 @pytest.mark.parametrize("more", [["--successes", "0"], ["--successes", "3", "--episodes", "4"]])

@@ -16,6 +16,7 @@ import pytest
 pytest.importorskip("pyarrow")
 pytest.importorskip("robosuite")
 
+from pat3d.cli.documents import ComparisonFacts, EvaluationFacts, RankedFacts, ReplayFacts
 from pat3d.cli.main import main
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.analysis.charts import axis, interval_bar
@@ -30,6 +31,7 @@ from pat3d.policies_eval.run.episodes import Setting, episodes_of
 from pat3d.policies_eval.run.evaluate import evaluate, next_episode
 from pat3d.policies_eval.run.records import read_evaluation
 from pat3d.policies_eval.run.settings import RolloutSettings
+from tests.documents import document_of
 
 SHORT = RolloutSettings(max_steps=8, act_seconds=3600.0)
 """No machine is so slow that an action of these policies takes an hour."""
@@ -164,6 +166,13 @@ def test_two_runs_with_the_same_options_compare_and_others_say_which_differ(tmp_
     capsys.readouterr()
     assert main(["compare", first, second]) == 0
     assert "McNemar p = 1" in capsys.readouterr().out
+    told = document_of(capsys, ["compare", first, second], ComparisonFacts)
+    assert (told["neither"], told["p_value"], told["decided"]) == (2, 1.0, False)
+    ranked = document_of(capsys, ["leaderboard", first, perturbed], list[RankedFacts])
+    assert [one["rate"]["episodes"] for one in ranked] == [2, 2]
+    assert ranked[0]["source"] != ranked[1]["source"]
+    again = ["evaluate", "--policy", "random", "--episodes", "2", "--max-steps", "4", "--no-pictures", "--out", second]
+    assert document_of(capsys, again, EvaluationFacts)["rate"]["successes"] == 0
     assert main(["compare", first, perturbed]) == 2
     assert "evaluate both with the same --perturb." in capsys.readouterr().err
     assert main(["leaderboard", first, second]) == 0
@@ -192,16 +201,14 @@ def test_the_report_s_settings_come_first_and_without_brackets(done):
 
 
 def test_an_axis_says_where_on_a_bar_the_quarters_are():
-    """Labels, ticks, the rate and its interval are at the same places, whatever the width."""
-    for width in (320, 640):
-        rate = Rate(successes=1, episodes=2, low=0.25, high=0.75)
-        labels = [float(x) for x in re.findall(r'<text x="([\d.]+)"', axis(width))]
-        bar = interval_bar(rate, width)
-        assert labels == [float(x) for x in re.findall(r'x1="([\d.]+)"[^>]*y1="6"', bar)]
-        assert float(re.search(r'cx="([\d.]+)"', bar)[1]) == labels[2]
-        left, wide = map(float, re.search(r'<rect x="([\d.]+)" y="8" width="([\d.]+)"', bar).groups())
-        assert [left, left + wide] == pytest.approx([labels[1], labels[3]], abs=0.2)
-        assert 0.0 < labels[0] < labels[-1] < width
+    """Labels, ticks, the rate and its interval are shares of the same width."""
+    bar = interval_bar(Rate(successes=1, episodes=2, low=0.25, high=0.75))
+    labels = re.findall(r'left:([\d.]+)%"[^>]*>([\d.]+) %', axis())
+    assert [float(at) for at, _ in labels] == [float(told) for _, told in labels] == [0.0, 25.0, 50.0, 75.0, 100.0]
+    assert [float(at) for at in re.findall(r'class="tick" style="left:([\d.]+)%', bar)] == [0, 25, 50, 75, 100]
+    assert float(re.search(r'class="rate" style="left:([\d.]+)%', bar)[1]) == 50.0
+    left, wide = map(float, re.search(r'class="span" style="left:([\d.]+)%;width:([\d.]+)%', bar).groups())
+    assert (left, left + wide) == (25.0, 75.0)
 
 
 def test_the_report_is_one_page_without_links_to_anything(done):
@@ -238,6 +245,9 @@ def test_a_film_shows_one_episode(done, tmp_path, capsys):
     told = capsys.readouterr()
     assert "1 of 1 episodes went as recorded" in told.out
     assert "filming 1/" in told.err
+    told = document_of(capsys, [*arguments, "--picture", str(tmp_path / "y.png")], ReplayFacts)
+    assert told["files"] == [str(tmp_path / "y.png")]
+    assert (told["replayed"], told["different"]) == (1, [])
     assert main(["replay", folder, "--episode", "99"]) == 2
     assert "done: 0 to 3" in capsys.readouterr().err
     assert main(["replay", folder, "--video", str(tmp_path / "x.gif")]) == 2

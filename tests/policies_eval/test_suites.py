@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import hashlib
+from argparse import Namespace
+from importlib.resources import files
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+from pat3d.cli.episodes import SETTINGS, settings_of
 from pat3d.cli.main import main
 from pat3d.envs.suites import suite as suites
+from pat3d.policies_eval.run.manifest import PARTS
 from pat3d.policies_eval.run.suites import suite_settings
 
 
@@ -39,3 +43,17 @@ def test_a_suite_that_is_none_is_said_so(tmp_path, capsys, more):
     out = str(tmp_path / "o")
     assert main(["evaluate", "--suite", str(tmp_path), "--policy", "random", "--out", out, *more]) == 2
     assert "suite" in capsys.readouterr().err
+
+
+def test_the_version_of_the_code_counts_every_module_that_it_names():
+    for part, patterns in PARTS.items():
+        for pattern in patterns:
+            assert any(Path(str(files(f"pat3d.{part}"))).glob(pattern)), f"{part}/{pattern} names no module"
+
+
+def test_episodes_of_a_suite_are_with_the_robot_it_was_made_for(monkeypatch):
+    suite = SimpleNamespace(request=SimpleNamespace(robot="so101"))
+    monkeypatch.setattr(suites.Suite, "open", staticmethod(lambda folder: suite))
+    told = {one.name.lstrip("-").replace("-", "_"): one.keywords.get("default") for one in SETTINGS}
+    assert settings_of(Namespace(**told, suite="s")).robot == "so101"
+    assert settings_of(Namespace(**{**told, "robot": "panda"}, suite="s")).robot == "panda"

@@ -70,6 +70,30 @@ def test_steps_stay_short_of_the_impact_that_tight_inclusion_finds():
     assert hits > 20
 
 
+@pytest.mark.parametrize("turning", [0, 1])
+@pytest.mark.parametrize("end_that_swings", [-1, 1])
+def test_a_bar_that_swings_about_one_end_stops_short_of_the_bar_that_it_crosses(turning, end_that_swings):
+    """One end of every edge along a bar hardly moves, the other comes down twice as far as the bars are apart."""
+    builder = ModelBuilder()
+    sizes = [(0.4, 0.02, 0.02), (0.02, 0.4, 0.02)]
+    for k, size in enumerate(sizes if turning == 0 else sizes[::-1]):
+        across = 0.16 * end_that_swings if k != turning else 0.0
+        add_hull(builder, box_points(*size), Pose(position=(across, 0, 0.53 if k == turning else 0.5)))
+    model = builder.finalize("cpu")
+    body = model.vertex_body.numpy()
+    start = model.vertex_rest.numpy() + model.q0[body, 0]
+    along = 0.5 + end_that_swings * start[:, 0] / 0.4
+    end = start - np.where(body == turning, 0.02 * along, 0.0)[:, None] * [0, 0, 1]
+    x0, x1 = (wp.array(x, dtype=wp.vec3d, device="cpu") for x in (start, end))
+    candidates = Candidates(model)
+    candidates.cover(x0, x1, 1e-3, 1e-4)
+    step = wp.full(1, 1.0, dtype=wp.float64, device="cpu")
+    safe_step(model, candidates, x0, x1, step)
+    # The further edge of the other bar, 17 cm from the middle and 1 cm lower, is met first.
+    impact = 0.01 / (0.02 * (0.5 + 0.17 / 0.4))
+    assert 0.8 * impact < step.numpy()[0] < impact
+
+
 def test_intersections_are_those_of_ipctk():
     rng = np.random.default_rng(1)
     seen = set()

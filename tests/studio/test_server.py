@@ -25,7 +25,7 @@ def studio(tmp_path_factory):
 
 def control(studio, label):
     """The control called `label`, as viser has it."""
-    gui = studio.panel.gui
+    gui = studio.page.gui
     found = [one for one in gui._gui_input_handle_from_uuid.values() if getattr(one, "label", None) == label]
     assert len(found) == 1
     return found[0]
@@ -63,12 +63,12 @@ def test_what_is_selected_and_deleted_is_shown(studio):
 
 @pytest.mark.parametrize("label", ["Names", "Convex hulls", "Contact forces", "Initial layout"])
 def test_what_is_shown_beside_the_objects_can_be_changed(studio, label):
-    before = set(studio.panel.scene._handle_from_node_name)
+    before = set(studio.page.scene._handle_from_node_name)
     box = control(studio, label)
     box.value = not box.value
     # viser tells of a change from another thread.
     for _ in range(600):
-        if len(set(studio.panel.scene._handle_from_node_name) ^ before) >= 2:
+        if len(set(studio.page.scene._handle_from_node_name) ^ before) >= 2:
             break
         time.sleep(0.05)
     else:
@@ -78,9 +78,9 @@ def test_what_is_shown_beside_the_objects_can_be_changed(studio, label):
 
 def test_an_edit_is_settled_saved_and_reloaded(studio):
     studio.bench.do(lambda now: needed(now).edited("move", "brick: 2 cm left"))
-    assert "1 edit to be settled" in studio.panel.verdict
+    assert "1 edit to be settled" in studio.page.verdict
     assert studio.bench.start("Settling", lambda now, progress: (needed(now).settled(progress), "settled"))
     assert studio.bench.wait(300)
-    assert "Verified" in studio.panel.verdict
+    assert "Verified" in studio.page.verdict
     path = studio.store.saved(needed(studio.bench.session), "bricks")
     assert load_scene(path)["brick"].pose.position[0] == pytest.approx(0.03, abs=1e-3)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +38,8 @@ class Body:
     """That the description gives it; empty where it gives none."""
     hulls: tuple[Points, ...] = ()
     """Points of every convex collision shape, each of shape (n, 3); none where the picture is to be decomposed."""
+    touched: tuple[Piece, ...] = ()
+    """The collision shapes themselves, convex or not."""
     metres: float | None = None
     """[m] of the file's unit, where the format or the file says it."""
     up: UpAxis | None = None
@@ -62,16 +64,18 @@ class Piece:
     """Shape (faces, 3)."""
     patch: Patch
     files: tuple[Path, ...] = field(default=())
+    surface: Mapping[str, float] = field(default_factory=dict)
+    """Roughness, metallic and opacity [-], as far as the description says."""
 
     def placed(self, rotation: Points, position: Points, scale: Points | float = 1.0) -> Piece:
         """The piece stretched, turned and moved; a mirror image keeps its outside outside."""
         vertices = (self.vertices * scale) @ rotation.T + position
         mirrored = float(np.prod(np.broadcast_to(scale, 3))) < 0
-        return Piece(
+        return replace(
+            self,
             vertices=vertices,
             faces=self.faces[:, ::-1] if mirrored else self.faces,
             patch=self.patch.mirrored() if mirrored else self.patch,
-            files=self.files,
         )
 
 
@@ -113,8 +117,9 @@ def of_mesh(loaded: LoadedMesh) -> Piece:
     return Piece(
         vertices=loaded.vertices,
         faces=loaded.faces,
-        patch=Patch(uv=loaded.uv, image=loaded.texture),
+        patch=Patch(uv=loaded.uv, image=loaded.texture, maps=loaded.maps),
         files=loaded.files,
+        surface=loaded.surface,
     )
 
 
@@ -135,6 +140,16 @@ def merged(pieces: Sequence[Piece], notes: Sequence[str] = ()) -> LoadedMesh:
     faces = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts, strict=False)])
     if not np.isfinite(vertices[np.unique(faces)]).all():
         raise AssetError("some vertices are not finite.")
-    uv, texture = pack([piece.patch for piece in pieces], told)
+    look = pack([piece.patch for piece in pieces], told)
     files = tuple(dict.fromkeys(path for piece in pieces for path in piece.files))
-    return LoadedMesh(vertices=vertices, faces=faces, uv=uv, texture=texture, notes=tuple(told), files=files)
+    surface = max(pieces, key=lambda piece: len(piece.faces)).surface
+    return LoadedMesh(
+        vertices=vertices,
+        faces=faces,
+        uv=look.uv,
+        texture=look.texture,
+        maps=look.maps,
+        surface=surface,
+        notes=tuple(told),
+        files=files,
+    )

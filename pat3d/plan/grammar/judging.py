@@ -39,25 +39,21 @@ class Judging:
     def _named_again(self, head: int, named: Node) -> bool:
         """Whether `head` speaks of `named`, or of what it stands by: "a knife on a board, with a fork by the board"."""
         phrase = self._phrase(head)
-        same = phrase.noun and phrase.definite and any(self._phrase(each).noun == phrase.noun for each in named.heads)
-        return bool(same) or self._said_of(named, head)
+        same = phrase.definite and any(_same(self._phrase(each), phrase) for each in named.heads)
+        return same or self._said_of(named, head)
 
     def _said_of(self, named: Node, parent: int) -> bool:
         """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
-        noun = self._phrase(parent).noun
-        return bool(noun) and self._phrase(parent).definite and any(
-            fact[0] == "rel" and set(fact[2]) & set(named.heads) and self._phrase(fact[3][0]).noun == noun
+        phrase = self._phrase(parent)
+        return phrase.definite and any(
+            fact[0] == "rel" and set(fact[2]) & set(named.heads) and _same(self._phrase(fact[3][0]), phrase)
             for fact in named.facts
-        )  # fmt: skip
+        )
 
     def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
         """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
         phrase = self._phrase(head)
-        same = (
-            phrase.definite
-            and not phrase.other
-            and any(self._phrase(each).noun == phrase.noun and phrase.noun for each in heads)
-        )
+        same = phrase.definite and not phrase.other and any(_same(self._phrase(each), phrase) for each in heads)
         told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
         member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
         return same or bool(member) or (phrase.head == "each" and len(heads) > 1)
@@ -114,9 +110,21 @@ class Judging:
         return phrase.words.split()[-1:] in (["one"], ["ones"]) and bool(phrase.modifiers.colours)
 
     def _says_nothing(self, head: int, facts: tuple[tuple, ...]) -> bool:
-        words = self._phrase(head).modifiers
-        told = words.colours or words.palette or words.size_word or words.material or words.adjectives
+        phrase = self._phrase(head)
+        words, place = phrase.modifiers, set(phrase.modifiers.adjectives) & TELLING
+        if phrase.definite and not place:
+            # "The red one" tells which.
+            return not any(head in fact[2] for fact in facts if len(fact) > 2)
+        told = words.colours or words.palette or words.size_word or words.material or set(words.adjectives) - place
         return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
 
     def _only_background(self, heads: tuple[int, ...]) -> bool:
         return all(self._phrase(head).kind == "background" and not self._phrase(head).substance for head in heads)
+
+
+def _same(one: Phrase, other: Phrase) -> bool:
+    """Whether the two may name the same object: a red mug is no blue one."""
+    ours, theirs = one.modifiers, other.modifiers
+    apart = ours.colours and theirs.colours and ours.colours != theirs.colours
+    sizes = ours.size_word and theirs.size_word and ours.size_word != theirs.size_word
+    return bool(one.noun) and one.noun == other.noun and not apart and not sizes

@@ -97,6 +97,7 @@ def _table() -> dict[tuple[str, ...], Link]:
     for side, kind, names in depths:
         where = [f"{word} the {name} of" for word in ("at", "near", "towards", "toward", "on") for name in names]
         add(Link(manner="half", side=side, kind=kind), *where)
+    add(Link(kind="left_of"), *(f"{word} one side of" for word in ("on", "to", "at")))
     centre = Link(manner="half", side="centre", kind="on", says="in_middle")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))
     add(Link(kind="in_front_of"), "in front of", "in front", "before", "to the front of",

@@ -98,7 +98,7 @@ class Maker:
             several = phrase.plural or (phrase.count or 1) > 1 or not phrase.determined
             head = (singulars(phrase.head) or (phrase.head,))[0] if several else phrase.head
         else:
-            named, head = tuple(word for word in words if self._is_thing(word)), phrase.said
+            named, head = tuple(word for word in words if self.is_thing(word)), phrase.said
             if not named:
                 return phrase
         order = self._orders.order(" ".join((*named, head)))
@@ -108,7 +108,7 @@ class Maker:
         modifiers = replace(phrase.modifiers, adjectives=left)
         return replace(phrase, noun=order.noun, said=order.words, modifiers=modifiers)
 
-    def _is_thing(self, word: str) -> bool:
+    def is_thing(self, word: str) -> bool:
         """Whether `word`, before another noun, names a thing of its own."""
         return self._nouns.match([word]) is not None and not is_modifier(word) and word not in lexicon.SUBSTANCES
 

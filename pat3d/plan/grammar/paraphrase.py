@@ -35,6 +35,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
+_EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
 _SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
            ("what", "about"), ("how", "about"), ("nothing", "on", "it", "but"), ("nothing", "in", "it", "but"),
            ("nothing", "on", "it", "except"), ("nothing", "in", "it", "except"))  # fmt: skip
@@ -52,6 +53,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     _refuse_negations(tokens)
     tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
     _refuse_inserted(text, tokens)
+    tokens = _inserted(tokens)
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(_plain_words(_kinds(tokens, nouns), nouns), nouns))
 
@@ -93,6 +95,11 @@ def _refuse_negations(tokens: Sequence[Token]) -> None:
             raise PromptError(
                 f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
                 "are, and leave the rest out."
+            )
+        if (token.text, follower) in _EXCEPTIONS or token.text in ("except", "excluding"):
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say what is '
+                'there, and how many in numbers: "four of the five apples are in the basket".'
             )
         if token.text in ("every", "each") and follower in _ALTERNATE:
             raise PromptError(
@@ -156,6 +163,21 @@ def _refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
                 f'"{said}" (word {tokens[at + 2].number}) is inserted where it may be said of several things. Say it '
                 'in a sentence of its own: "Next to the pan is a pepper mill."'
             )
+
+
+def _inserted(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
+        comma = at + 3 + size
+        if not size or words[comma - 1] not in ("it", "them") or words[comma] != ",":
+            continue
+        end = next(n for n in range(comma + 1, len(tokens)) if tokens[n].mark)
+        named = tokens[comma + 1 : end]
+        if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
+            return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
+    return list(tokens)
 
 
 def _its_places(tokens: Sequence[Token]) -> list[Token]:

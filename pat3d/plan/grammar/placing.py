@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import read_modifiers
-from pat3d.plan.grammar.objects import Maker, multiply, recount
+from pat3d.plan.grammar.objects import Maker, describe, multiply, recount
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
@@ -19,6 +19,10 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
 """What an object may lie on that is a part of itself, and how it is turned then."""
+
+
+_HARDLY_IN = 1.7
+"""Cost of being inside what has no inside, see Plausible.within."""
 
 
 class Placing:
@@ -55,6 +59,8 @@ class Placing:
                 others = [item for item in self._on(owners[0]) if item not in children]
                 world.place(children, "on", owners, weak=True)
                 parents = others[:1] or owners
+            if chunk.link.kind == "in" and parents and not owners:
+                parents = self._that_holds(children[0], parents)
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
@@ -84,6 +90,9 @@ class Placing:
         landmark, surface = (
             self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
         )
+        if landmark and side == "other" and not surface:
+            # "On one side of the plate is a fork, on the other a knife."
+            side = "right"
         if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
             sides = [edge.child for edge in self._world.laterals if edge.parent in landmark]
             before = [item for item in sides if item not in (*landmark, *children)]
@@ -97,6 +106,21 @@ class Placing:
             self._relating.relate(children, link, landmark)
             return
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _that_holds(self, child: Item, meant: list[Item]) -> list[Item]:
+        """What `child` is inside: `meant`, or what was named last that can hold it where that cannot."""
+        world = self._world
+
+        def within(item: Item) -> float:
+            return world.likely.within(world.noun(child), world.noun(item))
+
+        if world.is_a(meant[0], tuple(lexicon.OPENED)) or within(meant[0]) < _HARDLY_IN:
+            return meant
+        fit = [item for item in world.items() if item is not child and (
+            world.is_a(item, tuple(lexicon.OPENED))
+            or (world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN)
+        )]  # fmt: skip
+        return fit[-1:] or meant
 
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
         """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""
@@ -206,3 +230,13 @@ class Placing:
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
                 self._world.place(upper.items, "on", lower.items)
+
+    def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
+        for group in dict.fromkeys(item.group for item in owners):
+            words = phrase.modifiers
+            if words.colours or words.palette or words.material:
+                describe(group, words, part=phrase.said)
+            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
+                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
+        if not owners and phrase.words not in self._world.aside:
+            self._world.aside.append(phrase.words)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pat3d.errors import PromptError
+from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
@@ -114,7 +115,8 @@ class GrammarPlanner:
         if self._orders is not None:
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
-        return replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
+        plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
+        return audited(plan, self._nouns.resolve)
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""

@@ -13,6 +13,9 @@ from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
 
+_CLOSE = 0.1
+"""Readings of a pronoun that differ by less in cost are both told."""
+
 
 class Pronouns:
     """What the phrases of one sentence speak of so far."""
@@ -56,6 +59,23 @@ class Pronouns:
         """What the chunks `heads` speak of together."""
         return [item for head in heads for item in self.ref(head) if item in item.group.items]
 
+    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
+        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
+        told = self.each | self.all if carrying else self.each
+        return any(inner in told for head in heads for inner in self._meant(head))
+
+    def for_each(self, heads: Sequence[int], children: Sequence[Item], parents: Sequence[Item]) -> bool:
+        """Whether there are as many of `children` at each of `parents`: "three forks left of each plate"."""
+        fresh = all(not (item.group.phrase.definite or item.group.multiplied) for item in children)
+        whole = all(set(item.group.items) <= set(children) for item in children)
+        return self.speaks_of_each(heads) and fresh and whole and len(parents) > 1 < len(children)
+
+    def _meant(self, head: int) -> tuple[int, ...]:
+        """What the grammar says that `head` means, itself where it says nothing."""
+        return (
+            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        )
+
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
         phrase = self._chunks[at].named
@@ -92,6 +112,7 @@ class Pronouns:
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         best: tuple[float, list[Item]] | None = None
+        rival: tuple[float, list[Item]] | None = None
         for cost, items in candidates:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
@@ -106,11 +127,18 @@ class Pronouns:
                 pair = (items[0], other[0]) if child else (other[0], items[0])
                 cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
             if best is None or cost < best[0]:
+                if best is not None and set(best[1]) != set(items):
+                    rival = best
                 best = (cost, list(items))
+            elif set(best[1]) != set(items) and (rival is None or cost < rival[0]):
+                rival = (cost, list(items))
         if best is None:
             raise PromptError(
                 f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
             )
+        if not which and rival is not None and rival[0] - best[0] < _CLOSE and not set(rival[1]) & set(best[1]):
+            read, other_words = (each[1][0].group.words for each in (best, rival))
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
         self.cost += min(best[0], 1.5)
         return best[1]
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
@@ -26,7 +26,7 @@ def _told_apart(group: Group) -> bool:
     return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
 
 
-class References(Pronouns):
+class References(Contrast):
     """Resolves the phrases of one sentence."""
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
@@ -97,8 +97,16 @@ class References(Pronouns):
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
+                if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
+                    continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
+        groups = [group for group in world.groups if group not in besides and not group.replaced]
+        alike = [item for group in groups if same_noun(group, phrase)
+                 for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
+        if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
+            # "Both burners" of which one was named after the other.
+            return alike
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             storage = [
                 item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
@@ -168,6 +176,15 @@ class References(Pronouns):
         words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
+        if phrase.words.lower() == "that one":
+            single = [
+                items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
+            ]
+            return single[0] if single else []
+        counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
+        if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
+            # "The book on the chair is red, the one on the desk is blue": another book.
+            return self._one_like(subject, phrase)
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
             # "the smaller of two boxes inside the larger one"
@@ -256,9 +273,9 @@ class References(Pronouns):
         if whole is None:
             return []
         told = next((group for group in self._world.groups[::-1] if group.modifiers.colours), None)
-        anew = phrase.determined and not phrase.definite and len(whole.items) == 1 and not colours_of(whole.items[0])
+        anew = phrase.determined and len(whole.items) == 1 and not colours_of(whole.items[0])
         if words.colours and anew and told is not None and told is not whole:
-            # "a red ball in the left box and a blue one in the right box": of what has another colour.
+            # "a red ball in the left box and the blue one in the right box": of what has another colour.
             whole = told
         if (
             words.palette
@@ -323,17 +340,6 @@ class References(Pronouns):
                 self.known[head] = self._pronoun(head, link, others, child=child)
             made += [item for item in self.ref(head) if item not in made]
         return [item for item in made if not item.group.replaced]
-
-    def _meant(self, head: int) -> tuple[int, ...]:
-        """What the grammar says that `head` means, itself where it says nothing."""
-        return (
-            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
-        )
-
-    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
-        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
-        told = self.each | self.all if carrying else self.each
-        return any(inner in told for head in heads for inner in self._meant(head))
 
     def is_open(self, at: int) -> bool:
         """Whether chunk `at` is a pronoun of which it is still to be found what it means."""

@@ -147,8 +147,14 @@ class Grammar(Goals):
             # "Three crates: the first holds a ball": said of the first.
             cost += 0.5
         inner = kind == "place" or (kind == "link" and self._is_pronoun(modifier.heads) and not self._link(at).inverse)
+        if "which" in modifier.flags and max(named.heads) < modifier.start - 2:
+            # "A stool carries a radio which carries a cactus": said of the radio.
+            cost += 0.4
         if "told" in named.flags and "finite" not in modifier.flags:
             cost += 0.4
+        if "told" in named.flags and kind == "link" and self._link(at).inverse:
+            # "Two vases, the left one holding a rose"
+            cost += 0.5
         if kind == "link" and not self._link(at).inverse and self._only_background(named.heads):
             cost += 0.6
         if (

@@ -59,6 +59,7 @@ class Links:
             name=name,
             mesh=mesh,
             hulls=hulls,
+            touched=tuple(self.touched),
             metres=1.0,
             up="z",
             declared=declared,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from pat3d.assets.library.readers.inertials import together
 from pat3d.assets.library.readers.xml import read_root
 from pat3d.assets.mesh.texture import Patch
 from pat3d.errors import AssetError
+from pat3d.scene.asset import MAPS
 
 _HIDDEN = 3
 """Geoms of this group and above are not drawn unless asked for; models keep their collision shapes there."""
@@ -39,6 +42,46 @@ def read_mjcf(path: Path, root: Path) -> Body:
     mujoco.mj_comPos(model, data)
     top = _root(model, mujoco)
     bodies = [body for body in range(model.nbody) if _top(model, body) == top]
+    return body_of(
+        model,
+        data,
+        bodies,
+        (np.array(data.xmat[top]).reshape(3, 3), np.array(data.xpos[top])),
+        name=tree.get("model", ""),
+        weighed=any(word in text for word in ("mass=", "density=", "<inertial")),
+        rubs="friction=" in text,
+        files=(path, *_files(tree, path, root)),
+    )
+
+
+def body_of(
+    model: Any,
+    data: Any,
+    bodies: Sequence[int],
+    frame: tuple[Points, Points],
+    *,
+    name: str,
+    weighed: bool,
+    rubs: bool,
+    files: tuple[Path, ...],
+) -> Body:
+    """The shapes, the mass and the friction of some bodies of a compiled model, which move as one.
+
+    Args:
+        model: mujoco.MjModel.
+        data: mujoco.MjData, whose poses are those of the bodies.
+        bodies: their numbers.
+        frame: rotation and position [m] of the object in the world.
+        name: of the object.
+        weighed: whether its mass is said; MuJoCo takes everything for water otherwise.
+        rubs: whether its friction is said.
+        files: that it was read from.
+
+    Raises:
+        AssetError: a shape of a kind that is not read, or nothing to see.
+    """
+    import mujoco
+
     geoms = [
         geom
         for geom in range(model.ngeom)
@@ -48,7 +91,6 @@ def read_mjcf(path: Path, root: Path) -> Body:
     ghost = [geom for geom in geoms if geom not in solid]
     shown = ghost or [geom for geom in geoms if model.geom_group[geom] < _HIDDEN] or geoms
     notes: list[str] = []
-    frame = np.array(data.xmat[top]).reshape(3, 3), np.array(data.xpos[top])
     seen = [_piece(model, data, mujoco, geom, frame, notes) for geom in shown]
     touched = [_piece(model, data, mujoco, geom, frame, notes) for geom in solid]
     hulls: tuple[Points, ...] = ()
@@ -58,22 +100,18 @@ def read_mjcf(path: Path, root: Path) -> Body:
         notes += [note] if note else []
     mesh = merged(seen, notes)
     return Body(
-        name=tree.get("model", ""),
+        name=name,
         mesh=mesh,
         hulls=hulls,
+        touched=tuple(touched),
         metres=1.0,
         up="z",
         declared="MJCF",
-        inertial=_inertial(model, data, bodies, frame) if _weighed(text) else None,
-        friction=float(model.geom_friction[(solid or geoms)[0], 0]) if "friction=" in text else None,
-        files=(path, *_files(tree, path, root)),
+        inertial=_inertial(model, data, bodies, frame) if weighed else None,
+        friction=float(model.geom_friction[(solid or geoms)[0], 0]) if rubs else None,
+        files=files,
         notes=tuple(notes),
     )
-
-
-def _weighed(text: str) -> bool:
-    """Whether the file says what its body weighs; MuJoCo takes everything for water otherwise."""
-    return any(word in text for word in ("mass=", "density=", "<inertial"))
 
 
 def _root(model: Any, mujoco: Any) -> int:
@@ -120,6 +158,7 @@ def _piece(model: Any, data: Any, mujoco: Any, geom: int, frame: tuple[Points, P
     if material >= 0 and piece.patch.image is None:
         colour = _average(model, material, rgba)
         piece = Piece(vertices=piece.vertices, faces=piece.faces, patch=flat(len(piece.faces), colour))
+    piece = replace(piece, surface=_surface(model, material, rgba))
     rotation = np.array(data.geom_xmat[geom]).reshape(3, 3)
     position = np.array(data.geom_xpos[geom])
     return piece.placed(frame[0].T @ rotation, frame[0].T @ (position - frame[1]))
@@ -139,7 +178,34 @@ def _mesh(model: Any, mesh: int, material: int, rgba: Points, notes: list[str]) 
     # MuJoCo counts v from the picture's first row.
     uv = np.stack([uv[..., 0], 1.0 - uv[..., 1]], axis=-1)
     tint = np.clip(np.asarray(rgba[:3]), 0.0, 1.0)
-    return Piece(vertices=vertices, faces=triangles, patch=Patch(uv=uv, image=np.round(image * tint).astype(np.uint8)))
+    patch = Patch(uv=uv, image=np.round(image * tint).astype(np.uint8), maps=_maps(model, material, image.shape))
+    return Piece(vertices=vertices, faces=triangles, patch=patch)
+
+
+def _maps(model: Any, material: int, shape: tuple[int, ...]) -> dict[str, Any]:
+    """The layers of a material beside its colour, as far as they are as large as that."""
+    import mujoco
+
+    roles = np.atleast_1d(model.mat_texid[material])
+    found = {}
+    for name in MAPS:
+        texture = int(roles[getattr(mujoco.mjtTextureRole, f"mjTEXROLE_{name.upper()}")]) if len(roles) > 1 else -1
+        if texture < 0 or (int(model.tex_height[texture]), int(model.tex_width[texture])) != shape[:2]:
+            continue
+        texels = _texels(model, texture)
+        found[name] = texels if name == "normal" else texels[..., 0]
+    return found
+
+
+def _surface(model: Any, material: int, rgba: Points) -> dict[str, float]:
+    """What the file says of a surface beside its colour; MuJoCo's -1 means that it says nothing."""
+    said = {"opacity": float(rgba[3])} if rgba[3] < 1.0 else {}
+    if material >= 0:
+        for name in ("roughness", "metallic"):
+            value = float(getattr(model, f"mat_{name}")[material])
+            if value >= 0.0:
+                said[name] = min(value, 1.0)
+    return said
 
 
 def _image(model: Any, material: int) -> Any:
@@ -169,7 +235,7 @@ def _average(model: Any, material: int, rgba: Points) -> Points:
     return np.asarray(rgba[:3]) * _texels(model, textures[0]).reshape(-1, 3).mean(axis=0) / 255.0
 
 
-def _inertial(model: Any, data: Any, bodies: list[int], frame: tuple[Points, Points]) -> Inertial | None:
+def _inertial(model: Any, data: Any, bodies: Sequence[int], frame: tuple[Points, Points]) -> Inertial | None:
     parts = []
     for body in bodies:
         mass = float(model.body_mass[body])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +21,20 @@ def read_urdf(path: Path, root: Path) -> Body:
         AssetError: it has joints that move, a mesh is missing, or nothing is to be seen.
     """
     robot = read_root(path)
-    frames = _frames(robot)
+    return body_of(robot, robot.findall("link"), _frames(robot), path, root, name=robot.get("name", ""))
+
+
+def body_of(
+    robot: ET.Element, links: Sequence[ET.Element], frames: Mapping[str, Frame], path: Path, root: Path, *, name: str
+) -> Body:
+    """The shapes, the mass and the friction of links that move as one, placed by their frames in that of the object.
+
+    Raises:
+        AssetError: a mesh is missing, or nothing is to be seen.
+    """
     colours = {one.get("name"): _rgb(one) for one in robot.findall("material")}
     found, lost = Links(), False
-    for link in robot.findall("link"):
+    for link in links:
         frame = frames[link.get("name", "")]
         shapes = {}
         for kind, into in (("visual", found.seen), ("collision", found.touched)):
@@ -40,15 +51,15 @@ def read_urdf(path: Path, root: Path) -> Body:
                     lost = True
         found.alike &= shapes.get("visual") == shapes.get("collision")
         if (inertial := link.find("inertial")) is not None and (mass := inertial.find("mass")) is not None:
-            pose = within(frame, _origin(inertial.find("origin")))
+            pose = within(frame, origin_of(inertial.find("origin")))
             found.weigh(mass.get("value", ""), pose, inertial.find("inertia"), lambda one, key: one.get(key))
         said = link.find("contact/lateral_friction")
         if said is not None:
             found.frictions.append(float(numbers(said.get("value"), 1)[0]))
     for element in robot.findall(".//gazebo/mu1"):
         found.frictions.append(float(numbers(element.text, 1)[0]))
-    meshes = any(_named(one).startswith("mesh") for one in robot.iter("collision"))
-    return found.body(robot.get("name", ""), path, "URDF", convex=not lost and not (found.alike and meshes))
+    meshes = any(_named(one).startswith("mesh") for link in links for one in link.findall("collision"))
+    return found.body(name, path, "URDF", convex=not lost and not (found.alike and meshes))
 
 
 def _frames(robot: ET.Element) -> dict[str, Frame]:
@@ -65,7 +76,7 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
         parent, child = joint.find("parent"), joint.find("child")
         if parent is None or child is None:
             raise AssetError(f'joint "{joint.get("name")}" lacks its parent or its child.')
-        above[child.get("link", "")] = (parent.get("link", ""), _origin(joint.find("origin")))
+        above[child.get("link", "")] = (parent.get("link", ""), origin_of(joint.find("origin")))
     found: dict[str, Frame] = {}
     for link in links:
         rotation, position, at, steps = np.eye(3), np.zeros(3), link, 0
@@ -78,14 +89,15 @@ def _frames(robot: ET.Element) -> dict[str, Frame]:
     return found
 
 
-def _origin(element: ET.Element | None) -> Frame:
+def origin_of(element: ET.Element | None) -> Frame:
+    """Rotation and position [m] of an <origin>; none where there is none."""
     if element is None:
         return REST
     return turned(*numbers(element.get("rpy"), 3, 0.0)), numbers(element.get("xyz"), 3, 0.0)
 
 
 def _piece(one: ET.Element, frame: Frame, rgb, path: Path, root: Path, notes: list[str]) -> Piece:
-    rotation, position = within(frame, _origin(one.find("origin")))
+    rotation, position = within(frame, origin_of(one.find("origin")))
     shape = shape_of(one)
     if shape.tag == "mesh":
         piece = mesh_piece(shape.get("filename", ""), path, root, notes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from pat3d.assets.mesh.load import MAX_BYTES, MAX_FACES
 from pat3d.assets.mesh.texture import MAX_SIDE, Patch
 from pat3d.errors import AssetError
 from pat3d.geometry.rotations import matrix_of
+from pat3d.scene.asset import MAPS
 
 
 def pxr_module(name: str) -> Any:
@@ -57,13 +59,9 @@ def read_usd(path: Path, root: Path) -> Body:
     touched: list[Piece] = []
     files: list[Path] = [path]
     for prim in prims:
-        if not prim.IsA(UsdGeom.Gprim) or UsdGeom.Imageable(prim).ComputeVisibility() == UsdGeom.Tokens.invisible:
-            continue
-        piece = _piece(prim, root, notes, files)
+        piece = piece_of(prim, cache, root, notes, files)
         if piece is None:
             continue
-        matrix = np.array(cache.GetLocalToWorldTransform(prim), dtype=np.float64).T
-        piece = _transformed(piece, matrix)
         guide = UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide
         if prim.HasAPI(UsdPhysics.CollisionAPI) and guide:
             touched.append(piece)
@@ -78,21 +76,43 @@ def read_usd(path: Path, root: Path) -> Body:
         name=root_prim.GetName() if root_prim else "",
         mesh=merged(seen or touched, notes),
         hulls=hulls,
+        touched=tuple(touched),
         metres=unit,
         up="y" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else "z",
         declared="the USD stage",
-        inertial=_inertial(prims, cache, unit, float(UsdPhysics.GetStageKilogramsPerUnit(stage))),
+        inertial=inertial_of(prims, cache, unit, float(UsdPhysics.GetStageKilogramsPerUnit(stage))),
         friction=_friction(prims),
         files=tuple(files),
         notes=tuple(notes),
     )
 
 
-def _transformed(piece: Piece, matrix: Points) -> Piece:
+def piece_of(prim: Any, cache: Any, root: Path, notes: list[str], files: list[Path]) -> Piece | None:
+    """A shape that is not hidden, in the axes and the unit of the stage; None where `prim` is no such shape.
+
+    Args:
+        prim: Usd.Prim.
+        cache: UsdGeom.XformCache.
+        root: folder that pictures may lie in.
+        notes: what is left out is added.
+        files: what is read is added.
+
+    Raises:
+        AssetError: it is damaged, or too large.
+    """
+    UsdGeom = pxr_module("UsdGeom")
+
+    if not prim.IsA(UsdGeom.Gprim) or UsdGeom.Imageable(prim).ComputeVisibility() == UsdGeom.Tokens.invisible:
+        return None
+    piece = _piece(prim, root, notes, files)
+    if piece is None:
+        return None
+    matrix = np.array(cache.GetLocalToWorldTransform(prim), dtype=np.float64).T
     vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]
     mirrored = np.linalg.det(matrix[:3, :3]) < 0
     faces = piece.faces[:, ::-1] if mirrored else piece.faces
-    return Piece(vertices=vertices, faces=faces, patch=piece.patch.mirrored() if mirrored else piece.patch)
+    patch = piece.patch.mirrored() if mirrored else piece.patch
+    return replace(piece, vertices=vertices, faces=faces, patch=patch)
 
 
 def _piece(prim: Any, root: Path, notes: list[str], files: list[Path]) -> Piece | None:
@@ -110,9 +130,10 @@ def _piece(prim: Any, root: Path, notes: list[str], files: list[Path]) -> Piece 
         if prim.IsA(kind):
             shape = kind(prim)
             sizes = [float(shape.GetRadiusAttr().Get()), float(shape.GetHeightAttr().Get())]
-            if shape.GetAxisAttr().Get() != UsdGeom.Tokens.z:
-                raise AssetError(f"{prim.GetName()}: a {name} along x or y is not read; along z it is.")
-            return primitive(name, sizes, rgb)
+            along = ("X", "Y", "Z").index(str(shape.GetAxisAttr().Get()))
+            # Columns of the rotation that takes z to the axis of the shape.
+            turn = np.eye(3)[:, [(along + 1) % 3, (along + 2) % 3, along]]
+            return primitive(name, sizes, rgb).placed(turn, np.zeros(3))
     notes.append(f"{prim.GetName()} ({prim.GetTypeName()}) was left out")
     return None
 
@@ -141,13 +162,13 @@ def _mesh(prim: Any, rgb: Any, root: Path, notes: list[str], files: list[Path]) 
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
     faces = index[corners]
-    image, tint = _look(prim, root, files, notes)
+    image, tint, surface, maps = _look(prim, root, files, notes)
     uv = _coordinates(prim, index, corners)
     if image is not None and uv is not None:
-        patch = Patch(uv=uv, image=image)
+        patch = Patch(uv=uv, image=image, maps={name: _fitted(one, image.shape) for name, one in maps.items()})
     else:
         patch = flat(len(faces), tint if tint is not None else rgb)
-    return Piece(vertices=np.array(points, dtype=np.float64), faces=faces, patch=patch)
+    return Piece(vertices=np.array(points, dtype=np.float64), faces=faces, patch=patch, surface=surface)
 
 
 def _coordinates(prim: Any, index: Any, corners: Any) -> Points | None:
@@ -165,25 +186,51 @@ def _coordinates(prim: Any, index: Any, corners: Any) -> Points | None:
     return None
 
 
-def _look(prim: Any, root: Path, files: list[Path], notes: list[str]) -> tuple[Any, Any]:
-    """The picture and the colour of the preview material that is bound, each None where there is none."""
+def _look(
+    prim: Any, root: Path, files: list[Path], notes: list[str]
+) -> tuple[Any, Any, dict[str, float], dict[str, Any]]:
+    """Picture and colour of the preview material that is bound, None where there is none; numbers and maps beside."""
     UsdShade = pxr_module("UsdShade")
 
     material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
     surface = material.ComputeSurfaceSource()[0] if material else None
     if not surface:
-        return None, None
+        return None, None, {}, {}
+    said, maps = {}, {}
+    for name in MAPS:
+        given = surface.GetInput(name)
+        file, channel = _connected(given) if given else (None, "")
+        if file is not None:
+            image = _picture(file, root, files, notes)
+            if image is not None:
+                maps[name] = image if name == "normal" else image[..., "rgb".find(channel) if channel in "rgb" else 0]
+        elif given and name != "normal" and given.Get() is not None:
+            said[name] = float(np.clip(given.Get(), 0.0, 1.0))
     colour = surface.GetInput("diffuseColor")
     if not colour:
-        return None, None
-    source = colour.GetConnectedSources()[0] if colour.HasConnectedSource() else []
+        return None, None, said, maps
+    file, _ = _connected(colour)
+    if file is None:
+        return None, None if colour.HasConnectedSource() else colour.Get(), said, maps
+    return _picture(file, root, files, notes), None, said, maps
+
+
+def _connected(given: Any) -> tuple[Any, str]:
+    """The picture file that an input is connected to, None where there is none; and the output that it takes."""
+    UsdShade = pxr_module("UsdShade")
+
+    source = given.GetConnectedSources()[0] if given.HasConnectedSource() else []
     if not source:
-        return None, colour.Get()
+        return None, ""
     reader = UsdShade.Shader(source[0].source.GetPrim())
-    said = reader.GetInput("file").Get() if reader.GetInput("file") else None
-    if said is None:
-        return None, None
-    return _picture(said, root, files, notes), None
+    return reader.GetInput("file").Get() if reader.GetInput("file") else None, str(source[0].sourceName)
+
+
+def _fitted(image: Any, shape: tuple[int, ...]) -> Any:
+    """A map as large as the picture that it belongs to."""
+    from PIL import Image
+
+    return image if image.shape[:2] == shape[:2] else np.asarray(Image.fromarray(image).resize((shape[1], shape[0])))
 
 
 def _picture(said: Any, root: Path, files: list[Path], notes: list[str]) -> Any:
@@ -208,14 +255,15 @@ def _picture(said: Any, root: Path, files: list[Path], notes: list[str]) -> Any:
     return texels
 
 
-def _inertial(prims: list[Any], cache: Any, unit: float, kilograms: float) -> Inertial | None:
+def inertial_of(prims: list[Any], cache: Any, unit: float, kilograms: float) -> Inertial | None:
     """Of the prim that gives a mass, in metres and kilograms."""
     UsdPhysics = pxr_module("UsdPhysics")
 
     for prim in prims:
-        if not prim.HasAPI(UsdPhysics.MassAPI):
-            continue
         api = UsdPhysics.MassAPI(prim)
+        # What stands still may carry the numbers without the schema.
+        if not (prim.HasAPI(UsdPhysics.MassAPI) or api.GetMassAttr().HasAuthoredValue()):
+            continue
         mass = float(api.GetMassAttr().Get() or 0.0) * kilograms
         if mass <= 0:
             continue

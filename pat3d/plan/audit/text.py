@@ -1,0 +1,238 @@
+"""What a sentence says on its face: the things it names, how many, in which colour, and the words between them.
+
+Nothing here parses: a mention is a name of the catalogue, a claim is a relation word with the mention behind it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from pat3d.assets.colours import find_colour
+from pat3d.assets.materials import find_material
+from pat3d.plan.audit.words import (
+    ADJECTIVES,
+    ARTICLES,
+    BREAKING,
+    IRREGULAR,
+    LEADING,
+    LONGEST,
+    NUMBERS,
+    PARTICIPLES,
+    PRONOUNS,
+    RELATIONS,
+    SHADES,
+    SINGLE,
+    SOME,
+    UNITS,
+    UNSURE,
+    Place,
+)
+
+_WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
+_STOP = re.compile(r"[.;!?\n]+")
+_LONGEST_NAME = 4
+
+Find = Callable[[str], str | None]
+"""The noun of the catalogue that a name means, or None."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mention:
+    """A name of the catalogue in the sentence."""
+
+    start: int
+    end: int
+    """Words of the sentence."""
+    text: str
+    noun: str
+    plural: bool
+    number: int | None = None
+    """As said: "two", "a"; None where it is not."""
+    new: bool = False
+    """Whether it is said so that it names something not named before."""
+    lead: frozenset[str] = frozenset()
+    """What is said before the name to tell it from its like."""
+    owned: bool = False
+    """Whether it is something's: "its bed" may be a part of that."""
+    colours: tuple[str, ...] = ()
+    part: int = 0
+    """Of the prompt, cut at full stops and semicolons."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Claim:
+    """A relation word, and what stands behind it."""
+
+    place: Place
+    said: str
+    """With what stands behind it: "on the table"."""
+    at: int
+    of: Mention | None
+    """None for a pronoun."""
+    part: int
+    whose: Mention | None = None
+    """What it is said of, where a relative pronoun leaves no choice."""
+
+
+@dataclass(kw_only=True)
+class Said:
+    """A sentence on its face."""
+
+    words: list[str]
+    mentions: list[Mention] = field(default_factory=list)
+    compounds: list[Mention] = field(default_factory=list)
+    """Names that only say more of the name behind them: the coffee of a coffee table."""
+    claims: list[Claim] = field(default_factory=list)
+    stray: list[str] = field(default_factory=list)
+    """Colours that no name stands behind."""
+
+
+def read(prompt: str, find: Find) -> Said:
+    """What `prompt` says on its face."""
+    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
+    parts = _parts(said.words)
+    found = _names(said.words, find)
+    taken = {at for start, end, *_ in found for at in range(start, end)}
+    for index, (start, end, noun, plural) in enumerate(found):
+        head = index + 1 == len(found) or found[index + 1][0] != end
+        mention = _mention(said.words, start, end, noun, plural, parts[start], taken)
+        (said.mentions if head else said.compounds).append(mention)
+    told = {at for mention in (*said.mentions, *said.compounds) for at in range(mention.start, mention.end)}
+    coloured = {at for mention in said.mentions for at in _before(said.words, mention.start, told)}
+    said.stray = [word for at, word in enumerate(said.words)
+                  if find_colour(word) and at not in told and at not in coloured]  # fmt: skip
+    said.claims = _claims(said, parts)
+    return said
+
+
+def singulars(word: str) -> tuple[str, ...]:
+    """What `word` may be the plural of."""
+    if word in IRREGULAR:
+        return (IRREGULAR[word],)
+    if len(word) < 4 or not word.endswith("s") or word.endswith("ss"):
+        return ()
+    ends = {"ies": ("y",), "ves": ("f", "fe"), "es": ("", "e"), "s": ("",)}
+    return tuple(word[: -len(end)] + new for end, news in ends.items() if word.endswith(end) for new in news)
+
+
+def _parts(words: Sequence[str]) -> list[int]:
+    made, part = [], 0
+    for word in words:
+        made.append(part)
+        part += bool(_STOP.fullmatch(word))
+    return made
+
+
+def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]:
+    """Start, end, noun and whether it is a plural, of every longest name."""
+    made: list[tuple[int, int, str, bool]] = []
+    at = 0
+    while at < len(words):
+        for size in range(min(_LONGEST_NAME, len(words) - at), 0, -1):
+            whole = words[at : at + size]
+            if size == 1 and (whole[0] in UNSURE or whole[0] in SHADES):
+                continue
+            name = find(" ".join(whole))
+            single = [found for one in singulars(whole[-1]) if (found := find(" ".join([*whole[:-1], one])))]
+            if name or single:
+                made.append((at, at + size, name or single[0], bool(single) or name in SINGLE))
+                at += size - 1
+                break
+        at += 1
+    return made
+
+
+def _mention(
+    words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]
+) -> Mention:
+    ahead = _before(words, start, taken)
+    colours = tuple(colour for at in ahead if (colour := find_colour(words[at])) and words[at - 1] not in SHADES)
+    lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
+    number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
+    number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if _elliptic(words, ahead) or SOME & lead:
+        number, plural = None, True
+    return Mention(
+        start=start, end=end, text=" ".join(words[start:end]), noun=noun, plural=plural, number=number,
+        new=number is not None and not {"the", "these", "those", "both", "all", "other"} & lead,
+        lead=frozenset(lead - ARTICLES), owned=bool({"its", "their"} & lead), colours=colours, part=part,
+    )  # fmt: skip
+
+
+def _elliptic(words: Sequence[str], ahead: Sequence[int]) -> bool:
+    """Whether the noun is said of more than the words before it: "a red and a blue cup"."""
+    at = ahead[-1] - 1 if ahead else -1
+    return at > 0 and words[at] in ("and", ",") and (
+        find_colour(words[at - 1]) is not None or words[at - 1] in ADJECTIVES
+    )  # fmt: skip
+
+
+def _before(words: Sequence[str], start: int, taken: set[int]) -> list[int]:
+    """The words that lead to the name at `start`, nearest first, up to its article or number."""
+    made: list[int] = []
+    at = start - 1
+    while at >= 0 and at not in taken and not _breaks(words, at):
+        made.append(at)
+        if words[at] in ARTICLES:
+            break
+        at -= 1
+    if at in taken and find_colour(words[at]):
+        # An orange plate.
+        made.append(at)
+    while made and (words[made[-1]] in (",", "and")):
+        made.pop()
+    return made
+
+
+def _breaks(words: Sequence[str], at: int) -> bool:
+    word = words[at]
+    if word in (",", "and"):
+        # "a red and white mug", "a small, red mug"
+        sides = words[max(0, at - 1)], words[at + 1] if at + 1 < len(words) else ""
+        return not all(find_colour(side) or find_material(side) or side in ADJECTIVES for side in sides)
+    return word in BREAKING or not word[0].isalnum()
+
+
+def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
+    made: list[Claim] = []
+    words, at = said.words, 0
+    starts = {mention.start: mention for mention in (*said.compounds, *said.mentions)}
+    while at < len(words):
+        size = next((n for n in range(LONGEST, 0, -1) if tuple(words[at : at + n]) in RELATIONS), 0)
+        if not size:
+            at += 1
+            continue
+        place = RELATIONS[tuple(words[at : at + size])]
+        if place == "side":
+            at += size
+            continue
+        end, of = at + size, None
+        while end < len(words) and end not in starts and not _breaks(words, end) and end - at - size < 6:
+            end += 1
+        if end in starts:
+            of = starts[end]
+            while of not in said.mentions:
+                of = starts[of.end]
+            end = of.end
+        pronoun = of is None and at + size < len(words) and words[at + size] in PRONOUNS
+        if of is not None or pronoun:
+            text = " ".join(words[at : end if of is not None else at + size + 1])
+            made.append(Claim(place=place, said=text, at=at, of=of, part=parts[at], whose=_whose(said, at)))
+        at += size
+    return made
+
+
+def _whose(said: Said, at: int) -> Mention | None:
+    """The name before a relative pronoun that leads to the relation word at `at`."""
+    words, back = said.words, at - 1
+    if words[at] in PARTICIPLES:
+        return next((mention for mention in said.mentions if mention.end == at), None)
+    while back > 0 and words[back] in LEADING:
+        back -= 1
+    if back < 1 or words[back] not in ("which", "that"):
+        return None
+    back -= words[back - 1] == ","
+    return next((mention for mention in said.mentions if mention.end == back), None)

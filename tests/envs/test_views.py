@@ -1,0 +1,65 @@
+"""The fixed cameras show the whole robot and its work, and every link of a robot is drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium")
+
+from pat3d.envs.env import TabletopEnv
+from pat3d.envs.physics.views import DRAWN_GROUPS
+from pat3d.envs.physics.world import ROBOT
+from tests.envs.own_arm import own_arm
+
+SIDE = 128
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory):
+    """A robot file of one's own."""
+    path = tmp_path_factory.mktemp("robots") / "arm.xml"
+    path.write_text(own_arm())
+    return str(path)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_whole_robot_and_every_object_are_in_a_square_picture(arm, count):
+    """None of their pixels is on the picture's edge, but for the pedestal's at the lower one."""
+    env = TabletopEnv(robot=[arm] * count, task="pick:red mug")
+    env.reset(seed=0)
+    for camera in ("agentview", "frontview"):
+        labels = env.pictures.take(camera, SIDE, SIDE, segmentation=True).segmentation
+        assert labels is not None
+        robot = labels == 1
+        assert robot.any()
+        assert not robot[0].any()
+        assert not robot[:, [0, -1]].any()
+        assert set(np.unique(labels)) >= {1, *range(2, 2 + len(env.scene.objects))}
+        for number in range(len(env.scene.objects)):
+            seen = labels == 2 + number
+            assert not seen[[0, -1]].any()
+            assert not seen[:, [0, -1]].any()
+    env.close()
+
+
+def test_cameras_are_no_farther_than_needed(arm):
+    """What the agent's camera has to show fills the picture from one edge, less the margin, to the other."""
+    env = TabletopEnv(robot=arm, task="pick:red mug")
+    env.reset(seed=0)
+    labels = env.pictures.take("agentview", SIDE, SIDE, segmentation=True).segmentation
+    assert labels is not None
+    rows = np.flatnonzero((labels > 0).any(axis=1))
+    # Boxes around round links are a little larger than the links.
+    assert rows[0] < 0.12 * SIDE
+    assert rows[-1] > 0.9 * SIDE
+    env.close()
+
+
+def test_links_that_have_nothing_but_what_collides_are_drawn(arm):
+    env = TabletopEnv(robot=arm, task="pick:red mug")
+    world = env.simulation.world
+    model = world.model
+    of_robot = (world.owner == ROBOT) & (model.geom_bodyid > 0)
+    assert set(model.geom_bodyid[of_robot]) == set(model.geom_bodyid[of_robot & (model.geom_group < DRAWN_GROUPS)])
+    env.close()

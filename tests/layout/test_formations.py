@@ -1,0 +1,91 @@
+"""Rings, joined outlines and the sharing out of shelves, on things whose origin is not in their middle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pat3d.layout.bodies import Body
+from pat3d.layout.flat import Item
+from pat3d.layout.formations import Formation, pairs
+from pat3d.layout.group import Group
+from pat3d.layout.layout import arrange
+from pat3d.layout.places import _joined
+from pat3d.layout.tops import item_of
+from pat3d.scene.model import Relation
+from tests.layout.things import ball, block, shelf
+
+
+def items(count: int, seed: int) -> dict[str, Item]:
+    """Boxes of 2 to 30 cm beside their origins."""
+    rng = np.random.default_rng(seed)
+    found = {}
+    for name in "abcdefgh"[:count]:
+        (x, y), aside = rng.uniform(0.02, 0.3, 2), rng.uniform(-0.2, 0.2, 2)
+        item = item_of(Group((Body(name, block(x, y)).at(np.eye(3), np.zeros(3)),)), turnable=False)
+        found[name] = replace(
+            item, low=item.low + aside, high=item.high + aside, outline=item.outline + aside, middle=aside
+        )
+    return found
+
+
+def rectangle(item: Item, middle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Its corners [m] where its middle is at `middle`."""
+    return middle - item.size / 2, middle + item.size / 2
+
+
+@pytest.mark.parametrize("centre", [None, "a"])
+@pytest.mark.parametrize("count", [3, 5, 8])
+def test_a_ring_is_even_keeps_all_gaps_and_is_hardly_larger_than_it_has_to_be(count, centre):
+    def gap(first: Item, second: Item) -> float:
+        return 0.01 + 0.1 * float(first.size[0] + second.size[0])
+
+    def least_excess(offsets: dict[str, np.ndarray]) -> float:
+        """Of the free distance of two rectangles, along the axis that separates them, over their gap."""
+        return min(
+            float(np.maximum(low - other_high, other_low - high).max()) - gap(things[a], things[b])
+            for a, b in pairs(offsets)
+            for low, high in [rectangle(things[a], offsets[a])]
+            for other_low, other_high in [rectangle(things[b], offsets[b])]
+        )
+
+    things = items(count, seed=count)
+    members = tuple(name for name in things if name != centre)
+    offsets = Formation(members=members, centre=centre, ring=True).offsets(things, (), gap)
+    around = np.array([offsets[name] for name in members]) @ [1, 1j]
+    np.testing.assert_allclose(np.abs(around), abs(around[0]))
+    np.testing.assert_allclose(np.roll(around, -1) / around, np.exp(2j * np.pi / len(members)), atol=1e-9)
+    assert centre is None or not offsets[centre].any()
+    # Rings grow by steps of 2 %.
+    assert least_excess(offsets) >= -1e-12
+    assert least_excess({name: at / 1.02 for name, at in offsets.items()}) < 0.0
+
+
+def test_the_outline_of_a_formation_is_that_of_all_its_members_where_they_stand():
+    things = items(3, seed=1)
+    offsets = {"a": np.array([0.4, 0.0]), "b": np.array([0.0, 0.5]), "c": np.array([-0.3, -0.2])}
+    joined = _joined("b", offsets, things)
+    # The origin of the lead is at zero, so its middle is where the item has it; the others' are as far as they stand.
+    middles = {name: things["b"].middle + at - offsets["b"] for name, at in offsets.items()}
+    lows, highs = zip(*(rectangle(things[name], middle) for name, middle in middles.items()), strict=True)
+    np.testing.assert_allclose(joined.low, np.min(lows, axis=0))
+    np.testing.assert_allclose(joined.high, np.max(highs, axis=0))
+    np.testing.assert_allclose(joined.outline.min(axis=0), joined.low)
+    np.testing.assert_allclose(joined.outline.max(axis=0), joined.high)
+    np.testing.assert_allclose(joined.middle, (joined.low + joined.high) / 2)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_stands_beside_another_is_on_its_shelf_and_others_are_on_their_own(seed):
+    assets = {
+        "shelf": shelf(), "ball": ball(), "box": block(0.2, 0.15, 0.2, noun="box"), "hat": block(noun="hat"),
+        "cup": block(0.05, 0.05, 0.08, noun="cup"),
+    }  # fmt: skip
+    relations = tuple(Relation(child=name, kind="on", parent="shelf") for name in assets if name != "shelf")
+    relations += (Relation(child="cup", kind="left_of", parent="ball"),)
+    poses = arrange(assets, relations, seed=seed).poses
+    floor = {name: round(poses[name].position[2] + assets[name].bounds[0, 2], 2) for name in assets}
+    assert floor["cup"] == floor["ball"]
+    assert len({floor["ball"], floor["box"], floor["hat"]}) == 3

@@ -1,0 +1,138 @@
+"""The studio in a real browser: a sentence becomes a scene, which is edited, settled, undone and exported by mouse."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from tests.studio.browser import chromium, page, pixel
+
+pytest.importorskip("viser")
+pytest.importorskip("playwright")
+if chromium() is None:
+    pytest.skip("there is no Chromium", allow_module_level=True)
+
+from pat3d.scene.io import load_scene
+from pat3d.studio.server import opened
+from pat3d.studio.workbench import needed
+
+pytestmark = pytest.mark.slow
+
+SENTENCE = "a red mug on a cutting board"
+LONG = "a stack of ten books, a vase, a red mug, a bowl with six apples and a laptop on a desk"
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory):
+    with opened(root=tmp_path_factory.mktemp("scenes"), port=0) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def browser(studio):
+    with page() as made:
+        made.goto(studio.address)
+        made.get_by_role("button", name="Make").wait_for()
+        yield made
+
+
+@pytest.fixture
+def shot(browser, tmp_path, request):
+    """A picture of the page after the test, where one wants to look."""
+    yield
+    browser.screenshot(path=str(tmp_path / f"{request.node.name}.png"))
+
+
+def until(holds, seconds=120.0):
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, "it did not happen."
+        time.sleep(0.1)
+
+
+def field(browser, label):
+    """The text field beside a label."""
+    return browser.get_by_text(label, exact=True).locator("xpath=../../..").locator("input, textarea").first
+
+
+def server(studio):
+    return studio.page.server
+
+
+def test_a_sentence_becomes_a_scene(studio, browser, shot):
+    field(browser, "Sentence").fill(SENTENCE)
+    browser.get_by_role("button", name="Make").click()
+    browser.get_by_text("made and verified").wait_for()
+    browser.get_by_text("it does not move").wait_for()
+    assert {"red mug", "cutting board"} <= {obj.name for obj in needed(studio.bench.session).scene.objects}
+
+
+def test_a_click_selects_what_is_under_it(studio, browser, shot):
+    scene = needed(studio.bench.session).scene
+    # The camera is told of in its own time.
+    time.sleep(2.0)
+    mug = scene["red mug"]
+    middle = mug.pose.apply(np.array([mug.asset.mass_properties.centre_of_mass]))[0]
+    browser.mouse.click(*pixel(server(studio), middle))
+    until(lambda: needed(studio.bench.session).selected == "red mug")
+    browser.get_by_text("asked for as").wait_for()
+
+
+def test_a_drag_moves_it_and_settling_proves_it_again(studio, browser, shot):
+    session = needed(studio.bench.session)
+    mug = session.scene["red mug"]
+    before = np.array(mug.pose.position)
+    scale = max(0.1, 0.8 * float(mug.asset.size.max()))
+    time.sleep(2.0)
+    tip = pixel(server(studio), before + (0.7 * scale, 0.0, 0.0))
+    there = pixel(server(studio), before + (0.7 * scale - 0.03, 0.0, 0.0))
+    browser.mouse.move(*tip)
+    browser.mouse.down()
+    browser.mouse.move(*there, steps=12)
+    browser.mouse.up()
+    until(lambda: not needed(studio.bench.session).at_rest or studio.bench.status.failed)
+    assert not studio.bench.status.failed, studio.bench.status.said
+    browser.get_by_text("1 edit to be settled").wait_for()
+    browser.get_by_role("button", name="Settle").click()
+    browser.get_by_text("settled and verified").wait_for()
+    after = np.array(needed(studio.bench.session).scene["red mug"].pose.position)
+    assert 0.01 < before[0] - after[0] < 0.06
+    assert abs(before[1] - after[1]) < 0.01
+
+
+def test_undo_brings_it_back_and_a_page_that_is_loaded_again_shows_the_same(studio, browser, shot):
+    moved = needed(studio.bench.session).scene["red mug"].pose.position
+    browser.get_by_role("button", name="Undo").click()
+    browser.get_by_text("1 edit to be settled").wait_for()
+    browser.reload()
+    browser.get_by_text("1 edit to be settled").wait_for()
+    browser.get_by_role("button", name="Undo").click()
+    browser.get_by_text("it does not move").wait_for()
+    back = needed(studio.bench.session).scene["red mug"].pose.position
+    assert np.linalg.norm(np.subtract(back, moved)) > 0.01
+
+
+def test_what_was_made_is_exported(studio, browser, shot):
+    browser.get_by_text("Save and export").click()
+    field(browser, "Name").fill("tray")
+    # A text is told of when nobody has typed for a moment.
+    until(lambda: studio.page.name == "tray")
+    browser.get_by_role("button", name="Export").click()
+    browser.get_by_text("exported and read back").wait_for()
+    assert (studio.store.root.folder / "tray-export" / "mjcf" / "scene.xml").is_file()
+    browser.get_by_role("button", name="Save").click()
+    browser.get_by_text("saved:").wait_for()
+    assert "red mug" in {obj.name for obj in load_scene(studio.store.root.folder / "tray").objects}
+
+
+def test_work_goes_on_while_the_page_is_loaded_again_and_can_be_cancelled_there(studio, browser, shot):
+    before = studio.bench.session
+    field(browser, "Sentence").fill(LONG)
+    browser.get_by_role("button", name="Make").click()
+    browser.get_by_role("button", name="Cancel").wait_for()
+    browser.reload()
+    browser.get_by_role("button", name="Cancel").click()
+    browser.get_by_text("was cancelled").wait_for()
+    assert studio.bench.session is before
