@@ -41,6 +41,7 @@ FACTS = {
         "ForeignFacts",
         "SuiteFacts",
         "LibraryFacts",
+        "FoundFacts",
         "EvaluationFacts",
         "ComparisonFacts",
         "RankedFacts",

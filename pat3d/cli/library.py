@@ -8,7 +8,7 @@ from pat3d.assets.library.index import CPU_LIMIT, Library, add_library, library_
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.library.store import Entry
 from pat3d.cli.console import console, watch
-from pat3d.cli.documents import library_facts, library_object_facts
+from pat3d.cli.documents import FoundFacts, library_facts, library_object_facts
 from pat3d.cli.gallery import write_gallery
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option, with_verbs
@@ -101,6 +101,7 @@ def show(options: argparse.Namespace) -> int:
 @command(
     option("words", "what is looked for: a name, or where an embeddings server is set up, a description"),
     option("--libraries", "libraries to look in", nargs="+", default=None, shown="all", metavar="NAME"),
+    JSON,
     examples="""
     pat3d library search "power drill"
     pat3d library search "to cut paper with" --libraries ycb lab
@@ -115,6 +116,9 @@ def search(options: argparse.Namespace) -> int:
 
     settings = meaning.embedding_settings()
     found = meaning.search(options.words, options.libraries or library_names(), settings=settings)
+    if options.json:
+        print_facts([FoundFacts(noun=one.noun, name=one.name, score=one.score) for one in found])
+        return 0 if found else 1
     for one in found:
         console().print(f"{one.noun:40s} {one.score:.2f}  {one.name}", markup=False, soft_wrap=True)
     if not found:
