@@ -26,6 +26,7 @@ OWN = (
     "sdf",
     "html",
     "glb",
+    "simready",
     "report.json",
     "summary.json",
     "preview.png",
