@@ -30,8 +30,8 @@ class OptimizedFacts(OutcomeFacts):
     skipped: bool
     kept: bool
     broken: list[str]
-    loss_before_m2: float
-    loss_after_m2: float
+    loss_before_m2: float | None
+    loss_after_m2: float | None
     epochs: int
     layouts_tried: int
 
@@ -383,8 +383,7 @@ def optimized_facts(outcome: OutcomeFacts, record: Mapping[str, Any], edited: Se
         skipped=record["skipped"],
         kept=record["kept"],
         broken=list(record["broken"]),
-        loss_before_m2=record["loss_before"],
-        loss_after_m2=record["loss_after"],
+        **finite({"loss_before_m2": record["loss_before"], "loss_after_m2": record["loss_after"]}),
         epochs=len(record["history"]),
         layouts_tried=len(record["trials"]),
     )
