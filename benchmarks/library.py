@@ -129,10 +129,11 @@ def guessed(objects: Path, scratch: Path) -> None:
     """Write the meshes whose truth is known in other units and axes, and count how often the index is right."""
     import trimesh
 
-    from pat3d.assets.library.guess import SURE, guess_unit, guess_up
+    from pat3d.assets.library.guess import SURE, guess_unit
     from pat3d.assets.library.indexing import typical_of
     from pat3d.assets.library.names import Metadata, known_names, synonyms_of, words_of
     from pat3d.assets.library.readers.meshes import read_mesh
+    from pat3d.assets.library.upright import guess_up
     from pat3d.assets.mesh.importing import METRES, TO_Z_UP
 
     scratch.mkdir(parents=True, exist_ok=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
+from pat3d.errors import ModelError
 from pat3d.plan.describe import describe
 from pat3d.plan.grammar.names import known_names
 from pat3d.plan.grammar.planner import GrammarPlanner
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from pat3d.assets.generated.orders import Orders
     from pat3d.plan.llm.chat import Chat
     from pat3d.plan.llm.critic import Critic
+    from pat3d.vision.labelling import Labeller
 
 PROXIES = option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true")
 
@@ -88,6 +90,27 @@ def critic_of(options: argparse.Namespace) -> Critic | None:
     from pat3d.plan.llm.critic import Critic
 
     return Critic(chat())
+
+
+def labeller_of(options: argparse.Namespace) -> Labeller | None:
+    """Who says what the masks of a photograph show; None where `--labels` does.
+
+    Raises:
+        ModelError: no model is set up.
+    """
+    if options.labels is not None:
+        return None
+    from pat3d.assets.catalogue import lookup
+    from pat3d.assets.colours import COLOURS
+    from pat3d.assets.materials import material_names
+    from pat3d.vision.labelling import ChatLabeller
+
+    nouns = [one.noun for one in lookup.entries()]
+    try:
+        asked = chat()
+    except ModelError as error:
+        raise ModelError(f"--labels is missing, and no model can say what the masks show: {error}") from error
+    return ChatLabeller(asked, nouns, materials=material_names(), colours=tuple(COLOURS))
 
 
 @cache

@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import Pat3dError
-from pat3d.exporters.formats import FORMATS, VIEWS, has_usd
+from pat3d.exporters.formats import FORMATS, NEED_USD, VIEWS, has_usd
 from pat3d.geometry.pose import Pose
 from pat3d.studio import facts
 from pat3d.studio.session import Session
@@ -136,7 +136,7 @@ class Panel:
         with gui.add_folder("Save and export", expand_by_default=False):
             self._name = gui.add_text("Name", name, hint="a subfolder of the studio's folder")
             gui.add_button("Save").on_click(lambda _: self._save())
-            kinds = [one for one in (*FORMATS, *VIEWS) if one != "usd" or has_usd()]
+            kinds = [one for one in (*FORMATS, *VIEWS) if one not in NEED_USD or has_usd()]
             self._formats = {one: gui.add_checkbox(one, one == "mjcf") for one in kinds}
             gui.add_button("Export").on_click(lambda _: self._export())
         with gui.add_folder("New scene"):

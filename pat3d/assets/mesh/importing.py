@@ -215,6 +215,7 @@ def asset_of(
             faces=np.ascontiguousarray(fixed.faces, dtype=np.int32),
             uv=np.ascontiguousarray(loaded.uv.reshape(-1, 2)[fixed.corners]),
             texture=loaded.texture,
+            maps=loaded.maps,
         ),
         parts=convex,
         mass_properties=replace(properties, centre_of_mass=tuple(map(float, centre))),  # type: ignore[arg-type]

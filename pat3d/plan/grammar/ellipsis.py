@@ -31,17 +31,19 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
         if piece.kind == "place" and piece.text in _SIDES and made and _the_one(made[-1].phrase):
             # "the one in the middle" is the middle one.
             told = replace(made[-1].phrase, modifiers=Modifiers(adjectives=(_SIDES[piece.text],)))  # type: ignore[type-var]
-            made[-1] = replace(made[-1], phrase=told)
-            continue
-        made.append(piece)
+            made[-1], phrase = replace(made[-1], phrase=told), told
+        else:
+            made.append(piece)
         gap = phrase is not None and follower is not None and phrase.kind == "pieces" and follower.kind == "object"
-        if not gap or not follower.determined:  # type: ignore[union-attr]
+        if not gap or not (follower.determined or follower.plural):  # type: ignore[union-attr]
             continue
-        for before in range(at - 2, -1, -1):
-            link, told = chunks[before + 1], chunks[before].phrase
-            if told is not None and told.kind == "pieces" and link.kind in ("have", "rel"):
-                made.append(link)
-                break
+        links = [(chunks[n].phrase, chunks[n + 1]) for n in range(at - 2, -1, -1)]
+        told = (
+            link for one, link in links if one is not None and one.kind == "pieces" and link.kind in ("have", "rel")
+        )
+        verbs = (link for _, link in links if link.link is not None and link.link.finite)
+        if (link := next(told, None) or next(verbs, None)) is not None:
+            made.append(link)
     return made
 
 

@@ -53,11 +53,7 @@ class Judging:
     def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
         """Whether `head` speaks of one of `heads`: "a basket and a jar in front of the jar", "in front of each"."""
         phrase = self._phrase(head)
-        same = (
-            phrase.definite
-            and not phrase.other
-            and any(_same(self._phrase(each), phrase) for each in heads)
-        )
+        same = phrase.definite and not phrase.other and any(_same(self._phrase(each), phrase) for each in heads)
         told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
         member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
         return same or bool(member) or (phrase.head == "each" and len(heads) > 1)

@@ -68,6 +68,10 @@ class Phrase:
     """Content that is no rigid body ("tea")."""
 
 
+_STUFF = (["straw"], ["stone"], ["cloth"], ["cork"], ["rope"], ["foam"])
+"""What "a ..." is a thing of its own, and before a noun a material."""
+
+
 class PhraseReader:
     """Reads noun phrases from the tokens of one prompt."""
 
@@ -261,7 +265,8 @@ class PhraseReader:
             return replace(base, kind="background", substance=head)
         if any(word in lexicon.PARTS for word in singular):
             return replace(base, kind="part", said=singular[-1])
-        if all(is_modifier(word) for word in words):
+        stuff = words in _STUFF and count is None and not self._definite
+        if all(is_modifier(word) for word in words) and not stuff:
             return replace(base, kind="pieces", modifiers=read_modifiers(words))
         return base
 

@@ -13,7 +13,6 @@ from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
 
-
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
 
@@ -59,6 +58,23 @@ class Pronouns:
     def ref_all(self, heads: Sequence[int]) -> list[Item]:
         """What the chunks `heads` speak of together."""
         return [item for head in heads for item in self.ref(head) if item in item.group.items]
+
+    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
+        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
+        told = self.each | self.all if carrying else self.each
+        return any(inner in told for head in heads for inner in self._meant(head))
+
+    def for_each(self, heads: Sequence[int], children: Sequence[Item], parents: Sequence[Item]) -> bool:
+        """Whether there are as many of `children` at each of `parents`: "three forks left of each plate"."""
+        fresh = all(not (item.group.phrase.definite or item.group.multiplied) for item in children)
+        whole = all(set(item.group.items) <= set(children) for item in children)
+        return self.speaks_of_each(heads) and fresh and whole and len(parents) > 1 < len(children)
+
+    def _meant(self, head: int) -> tuple[int, ...]:
+        """What the grammar says that `head` means, itself where it says nothing."""
+        return (
+            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        )
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
