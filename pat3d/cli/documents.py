@@ -123,6 +123,15 @@ class LibraryFacts:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FoundFacts:
+    """An object of a library that words may mean."""
+
+    noun: str
+    name: str
+    score: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class SuiteFacts:
     """A suite of scenes with tasks."""
 
@@ -136,6 +145,23 @@ class SuiteFacts:
     intersections: int
     drift_mm: float
     drift_degrees: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpecFacts:
+    """The description of a suite's actions and observations that was written."""
+
+    file: str
+    episodes: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConventionFacts:
+    """Whether the actions of a policy mean what the environment means by them."""
+
+    passed: bool
+    failures: list[str]
+    explained: dict[str, float | None]
 
 
 @dataclass(frozen=True, kw_only=True)

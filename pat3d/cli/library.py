@@ -106,6 +106,7 @@ def show(options: argparse.Namespace) -> int:
 @command(
     option("words", "what is looked for: a name, or where an embeddings server is set up, a description"),
     option("--libraries", "libraries to look in", nargs="+", default=None, shown="all", metavar="NAME"),
+    JSON,
     examples="""
     pat3d library search "power drill"
     pat3d library search "to cut paper with" --libraries ycb lab
@@ -120,6 +121,11 @@ def search(options: argparse.Namespace) -> int:
 
     settings = meaning.embedding_settings()
     found = meaning.search(options.words, options.libraries or library_names(), settings=settings)
+    if options.json:
+        from pat3d.cli.documents import FoundFacts
+
+        print_facts([FoundFacts(noun=one.noun, name=one.name, score=float(one.score)) for one in found])
+        return 0 if found else 1
     for one in found:
         console().print(f"{one.noun:40s} {one.score:.2f}  {one.name}", markup=False, soft_wrap=True)
     if not found:
