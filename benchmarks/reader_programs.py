@@ -195,6 +195,83 @@ def drake(path: Path) -> dict[str, Any]:
     return {"version": metadata.version("drake"), "bodies": len(free), "mass": float(mass)}
 
 
+def urdfdom(path: Path) -> dict[str, Any]:
+    """Every object's file through check_urdf, the parser of ROS."""
+    import re
+    import subprocess
+    import xml.etree.ElementTree as ET
+
+    prefix = Path(sys.prefix) / "lib" / f"python3.{sys.version_info.minor}" / "site-packages" / "cmeel.prefix"
+    program, environment = prefix / "bin" / "check_urdf", {**os.environ, "LD_LIBRARY_PATH": str(prefix / "lib")}
+
+    def mass(file: Path) -> float:
+        command = [str(program), str(file)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+        if done.returncode or not re.search(r"[Ss]uccessfully", done.stdout):
+            raise ValueError(f"{file.name}: {(done.stderr or done.stdout).strip()[:200]}")
+        # It prints the tree of links and no masses.
+        return float(ET.parse(file).getroot().find("link/inertial/mass").get("value"))  # pyright: ignore
+
+    return _objects(path, mass, metadata.version("cmeel-urdfdom"))
+
+
+def mujoco_usd_converter(path: Path) -> dict[str, Any]:
+    """Our MJCF as NVIDIA's converter writes it as USD."""
+    import tempfile
+
+    import mujoco_usd_converter as package  # pyright: ignore[reportMissingImports]
+
+    with tempfile.TemporaryDirectory() as folder:
+        made = package.Converter().convert(str(path), folder)
+        return {"version": metadata.version("mujoco-usd-converter"), **_rigid(made.path)}
+
+
+def urdf_usd_converter(path: Path) -> dict[str, Any]:
+    """Our URDF as NVIDIA's converter writes it as USD, every object's file."""
+    import tempfile
+
+    import urdf_usd_converter as package  # pyright: ignore[reportMissingImports]
+
+    def mass(file: Path) -> float:
+        with tempfile.TemporaryDirectory() as folder:
+            return float(_rigid(package.Converter().convert(str(file), folder).path)["mass"])
+
+    return _objects(path, mass, metadata.version("urdf-usd-converter"))
+
+
+def _rigid(path: str) -> dict[str, Any]:
+    """Count and mass of the rigid bodies of a stage."""
+    from pxr import Usd, UsdPhysics  # pyright: ignore[reportMissingImports]
+
+    stage = Usd.Stage.Open(path)
+    moving = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    mass = sum(float(UsdPhysics.MassAPI(prim).GetMassAttr().Get()) for prim in moving)
+    return {"bodies": len(moving), "mass": mass}
+
+
+def ovphysx(path: Path) -> dict[str, Any]:
+    """Taken into PhysX on the CPU as Isaac Sim takes it, and stepped."""
+    import ovphysx as package  # pyright: ignore[reportMissingImports]
+    import ovstage  # pyright: ignore[reportMissingImports]
+    from ovphysx.samples.python_samples.schema_support import (  # pyright: ignore[reportMissingImports]
+        physx_schema_paths,
+    )
+    from ovphysx.types import ObjectScope, SimObjectType  # pyright: ignore[reportMissingImports]
+
+    roots = [*map(str, physx_schema_paths()), str(package.newton_schema_root())]
+    ovstage.population.register_usd_schemas(roots)
+    stage = ovstage.Stage("scene")
+    ovstage.population.open_usd(stage, str(path), ordinal=1, domains=ovstage.PopulationDomain.ALL)
+    stage.advance_write_floor(ordinal=1).wait()
+    physx = package.PhysX()
+    physx.wait_task(physx.attach_ovstage(stage, read_ordinal=1))
+    physx.step_sync(0.001)
+    with physx.read_sync(SimObjectType.RIGID_BODY, ["position"], scope=ObjectScope.ALL) as result:
+        bodies = sum(len(result.dictionary.get_path_strings(group.prim_list)) for group in result.groups)
+    physx.wait_task(physx.detach_ovstage())
+    return {"version": metadata.version("ovphysx"), "bodies": bodies}
+
+
 def openusd(path: Path) -> dict[str, Any]:
     """Opened and composed; no error or warning of the validators that come with it."""
     from pxr import Usd, UsdPhysics, UsdValidation  # pyright: ignore[reportMissingImports]
@@ -243,8 +320,12 @@ PROGRAMS = {
         pinocchio,
         sapien,
         pybullet,
+        urdfdom,
+        urdf_usd_converter,
         drake,
         openusd,
+        mujoco_usd_converter,
+        ovphysx,
         newton,
         blender,
     )

@@ -14,9 +14,11 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from pat3d.check.engines.environments import PINS
 from pat3d.scene.io import load_scene
 from pat3d.scene.model import Scene
 
@@ -50,6 +52,12 @@ class Reader:
 OURS = ()
 """Packages of a reader that is installed beside us."""
 
+OVPHYSX = tuple((PINS / "physx.txt").read_text(encoding="utf-8").split())
+"""What `pat3d check --engines physx` runs in."""
+
+MOST_COLUMNS = 4
+"""More scenes than this are one column that counts them, with every failure below the table."""
+
 READERS = tuple(
     Reader(title=title, format=format, file=file, program=program, packages=packages)
     for title, format, file, program, packages in (
@@ -63,14 +71,21 @@ READERS = tuple(
         ("yourdfpy", "urdf", "manifest.json", "yourdfpy", ("yourdfpy==0.0.60",)),
         ("Pinocchio", "urdf", "manifest.json", "pinocchio", ("pin==4.1.0",)),
         ("SAPIEN", "urdf", "manifest.json", "sapien", ("sapien==3.0.3", "setuptools<81")),
+        ("check_urdf", "urdf", "manifest.json", "urdfdom", ("cmeel-urdfdom==6.0.0",)),
+        ("urdf-usd-converter", "urdf", "manifest.json", "urdf_usd_converter", ("urdf-usd-converter==0.3.4",)),
         ("PyBullet", "urdf", "manifest.json", "pybullet", ("pybullet",)),
         ("Drake, directives", "urdf", "manifest.json", "drake", ("drake",)),
         ("Drake, SDF", "sdf", "scene.sdf", "drake", ("drake",)),
+        ("mujoco-usd-converter", "mjcf", "scene.xml", "mujoco_usd_converter", ("mujoco-usd-converter==0.8.0",)),
         ("OpenUSD", "usd", "scene.usdc", "openusd", OURS),
         ("Newton", "usd", "scene.usdc", "newton", ("newton",)),
+        ("PhysX (ovphysx)", "usd", "scene.usdc", "ovphysx", OVPHYSX),
         ("Blender", "usd", "scene.usdc", "blender", ("bpy",)),
     )
 )
+
+
+FINE = ("pass", "not written")
 
 
 def interpreter(reader: Reader, folder: Path) -> Path:
@@ -128,26 +143,36 @@ def main() -> int:
     parser.add_argument("exports", type=Path, nargs="+", help="folders that pat3d export wrote, with their scene.json")
     parser.add_argument("--environments", type=Path, default=Path("build/readers"), help="where the readers live")
     parser.add_argument("--only", help="titles or programs, with commas between")
+    parser.add_argument("--jobs", type=int, default=1, help="readers at work at the same time")
     given = parser.parse_args()
     wanted = {word.strip().lower() for word in (given.only or "").split(",") if word.strip()}
     exports = [path.resolve() for path in given.exports]
     scenes = [load_scene(path) for path in exports]
-    print("| reader | format |", " | ".join(path.name for path in exports), "|")
-    print("| --- | --- |", " | ".join("---" for _ in exports), "|")
-    failed = False
-    for reader in READERS:
-        if wanted and not wanted & {reader.title.lower(), reader.program}:
-            continue
+    names = [path.name for path in exports] if len(exports) <= MOST_COLUMNS else [f"{len(exports)} scenes"]
+    print("| reader | format |", " | ".join(names), "|")
+    print("| --- | --- |", " | ".join("---" for _ in names), "|")
+    environments = given.environments.resolve()
+
+    def cells(reader: Reader) -> list[str]:
         try:
-            python = interpreter(reader, given.environments.resolve())
+            python = interpreter(reader, environments)
         except subprocess.CalledProcessError as error:
             said = [line for line in (error.stderr or "").splitlines() if line.startswith("ERROR")]
-            print(f"| {reader.title} | {reader.format} | not installed: {said[-1] if said else error} |", flush=True)
-            continue
-        cells = [verdict(reader, python, path, scene) for path, scene in zip(exports, scenes, strict=True)]
-        failed = failed or any(cell not in ("pass", "not written") for cell in cells)
-        print(f"| {reader.title} | {reader.format} |", " | ".join(cells), "|", flush=True)
-    return 1 if failed else 0
+            return [f"not installed: {said[-1] if said else error}"] * len(exports)
+        return [verdict(reader, python, path, scene) for path, scene in zip(exports, scenes, strict=True)]
+
+    chosen = [one for one in READERS if not wanted or wanted & {one.title.lower(), one.program}]
+    failures: list[str] = []
+    with ThreadPoolExecutor(max(1, given.jobs)) as pool:
+        for reader, found in zip(chosen, pool.map(cells, chosen), strict=True):
+            bad = [(path.name, cell) for path, cell in zip(exports, found, strict=True) if cell not in FINE]
+            failures += [f"{reader.title}, {name}: {cell}" for name, cell in bad]
+            if len(exports) > MOST_COLUMNS:
+                found = [f"{found.count('pass')} pass, {len(bad)} fail"]
+            print(f"| {reader.title} | {reader.format} |", " | ".join(found), "|", flush=True)
+    if len(exports) > MOST_COLUMNS:
+        print("\n".join(["", *failures]))
+    return 1 if failures else 0
 
 
 if __name__ == "__main__":

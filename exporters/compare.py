@@ -20,6 +20,7 @@ from pat3d.errors import ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.common.xml_files import convex_volume
+from pat3d.exporters.left_out import left_out
 from pat3d.geometry.hulls import slivers
 from pat3d.geometry.normals import triangle_areas
 from pat3d.scene.model import Scene, SceneObject
@@ -81,6 +82,8 @@ class ParityReport:
     readings: tuple[Reading, ...]
     absent: tuple[str, ...] = ()
     """Parsers that are not installed."""
+    left_out: tuple[str, ...] = ()
+    """What of the scene the format cannot hold, or only in part, a line each."""
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -126,6 +129,7 @@ class ParityReport:
             "tolerance": TOLERANCE,
             "readings": readings,
             "absent": list(self.absent),
+            "left_out": list(self.left_out),
         }
 
 
@@ -164,7 +168,13 @@ def parity(scene: Scene, path: str | Path) -> ParityReport:
         readings.append(_reading(scene, found, reader, reader.name + version, main))
     if not readings:
         raise ExportError(f"{main}: no reader is installed. Install one of: {', '.join(absent)}.")
-    return ParityReport(format=kind, path=str(main), readings=tuple(readings), absent=tuple(absent))
+    return ParityReport(
+        format=kind,
+        path=str(main),
+        readings=tuple(readings),
+        absent=tuple(absent),
+        left_out=left_out(scene, kind),
+    )
 
 
 def differences(scene: Scene, path: str | Path) -> tuple[str, ...]:

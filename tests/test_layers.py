@@ -12,6 +12,7 @@ FLOORS = (
     ("scene",),
     ("assets", "plan", "sim", "view"),
     ("layout",),
+    ("vision",),
     ("exporters",),
     ("check",),
     ("importers",),

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from pat3d.assets.materials import surface_of
 from pat3d.errors import ExportError
 from pat3d.exporters.common.corners import corner_mesh
 from pat3d.exporters.common.folder import export_folder
@@ -81,11 +82,24 @@ def textured_mesh(asset: Asset, name: str) -> Any:
     from trimesh.visual.material import PBRMaterial
 
     corners = corner_mesh(asset.visual)
+    maps, look = asset.visual.maps, surface_of(asset)
+    colour = Image.fromarray(asset.visual.texture)
+    clear = "opacity" in maps or look.opacity < 1.0
+    if "opacity" in maps:
+        colour.putalpha(Image.fromarray(maps["opacity"]))
+    both = None
+    if "roughness" in maps or "metallic" in maps:
+        blank = np.full(asset.visual.texture.shape[:2], 255, dtype=np.uint8)
+        both = Image.fromarray(np.stack([blank, maps.get("roughness", blank), maps.get("metallic", blank)], axis=-1))
     material = PBRMaterial(
         name=name,
-        baseColorTexture=Image.fromarray(asset.visual.texture),
-        metallicFactor=0.0,
-        roughnessFactor=0.8,
+        baseColorTexture=colour,
+        baseColorFactor=[1.0, 1.0, 1.0, 1.0 if "opacity" in maps else look.opacity],
+        metallicFactor=1.0 if "metallic" in maps else look.metallic,
+        roughnessFactor=1.0 if "roughness" in maps else look.roughness,
+        metallicRoughnessTexture=both,
+        normalTexture=Image.fromarray(maps["normal"]) if "normal" in maps else None,
+        alphaMode="BLEND" if clear else None,
     )
     return trimesh.Trimesh(
         vertices=corners.positions,

@@ -67,19 +67,25 @@ def add_defaults(root: ET.Element) -> None:
 def declare_files(asset: Asset, name: str, assets: ET.Element, *, as_mesh: bool) -> None:
     """Declare the files of one asset; those of its boxes where they are meshes."""
     ET.SubElement(assets, "texture", name=name, type="2d", file=f"{name}.png")
+    for one in asset.visual.maps:
+        ET.SubElement(assets, "texture", name=f"{name}_{one}", type="2d", file=f"{name}_{one}.png")
     surface = surface_of(asset)
     material = ET.SubElement(
         assets,
         "material",
         name=name,
-        texture=name,
         # What MuJoCo's own renderer draws with; others read the two that follow.
         specular=text(0.2 + 0.6 * surface.metallic),
         shininess=text(round(0.65 * (1.0 - surface.roughness), 4)),
         roughness=text(surface.roughness),
         metallic=text(surface.metallic),
     )
-    if surface.opacity < 1.0:
+    if asset.visual.maps:
+        for role, one in (("rgb", name), *((one, f"{name}_{one}") for one in asset.visual.maps)):
+            ET.SubElement(material, "layer", role=role, texture=one)
+    else:
+        material.set("texture", name)
+    if surface.opacity < 1.0 and "opacity" not in asset.visual.maps:
         material.set("rgba", text(1.0, 1.0, 1.0, surface.opacity))
     ET.SubElement(assets, "mesh", VISUAL_MESH, name=f"{name}_visual", file=f"{name}/visual.obj")
     for number, part in enumerate(asset.parts):

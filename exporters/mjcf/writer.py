@@ -281,6 +281,8 @@ def _write_assets(scene: Scene, folder: Path) -> dict[int, str]:
         meshes.mkdir(parents=True)
         (meshes / "visual.obj").write_text(visual_obj(asset.visual), encoding="utf-8")
         write_texture(asset.visual.texture, folder / "textures" / f"{name}.png")
+        for one, image in asset.visual.maps.items():
+            write_texture(image, folder / "textures" / f"{name}_{one}.png")
         for number, part in enumerate(asset.parts):
             (meshes / part_file(number)).write_text(hull_obj(part.vertices, part.faces), encoding="utf-8")
         save_xml(object_model(asset, name), folder / "objects" / f"{name}.xml")

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pat3d.assets.materials import surface_of
 from pat3d.errors import ExportError
 from pat3d.exporters.common.folder import export_folder
 from pat3d.exporters.common.frames import principal_axes, text
@@ -28,7 +29,7 @@ from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Attachment, Scene
-from pat3d.scene.obj_files import part_file
+from pat3d.scene.obj_files import map_file, part_file
 from pat3d.scene.physics import ground_friction
 
 VERSION = "1.9"
@@ -117,11 +118,29 @@ def _model(asset: Asset, name: str, meshes: str, *, fixed: bool) -> ET.Element:
         ET.SubElement(inertia, key).text = "0"
     visual = ET.SubElement(link, "visual", name="visual")
     _mesh(visual, f"{meshes}visual.obj")
+    _look(visual, asset, meshes)
     for number, part in enumerate(asset.parts):
         collision = ET.SubElement(link, "collision", name=f"part_{number:03d}")
         _geometry(collision, part, f"{meshes}{part_file(number)}")
         _surface(collision, asset.material.friction)
     return model
+
+
+def _look(visual: ET.Element, asset: Asset, meshes: str) -> None:
+    """How the surface looks, for Gazebo: its pictures and, where there is none, roughness and metalness as numbers."""
+    look, maps = surface_of(asset), asset.visual.maps
+    material = ET.SubElement(visual, "material")
+    for key in ("ambient", "diffuse"):
+        ET.SubElement(material, key).text = f"1 1 1 {look.opacity:g}"
+    metal = ET.SubElement(ET.SubElement(material, "pbr"), "metal")
+    ET.SubElement(metal, "albedo_map").text = f"{meshes}texture.png"
+    for name, key in (("normal", "normal_map"), ("roughness", "roughness_map"), ("metallic", "metalness_map")):
+        if name in maps:
+            ET.SubElement(metal, key).text = meshes + map_file(name)
+    ET.SubElement(metal, "roughness").text = f"{look.roughness:g}"
+    ET.SubElement(metal, "metalness").text = f"{look.metallic:g}"
+    if look.opacity < 1.0:
+        ET.SubElement(visual, "transparency").text = f"{1.0 - look.opacity:g}"
 
 
 def _geometry(collision: ET.Element, part: ConvexPart, file: str) -> None:

@@ -1,7 +1,7 @@
 """One asset as a USD layer: a rigid body with its look, its colliders and its mass.
 
     /<name>                 rigid body, mass, centre, principal inertia
-    /<name>/visual          what is seen, bound to materials/visual
+    /<name>/visual          what is seen, bound to materials/visual; a layer of its own where it is instanceable
     /<name>/collision/...   one guide a convex part, bound to materials/physics
     /<name>/materials       the textured surface, and the friction
 
@@ -11,6 +11,7 @@ whose place is a double: rounding is then relative to the part and not to where 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +59,7 @@ def set_metadata(stage: Stage, root: Prim) -> None:
     stage.SetDefaultPrim(root)
 
 
-def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False) -> None:
+def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, instanceable: bool = False) -> None:
     """Write `asset` as the USD layer `path`, and its texture beside it.
 
     Args:
@@ -66,6 +67,7 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False) -
         name: of the root prim.
         path: ends in .usdc or .usda; its folder exists.
         as_mesh: hulls in place of box primitives.
+        instanceable: what is seen is kept once, however many objects refer to the layer.
     """
     stage = Usd.Stage.CreateNew(str(path))
     root = UsdGeom.Xform.Define(stage, f"/{name}").GetPrim()
@@ -78,16 +80,47 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False) -
     _mass(root, asset.mass_properties)
     extend_body(root)
     materials = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("materials")).GetPath()
-    # Named by the asset: importers that keep pictures by their file name would give all objects the same.
-    write_texture(asset.visual.texture, path.parent / f"{name}.png")
-    look = textured_material(stage, materials.AppendChild("visual"), f"./{name}.png", surface_of(asset))
-    visual = _visual(stage, root.GetPath().AppendChild("visual"), asset.visual)
-    UsdShade.MaterialBindingAPI.Apply(visual).Bind(look)
+    if instanceable:
+        own = path.with_name(f"{name}_visual{path.suffix}")
+        _write_visual(asset, name, own)
+        seen = UsdGeom.Xform.Define(stage, root.GetPath().AppendChild("visual")).GetPrim()
+        seen.GetReferences().AddReference(f"./{own.name}")
+        seen.SetInstanceable(True)
+    else:
+        _seen(stage, asset, name, path.parent, root.GetPath().AppendChild("visual"), materials.AppendChild("visual"))
     friction = physics_material(stage, materials.AppendChild("physics"), asset.material.friction)
+    _label(friction, asset)
     collision = UsdGeom.Xform.Define(stage, root.GetPath().AppendChild("collision")).GetPath()
     for number, part in enumerate(asset.parts):
         _part(stage, collision.AppendChild(part_name(number)), part, friction, as_mesh=as_mesh)
     stage.Save()
+
+
+def _write_visual(asset: Asset, name: str, path: Path) -> None:
+    """Write what is seen of `asset` as the USD layer `path`."""
+    stage = Usd.Stage.CreateNew(str(path))
+    root = UsdGeom.Xform.Define(stage, "/visual").GetPrim()
+    set_metadata(stage, root)
+    materials = UsdGeom.Scope.Define(stage, "/visual/materials").GetPath()
+    _seen(stage, asset, name, path.parent, root.GetPath().AppendChild("mesh"), materials.AppendChild("visual"))
+    stage.Save()
+
+
+def _seen(stage: Stage, asset: Asset, name: str, folder: Path, mesh: PrimPath, material: PrimPath) -> None:
+    """Define the mesh and the material, and write their pictures."""
+    # Named by the asset: importers that keep pictures by their file name would give all objects the same.
+    write_texture(asset.visual.texture, folder / f"{name}.png")
+    maps = {one: f"./{name}_{one}.png" for one in asset.visual.maps}
+    for one, file in maps.items():
+        write_texture(asset.visual.maps[one], folder / file)
+    look = textured_material(stage, material, f"./{name}.png", surface_of(asset), maps)
+    _label(look, asset)
+    UsdShade.MaterialBindingAPI.Apply(_visual(stage, mesh, asset.visual)).Bind(look)
+
+
+def _label(material: Surface, asset: Asset) -> None:
+    """Say what a material is, for sensors and synthetic data."""
+    UsdSemantics.LabelsAPI.Apply(material.GetPrim(), "material").CreateLabelsAttr([asset.material.name])
 
 
 def part_name(number: int) -> str:
@@ -219,23 +252,43 @@ def _apart(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
     return points
 
 
-def textured_material(stage: Stage, path: PrimPath, texture: str, look: Look) -> Surface:
-    """A UsdPreviewSurface of `look` that takes its colour from the image at `texture`, relative to the layer."""
+def textured_material(
+    stage: Stage, path: PrimPath, texture: str, look: Look, maps: Mapping[str, str] | None = None
+) -> Surface:
+    """A UsdPreviewSurface of `look` that takes its colour from the image at `texture`, relative to the layer.
+
+    Where `maps` names a file for "normal", "roughness", "metallic" or "opacity", that comes from there.
+    """
     material = UsdShade.Material.Define(stage, path)
     surface = plain_surface(stage, material, look)
     reader = UsdShade.Shader.Define(stage, path.AppendChild("st"))
     reader.CreateIdAttr("UsdPrimvarReader_float2")
     reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
-    image = UsdShade.Shader.Define(stage, path.AppendChild("texture"))
-    image.CreateIdAttr("UsdUVTexture")
-    image.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(texture))
-    image.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set("sRGB")
-    for axis in ("wrapS", "wrapT"):
-        image.CreateInput(axis, Sdf.ValueTypeNames.Token).Set("repeat")
     source = reader.CreateOutput("result", Sdf.ValueTypeNames.Float2)
-    image.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(source)
+
+    def picture(name: str, file: str, space: str) -> Any:
+        image = UsdShade.Shader.Define(stage, path.AppendChild(name))
+        image.CreateIdAttr("UsdUVTexture")
+        image.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(file))
+        image.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set(space)
+        for axis in ("wrapS", "wrapT"):
+            image.CreateInput(axis, Sdf.ValueTypeNames.Token).Set("repeat")
+        image.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(source)
+        return image
+
     colour = surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
-    colour.ConnectToSource(image.CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+    colour.ConnectToSource(picture("texture", texture, "sRGB").CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+    for name, file in (maps or {}).items():
+        image = picture(f"{name}_map", file, "raw")
+        if name == "normal":
+            # From bytes to components between -1 and 1.
+            image.CreateInput("scale", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
+            image.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
+            target = surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f)
+            target.ConnectToSource(image.CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+        else:
+            target = surface.CreateInput(name, Sdf.ValueTypeNames.Float)
+            target.ConnectToSource(image.CreateOutput("r", Sdf.ValueTypeNames.Float))
     return material
 
 

@@ -11,6 +11,7 @@ The prims, and what is below them:
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -69,12 +70,19 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
     _surroundings(stage, scene)
     names = {name: prim_name(slug) for name, slug in body_names(scene).items()}
     stored: dict[int, str] = {}
+    uses = Counter(id(obj.asset) for obj in scene.objects)
     for obj, margin in zip(scene.objects, margins, strict=True):
         name, asset = names[obj.name], obj.asset
         if id(asset) not in stored:
             stored[id(asset)] = f"./assets/{name}/{name}.{suffix}"
             (folder / "assets" / name).mkdir(parents=True)
-            write_asset(asset, name, folder / stored[id(asset)], as_mesh=id(asset) in flush)
+            write_asset(
+                asset,
+                name,
+                folder / stored[id(asset)],
+                as_mesh=id(asset) in flush,
+                instanceable=uses[id(asset)] > 1,
+            )
         prim = UsdGeom.Xform.Define(stage, f"/World/{name}").GetPrim()
         prim.GetReferences().AddReference(stored[id(asset)])
         prim.SetDisplayName(obj.name)

@@ -13,7 +13,7 @@ from pathlib import Path
 from pat3d.assets import catalogue as nouns
 from pat3d.cli import nouns_of_yours
 from pat3d.cli.console import console, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import PromptError, SpecError
 from pat3d.progress import Event, Progress

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from pat3d.cli.console import console, show_engines, show_settings, show_verification, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import SpecError
 from pat3d.scene.physics import STILL_SECONDS

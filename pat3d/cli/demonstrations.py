@@ -7,7 +7,7 @@ from typing import Any
 
 from pat3d.cli.console import console, verdict
 from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.run.settings import NOISE

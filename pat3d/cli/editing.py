@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, show_many, show_parity, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, fields, option
 from pat3d.cli.reading import ASSETS, LIBRARIES, PLANNER, PROXIES, planner_of
 from pat3d.errors import SpecError

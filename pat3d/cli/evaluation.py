@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
 from pat3d.cli.episodes import EPISODES, SETTINGS, episodes_from, settings_of
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import console, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import Pat3dError, SpecError
 from pat3d.exporters.compare import ParityReport, parity
@@ -69,7 +69,7 @@ _MESH_OPTIONS = (
     option("--out", "where to write; each format has its folder", metavar="FOLDER", required=True),
     option(
         "--formats",
-        f"{', '.join(FORMATS)} for simulators, {' and '.join(VIEWS)} to look at, with commas or spaces between",
+        f"{', '.join(FORMATS)} for simulators, html and glb to look at, simready for NVIDIA's asset libraries",
         nargs="+",
         metavar="FORMAT",
         shown="all for simulators",
@@ -89,6 +89,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
     pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
+    pat3d export scenes/desk --formats simready --out exports/desk        assets with thumbnails and metadata
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
     pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
     pat3d export scans/ --masses masses.csv --out assets               with a row "mug,0.31" for scans/mug.obj
@@ -155,6 +156,9 @@ def _scene(
     target = console()
     if reports:
         target.print(parity_table(reports))
+    for name, report in reports.items():
+        for line in report.left_out:
+            target.print(f"note  {name}: {line}", markup=False)
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)

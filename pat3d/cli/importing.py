@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option
 from pat3d.exporters.formats import FORMATS
 from pat3d.generation.settings import DEVICES, Settings

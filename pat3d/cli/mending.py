@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from pat3d.cli.console import console, show_optimized, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, fields
 from pat3d.cli.settling import DEVICE, OUT, SCENE
 from pat3d.generation.optimize_stage import available, missing

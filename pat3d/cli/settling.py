@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from pat3d.cli.console import console, show_settled, verdict, watch
-from pat3d.cli.machines import JSON, print_facts
+from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, fields, option
 from pat3d.generation.settings import DEVICES, Settings
 

@@ -231,7 +231,7 @@ def _check_objects(source: Source, objects: list[dict[str, Any]], folder: Path) 
             raise source.error((*place, "name"), f'"{GROUND}" is the plane z = 0; choose another name.')
         seen[name] = number
         if sum(key in obj for key in SOURCES) != 1:
-            raise source.error(place, f'"{name}" needs one of a noun from the catalogue, a mesh file and a model file.')
+            raise source.error(place, f'"{name}" needs either a noun from the catalogue, a mesh file or a model file.')
         for pair in (("mass", "density"), ("size", "scale"), ("size", "units"), ("colour", "colours")):
             if all(key in obj for key in pair):
                 raise source.error((*place, pair[1]), f'"{name}": give {pair[0]} or {pair[1]}, not both.')

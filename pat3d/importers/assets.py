@@ -122,6 +122,7 @@ def content_of(body: Body) -> str:
     made = hashlib.sha256()
     given = body.inertial
     arrays = [body.mesh.vertices, body.mesh.faces, body.mesh.uv, body.mesh.texture]
+    arrays += [body.mesh.maps[name] for name in sorted(body.mesh.maps)]
     arrays += [array for piece in body.touched for array in (piece.vertices, piece.faces)]
     arrays += (
         [] if given is None else [np.array(given.mass), *(x for x in (given.centre, given.inertia) if x is not None)]
@@ -168,6 +169,7 @@ def _picture(
             faces=np.ascontiguousarray(fixed.faces, dtype=np.int32),
             uv=np.ascontiguousarray(body.mesh.uv.reshape(-1, 2)[fixed.corners]),
             texture=body.mesh.texture,
+            maps=body.mesh.maps,
         )
     except AssetError as error:
         notes.append(f"its picture bounds no solid ({error})")
@@ -177,6 +179,7 @@ def _picture(
             faces=np.ascontiguousarray(body.mesh.faces, dtype=np.int32),
             uv=np.ascontiguousarray(body.mesh.uv),
             texture=body.mesh.texture,
+            maps=body.mesh.maps,
         )
     beyond = float(outside(surface_points(visual.vertices, visual.faces), list(parts))[0].max(initial=0.0))
     if beyond > 1e-3:

@@ -54,6 +54,10 @@ class Surface:
                 raise AssetError(f"the {name} of a surface must be from 0 to 1, got {value}.")
 
 
+MAPS = ("normal", "roughness", "metallic", "opacity")
+"""Pictures that a mesh may have beside its texture, with the same texture coordinates."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisualMesh:
     """A closed triangle mesh with one texture."""
@@ -66,6 +70,13 @@ class VisualMesh:
     """Texture coordinates of every face corner in [0, 1], v up, shape (faces, 3, 2)."""
     texture: NDArray[np.uint8]
     """RGB image, row 0 at the top, shape (height, width, 3)."""
+    maps: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict)
+    """Some of MAPS: "normal" in tangent space, y up, shape (height, width, 3); the others of shape (height, width)."""
+
+    def __post_init__(self) -> None:
+        for name, image in self.maps.items():
+            if name not in MAPS or image.ndim != (3 if name == "normal" else 2):
+                raise AssetError(f'"{name}" of shape {image.shape} is no map of a mesh. Valid: {", ".join(MAPS)}.')
 
     @staticmethod
     def from_face_colours(

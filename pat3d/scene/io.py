@@ -1,7 +1,7 @@
 """The scene folder: scene.json, the one source of truth, and the meshes it names.
 
     scene.json                          objects, assets, relations, poses, checksums; every float reads back exactly
-    assets/<slug>/visual.obj            with visual.mtl and texture.png
+    assets/<slug>/visual.obj            with visual.mtl, texture.png, and the maps of normals and the like
     assets/<slug>/parts/part_000.obj    one file for each convex part
 
 An asset that several objects share is stored once. Writing is all or nothing: files are complete before they
@@ -29,7 +29,7 @@ from pat3d.scene.checksums import record_checksums
 from pat3d.scene.history import Edit
 from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
-from pat3d.scene.obj_files import hull_obj, read_obj, read_texture, write_visual
+from pat3d.scene.obj_files import hull_obj, map_file, read_obj, read_texture, write_visual
 from pat3d.scene.physics import LEAST_TILT
 from pat3d.scene.replacement import replace_entries
 from pat3d.scene.schema import SCENE_SCHEMA
@@ -253,7 +253,9 @@ def _inside(folder: Path, name: str, place: str) -> Path:
 
 def _asset_entry(asset: Asset, slug: str) -> dict[str, Any]:
     properties = asset.mass_properties
-    optional = {"anchors": [[*point] for point in asset.anchors]} if asset.anchors else {}
+    optional: dict[str, Any] = {"anchors": [[*point] for point in asset.anchors]} if asset.anchors else {}
+    if asset.visual.maps:
+        optional["maps"] = {name: f"assets/{slug}/{map_file(name)}" for name in asset.visual.maps}
     return {
         "noun": asset.noun,
         "visual": f"assets/{slug}/visual.obj",
@@ -301,6 +303,10 @@ def _asset(entry: Mapping[str, Any], folder: Path, path: Path, slug: str) -> Ass
     if uv is None:
         raise SpecError(f'{place}.visual: "{entry["visual"]}" has no texture coordinates.')
     texture = read_texture(_inside(folder, entry["texture"], f"{place}.texture"))
+    maps = {
+        name: read_texture(_inside(folder, file, f"{place}.maps.{name}"), gray=name != "normal")
+        for name, file in entry.get("maps", {}).items()
+    }
     parts = []
     for number, part in enumerate(entry["parts"]):
         points, triangles, _ = read_obj(_inside(folder, part["mesh"], f"{place}.parts[{number}].mesh"))
@@ -309,7 +315,7 @@ def _asset(entry: Mapping[str, Any], folder: Path, path: Path, slug: str) -> Ass
         parts.append(ConvexPart(vertices=points, faces=triangles, box=_floats(exact)))
     return Asset(
         noun=entry["noun"],
-        visual=VisualMesh(vertices=vertices, faces=faces, uv=uv, texture=texture),
+        visual=VisualMesh(vertices=vertices, faces=faces, uv=uv, texture=texture, maps=maps),
         parts=tuple(parts),
         mass_properties=_mass(entry["mass_properties"], f"{place}.mass_properties"),
         material=Material(**{key: _floats(value) for key, value in entry["material"].items()}),

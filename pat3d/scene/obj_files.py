@@ -20,6 +20,9 @@ MAX_FILE_BYTES = 256 * 2**20
 MAX_FACES = 2_000_000
 MAX_TEXTURE_SIDE = 16384
 
+MTL_MAPS = {"normal": "norm", "roughness": "map_Pr", "metallic": "map_Pm", "opacity": "map_d"}
+"""How MTL, with its PBR extension, says each map of a mesh."""
+
 _OBJ_TEXT: WeakKeyDictionary[VisualMesh, str] = WeakKeyDictionary()
 """OBJ text of the meshes in use: several formats and the scene folder write the same."""
 
@@ -27,7 +30,7 @@ _OBJ_TEXT: WeakKeyDictionary[VisualMesh, str] = WeakKeyDictionary()
 def write_visual(
     mesh: VisualMesh, folder: Path, *, texture: str = "texture.png", surface: Surface | None = None
 ) -> Path:
-    """Write `mesh` as visual.obj, visual.mtl and its texture into `folder`; returns the OBJ's path.
+    """Write `mesh` as visual.obj, visual.mtl, its texture and its maps into `folder`; returns the OBJ's path.
 
     Args:
         mesh: what to write.
@@ -38,8 +41,12 @@ def write_visual(
     folder.mkdir(parents=True, exist_ok=True)
     write_texture(mesh.texture, folder / texture)
     more = "" if surface is None else f"Pr {surface.roughness:g}\nPm {surface.metallic:g}\nd {surface.opacity:g}\n"
+    for name, image in mesh.maps.items():
+        write_texture(image, folder / map_file(name))
+    named = "".join(f"{word} {map_file(name)}\n" for name, word in MTL_MAPS.items() if name in mesh.maps)
     (folder / "visual.mtl").write_text(
-        f"newmtl surface\nKa 1 1 1\nKd 1 1 1\nKs 0.1 0.1 0.1\nNs 20\n{more}map_Kd {texture}\n", encoding="utf-8"
+        f"newmtl surface\nKa 1 1 1\nKd 1 1 1\nKs 0.1 0.1 0.1\nNs 20\n{more}map_Kd {texture}\n{named}",
+        encoding="utf-8",
     )
     path = folder / "visual.obj"
     path.write_text(visual_obj(mesh, material_library="visual.mtl"), encoding="utf-8")
@@ -77,16 +84,21 @@ def part_file(number: int) -> str:
     return f"part_{number:03d}.obj"
 
 
+def map_file(name: str) -> str:
+    """File name of one of the maps of a mesh."""
+    return f"{name}.png"
+
+
 def write_texture(texture: NDArray[np.uint8], path: Path) -> None:
-    """Write an RGB image, shape (height, width, 3), as PNG."""
+    """Write an RGB image, shape (height, width, 3), or a gray one, shape (height, width), as PNG."""
     from PIL import Image
 
     path.parent.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(np.ascontiguousarray(texture, dtype=np.uint8), "RGB").save(path, format="PNG", optimize=False)
+    Image.fromarray(np.ascontiguousarray(texture, dtype=np.uint8)).save(path, format="PNG", optimize=False)
 
 
-def read_texture(path: Path) -> NDArray[np.uint8]:
-    """The RGB image in a PNG file, shape (height, width, 3).
+def read_texture(path: Path, *, gray: bool = False) -> NDArray[np.uint8]:
+    """The image in a PNG file, RGB of shape (height, width, 3), or gray of shape (height, width).
 
     Raises:
         ExportError: not a readable image, or larger than the limit.
@@ -100,7 +112,7 @@ def read_texture(path: Path) -> NDArray[np.uint8]:
             with Image.open(path, formats=("PNG",)) as image:
                 if max(image.size) > MAX_TEXTURE_SIDE:
                     raise ExportError(f"{path}: texture of {image.size} pixels; at most {MAX_TEXTURE_SIDE} a side.")
-                return np.array(image.convert("RGB"))
+                return np.array(image.convert("L" if gray else "RGB"))
     except (UnidentifiedImageError, Image.DecompressionBombWarning, Image.DecompressionBombError, OSError) as error:
         raise ExportError(f"{path}: not a readable PNG texture ({error}).") from error
 

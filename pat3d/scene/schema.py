@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES
+from pat3d.scene.asset import MAPS
 from pat3d.scene.checksums import MAX_FILES
 from pat3d.scene.history import MAX_HISTORY, VERBS
 from pat3d.scene.model import MAX_ANCHORS
@@ -61,7 +62,10 @@ _ASSET = _record(
         "regions": {"type": "array", "items": _REGION, "maxItems": 1_000},
         "provenance": {"type": "object"},
     },
-    optional={"anchors": {"type": "array", "items": _vector(3), "maxItems": MAX_ANCHORS}},
+    optional={
+        "anchors": {"type": "array", "items": _vector(3), "maxItems": MAX_ANCHORS},
+        "maps": {"type": "object", "properties": dict.fromkeys(MAPS, _FILE), "additionalProperties": False},
+    },
 )
 _OBJECT = _record(
     {

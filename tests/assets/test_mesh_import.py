@@ -524,7 +524,9 @@ def test_the_surface_that_a_glb_says_is_kept_and_what_is_not_is_told(write):
     mesh.visual = trimesh.visual.TextureVisuals(
         uv=mesh.vertices[:, :2],
         material=trimesh.visual.material.PBRMaterial(
-            metallicRoughnessTexture=both, normalTexture=Image.new("RGB", (8, 8), (128, 128, 255))
+            metallicRoughnessTexture=both,
+            normalTexture=Image.new("RGB", (8, 8), (128, 128, 255)),
+            occlusionTexture=Image.new("RGB", (8, 8), (255, 255, 255)),
         ),
     )
     asset = import_mesh(write(mesh, "box.glb"), parts="box", material="wood")
@@ -532,7 +534,8 @@ def test_the_surface_that_a_glb_says_is_kept_and_what_is_not_is_told(write):
     assert surface.roughness == pytest.approx(0.2, abs=0.01)
     assert surface.metallic == pytest.approx(0.8, abs=0.01)
     assert surface.opacity == 1.0
-    assert any("normal map" in note for note in asset.provenance["notes"])
+    assert set(asset.visual.maps) == {"normal", "roughness", "metallic"}
+    assert any("occlusion map" in note for note in asset.provenance["notes"])
     plain = import_mesh(write(_box(), "box.stl"), parts="box", material="wood")
     assert surface_of(plain).roughness == 0.6
     assert surface_of(import_mesh(write(_box(), "box.stl"), parts="box", material="steel")).metallic == 1.0

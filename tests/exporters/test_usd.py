@@ -224,12 +224,22 @@ def test_shared_assets_are_written_once_and_names_are_kept(scene, tmp_path):
     assert stage.GetRootLayer().customLayerData["pat3d"]["prompt"] == "a “table”"
 
 
+def test_what_is_seen_of_equal_objects_is_kept_once(scene, written):
+    stage = Usd.Stage.Open(str(written))
+    mugs = [stage.GetPrimAtPath(f"/World/red_mug_{number}/visual") for number in (1, 2)]
+    assert all(prim.IsInstance() for prim in mugs)
+    assert mugs[0].GetPrototype() == mugs[1].GetPrototype()
+    assert not stage.GetPrimAtPath("/World/ball/visual").IsInstance()
+    # Colliders stay apart: each has the contact margin of its own object.
+    assert not stage.GetPrimAtPath("/World/red_mug_1/collision").IsInstanceProxy()
+
+
 def test_the_texture_reaches_the_surface_from_any_place(scene, tmp_path, monkeypatch):
     write_usd(scene, tmp_path / "here")
     os.rename(tmp_path / "here", tmp_path / "there")
     monkeypatch.chdir("/")
     stage = Usd.Stage.Open(str(tmp_path / "there" / "scene.usdc"))
-    visual = stage.GetPrimAtPath("/World/red_mug_2/visual")
+    visual = stage.GetPrimAtPath("/World/red_mug_2/visual/mesh")
     material, _ = UsdShade.MaterialBindingAPI(visual).ComputeBoundMaterial("")
     surface, _, _ = material.ComputeSurfaceSource()
     source = surface.GetInput("diffuseColor").GetConnectedSources()[0][0].source

@@ -117,7 +117,7 @@ def of_mesh(loaded: LoadedMesh) -> Piece:
     return Piece(
         vertices=loaded.vertices,
         faces=loaded.faces,
-        patch=Patch(uv=loaded.uv, image=loaded.texture),
+        patch=Patch(uv=loaded.uv, image=loaded.texture, maps=loaded.maps),
         files=loaded.files,
         surface=loaded.surface,
     )
@@ -140,9 +140,16 @@ def merged(pieces: Sequence[Piece], notes: Sequence[str] = ()) -> LoadedMesh:
     faces = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts, strict=False)])
     if not np.isfinite(vertices[np.unique(faces)]).all():
         raise AssetError("some vertices are not finite.")
-    uv, texture = pack([piece.patch for piece in pieces], told)
+    look = pack([piece.patch for piece in pieces], told)
     files = tuple(dict.fromkeys(path for piece in pieces for path in piece.files))
     surface = max(pieces, key=lambda piece: len(piece.faces)).surface
     return LoadedMesh(
-        vertices=vertices, faces=faces, uv=uv, texture=texture, surface=surface, notes=tuple(told), files=files
+        vertices=vertices,
+        faces=faces,
+        uv=look.uv,
+        texture=look.texture,
+        maps=look.maps,
+        surface=surface,
+        notes=tuple(told),
+        files=files,
     )

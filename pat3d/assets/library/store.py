@@ -15,7 +15,7 @@ import numpy as np
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import MassProperties
-from pat3d.scene.asset import Asset, Material, Region, VisualMesh
+from pat3d.scene.asset import MAPS, Asset, Material, Region, VisualMesh
 from pat3d.scene.cache import data_root
 from pat3d.scene.folder import read_json, write_json
 from pat3d.scene.replacement import replaced_file
@@ -103,17 +103,18 @@ def save_asset(path: Path, asset: Asset) -> None:
         "anchors": asset.anchors,
         "provenance": dict(asset.provenance),
     }
+    arrays: dict[str, Any] = {
+        "vertices": asset.visual.vertices,
+        "faces": asset.visual.faces,
+        "uv": asset.visual.uv,
+        "texture": asset.visual.texture,
+        **{f"map_{name}": image for name, image in asset.visual.maps.items()},
+        "points": np.concatenate([part.vertices for part in asset.parts]),
+        "counts": np.array([len(part.vertices) for part in asset.parts]),
+        "facts": np.array(json.dumps(facts)),
+    }
     with replaced_file(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(
-            file,
-            vertices=asset.visual.vertices,
-            faces=asset.visual.faces,
-            uv=asset.visual.uv,
-            texture=asset.visual.texture,
-            points=np.concatenate([part.vertices for part in asset.parts]),
-            counts=np.array([len(part.vertices) for part in asset.parts]),
-            facts=np.array(json.dumps(facts)),
-        )
+        np.savez_compressed(file, **arrays)
 
 
 def load_asset(path: Path) -> Asset:
@@ -125,11 +126,12 @@ def load_asset(path: Path) -> Asset:
     try:
         with np.load(path, allow_pickle=False) as data:
             arrays = {name: data[name] for name in ("vertices", "faces", "uv", "texture", "points", "counts")}
+            maps = {name: data[f"map_{name}"] for name in MAPS if f"map_{name}" in data}
             facts = json.loads(str(data["facts"]))
         hulls = np.split(arrays["points"], np.cumsum(arrays["counts"])[:-1])
         return Asset(
             noun=facts["noun"],
-            visual=VisualMesh(**{name: arrays[name] for name in ("vertices", "faces", "uv", "texture")}),
+            visual=VisualMesh(**{name: arrays[name] for name in ("vertices", "faces", "uv", "texture")}, maps=maps),
             parts=tuple(convex_part(hull) for hull in hulls),
             mass_properties=MassProperties(**{key: _tuples(value) for key, value in facts["mass_properties"].items()}),
             material=Material(**facts["material"]),

@@ -36,6 +36,8 @@ class LoadedMesh:
     """Per face corner in [0, 1], v up, shape (faces, 3, 2)."""
     texture: NDArray[np.uint8]
     """RGB, row 0 at the top, shape (height, width, 3)."""
+    maps: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict)
+    """As those of `VisualMesh`."""
     surface: Mapping[str, float] = field(default_factory=dict)
     """Roughness, metallic and opacity [-] of the largest piece, as far as the file says."""
     notes: tuple[str, ...] = field(default=())
@@ -58,7 +60,7 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
     path = Path(path)
     scene, resolver = _read(path, texture_root)
     notes = list(resolver.refused)
-    patches = [patch for _, patch in _patches(path, scene, notes)]
+    patches = [patch for _, patch in _patches(path, scene, notes, resolver)]
     pieces = [one for one in scene.geometry.values() if len(getattr(one, "faces", ()))]
     surface = surface_said(max(pieces, key=lambda one: len(one.faces)), notes) if pieces else {}
     return replace(_merged(path, patches, notes, resolver), surface=surface)
@@ -77,7 +79,7 @@ def load_objects(path: str | os.PathLike[str]) -> list[tuple[str, LoadedMesh]]:
     scene, resolver = _read(path, None)
     notes = list(resolver.refused)
     objects: dict[str, list[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]] = {}
-    for node, patch in _patches(path, scene, notes):
+    for node, patch in _patches(path, scene, notes, resolver):
         parent = str(scene.graph.transforms.parents.get(node, ""))
         # trimesh hangs the primitives of a mesh under its node, named after it with six letters more.
         primitive = parent and node[:-6] == f"{parent}_"
@@ -126,22 +128,27 @@ def _merged(
         raise AssetError(
             f'"{path}": {int((~finite).sum())} of {len(used)} vertices are not finite (vertex {bad}: {vertices[bad]}).'
         )
-    uv, texture = pack([look for _, _, look in patches], notes)
+    look = pack([look for _, _, look in patches], notes)
     return LoadedMesh(
         vertices=vertices,
         faces=faces,
-        uv=uv,
-        texture=texture,
+        uv=look.uv,
+        texture=look.texture,
+        maps=look.maps,
         notes=tuple(dict.fromkeys(notes)),
         files=(path, *resolver.opened),
     )
 
 
 def _patches(
-    path: Path, scene: Any, notes: list[str]
+    path: Path, scene: Any, notes: list[str], resolver: Any
 ) -> Iterator[tuple[str, tuple[NDArray[np.float64], NDArray[np.int64], Patch]]]:
     """Name of every mesh node, with its world vertices, faces and look."""
     import trimesh
+    from PIL import Image
+
+    def open_image(name: str) -> Any:
+        return Image.open(io.BytesIO(resolver.get(name)))
 
     total = 0
     for node in scene.graph.nodes_geometry:
@@ -159,10 +166,10 @@ def _patches(
         transform = np.asarray(transform, dtype=np.float64)
         if np.linalg.det(transform[:3, :3]) < 0:
             # A mirrored node turns its faces inside out.
-            patch = Patch.of(geometry, notes).mirrored()
+            patch = Patch.of(geometry, notes, open_image).mirrored()
             faces = faces[:, ::-1]
         else:
-            patch = Patch.of(geometry, notes)
+            patch = Patch.of(geometry, notes, open_image)
         yield str(node), (vertices @ transform[:3, :3].T + transform[:3, 3], faces, patch)
 
 

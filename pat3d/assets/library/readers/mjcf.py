@@ -15,6 +15,7 @@ from pat3d.assets.library.readers.inertials import together
 from pat3d.assets.library.readers.xml import read_root
 from pat3d.assets.mesh.texture import Patch
 from pat3d.errors import AssetError
+from pat3d.scene.asset import MAPS
 
 _HIDDEN = 3
 """Geoms of this group and above are not drawn unless asked for; models keep their collision shapes there."""
@@ -177,7 +178,23 @@ def _mesh(model: Any, mesh: int, material: int, rgba: Points, notes: list[str]) 
     # MuJoCo counts v from the picture's first row.
     uv = np.stack([uv[..., 0], 1.0 - uv[..., 1]], axis=-1)
     tint = np.clip(np.asarray(rgba[:3]), 0.0, 1.0)
-    return Piece(vertices=vertices, faces=triangles, patch=Patch(uv=uv, image=np.round(image * tint).astype(np.uint8)))
+    patch = Patch(uv=uv, image=np.round(image * tint).astype(np.uint8), maps=_maps(model, material, image.shape))
+    return Piece(vertices=vertices, faces=triangles, patch=patch)
+
+
+def _maps(model: Any, material: int, shape: tuple[int, ...]) -> dict[str, Any]:
+    """The layers of a material beside its colour, as far as they are as large as that."""
+    import mujoco
+
+    roles = np.atleast_1d(model.mat_texid[material])
+    found = {}
+    for name in MAPS:
+        texture = int(roles[getattr(mujoco.mjtTextureRole, f"mjTEXROLE_{name.upper()}")]) if len(roles) > 1 else -1
+        if texture < 0 or (int(model.tex_height[texture]), int(model.tex_width[texture])) != shape[:2]:
+            continue
+        texels = _texels(model, texture)
+        found[name] = texels if name == "normal" else texels[..., 0]
+    return found
 
 
 def _surface(model: Any, material: int, rgba: Points) -> dict[str, float]:

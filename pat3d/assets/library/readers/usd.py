@@ -17,6 +17,7 @@ from pat3d.assets.mesh.load import MAX_BYTES, MAX_FACES
 from pat3d.assets.mesh.texture import MAX_SIDE, Patch
 from pat3d.errors import AssetError
 from pat3d.geometry.rotations import matrix_of
+from pat3d.scene.asset import MAPS
 
 
 def pxr_module(name: str) -> Any:
@@ -161,10 +162,10 @@ def _mesh(prim: Any, rgb: Any, root: Path, notes: list[str], files: list[Path]) 
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = corners[:, ::-1]
     faces = index[corners]
-    image, tint, surface = _look(prim, root, files, notes)
+    image, tint, surface, maps = _look(prim, root, files, notes)
     uv = _coordinates(prim, index, corners)
     if image is not None and uv is not None:
-        patch = Patch(uv=uv, image=image)
+        patch = Patch(uv=uv, image=image, maps={name: _fitted(one, image.shape) for name, one in maps.items()})
     else:
         patch = flat(len(faces), tint if tint is not None else rgb)
     return Piece(vertices=np.array(points, dtype=np.float64), faces=faces, patch=patch, surface=surface)
@@ -185,30 +186,51 @@ def _coordinates(prim: Any, index: Any, corners: Any) -> Points | None:
     return None
 
 
-def _look(prim: Any, root: Path, files: list[Path], notes: list[str]) -> tuple[Any, Any, dict[str, float]]:
-    """Picture and colour of the preview material that is bound, None where there is none; and what else it says."""
+def _look(
+    prim: Any, root: Path, files: list[Path], notes: list[str]
+) -> tuple[Any, Any, dict[str, float], dict[str, Any]]:
+    """Picture and colour of the preview material that is bound, None where there is none; numbers and maps beside."""
     UsdShade = pxr_module("UsdShade")
 
     material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
     surface = material.ComputeSurfaceSource()[0] if material else None
     if not surface:
-        return None, None, {}
-    said = {}
-    for name in ("roughness", "metallic", "opacity"):
+        return None, None, {}, {}
+    said, maps = {}, {}
+    for name in MAPS:
         given = surface.GetInput(name)
-        if given and not given.HasConnectedSource() and given.Get() is not None:
+        file, channel = _connected(given) if given else (None, "")
+        if file is not None:
+            image = _picture(file, root, files, notes)
+            if image is not None:
+                maps[name] = image if name == "normal" else image[..., "rgb".find(channel) if channel in "rgb" else 0]
+        elif given and name != "normal" and given.Get() is not None:
             said[name] = float(np.clip(given.Get(), 0.0, 1.0))
     colour = surface.GetInput("diffuseColor")
     if not colour:
-        return None, None, said
-    source = colour.GetConnectedSources()[0] if colour.HasConnectedSource() else []
-    if not source:
-        return None, colour.Get(), said
-    reader = UsdShade.Shader(source[0].source.GetPrim())
-    file = reader.GetInput("file").Get() if reader.GetInput("file") else None
+        return None, None, said, maps
+    file, _ = _connected(colour)
     if file is None:
-        return None, None, said
-    return _picture(file, root, files, notes), None, said
+        return None, None if colour.HasConnectedSource() else colour.Get(), said, maps
+    return _picture(file, root, files, notes), None, said, maps
+
+
+def _connected(given: Any) -> tuple[Any, str]:
+    """The picture file that an input is connected to, None where there is none; and the output that it takes."""
+    UsdShade = pxr_module("UsdShade")
+
+    source = given.GetConnectedSources()[0] if given.HasConnectedSource() else []
+    if not source:
+        return None, ""
+    reader = UsdShade.Shader(source[0].source.GetPrim())
+    return reader.GetInput("file").Get() if reader.GetInput("file") else None, str(source[0].sourceName)
+
+
+def _fitted(image: Any, shape: tuple[int, ...]) -> Any:
+    """A map as large as the picture that it belongs to."""
+    from PIL import Image
+
+    return image if image.shape[:2] == shape[:2] else np.asarray(Image.fromarray(image).resize((shape[1], shape[0])))
 
 
 def _picture(said: Any, root: Path, files: list[Path], notes: list[str]) -> Any:

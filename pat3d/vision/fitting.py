@@ -1,0 +1,415 @@
+"""Scale, place and yaw of an asset from the pixels that show it: what is drawn has to be what is seen.
+
+Every candidate is drawn, and each pixel around the mask judges it in units of log likelihood:
+
+- in the mask, where the candidate is: (range drawn - range measured)^2 / (2 sigma^2), at most CAP;
+- in the mask, where the candidate is not: CAP;
+- outside, where the candidate is: CAP, unless something that is nearer hides it; less beside the mask's border and
+  where depth cannot tell it from what is behind, since masks end a little early or late;
+- elsewhere: nothing.
+
+The camera sees directions well and distances badly, so the search is over direction and distance of the middle, the
+angle that the asset fills, and yaw: for each of many yaws the first three follow from areas and medians, and the best
+few are refined by the simplex method, which does not mind that the judgement has steps. It begins with a larger sigma,
+so that what is far off still feels where it belongs.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+from scipy.optimize import minimize
+
+from pat3d.geometry.rotations import yaw_of
+from pat3d.vision.camera import Array, PlacedCamera
+from pat3d.vision.caster import Caster, Placement, orientation
+from pat3d.vision.observation import Observation
+
+CAP = 4.0
+"""Cost of a pixel that contradicts the candidate: 2.8 standard deviations."""
+YAWS = 24
+"""First guesses."""
+TRIED, REFINED = 7, 3
+"""Yaws that are refined roughly, the best of the first guesses that are no neighbours; and of those, exactly."""
+EXPLAINED = 0.1
+"""Cost above which more of them are refined exactly."""
+STARTS = (1.0, 2.2)
+"""Sizes of first guesses, over what the mask would say if nothing hid the object."""
+BLUR, HALFWAY = 12.0, 3.5
+"""Factors on sigma of the rough refinement, and of what comes between it and the exact one."""
+RESTARTS = 3
+"""Of the simplex method at most, while each makes the cost less by a twentieth."""
+COARSE, FINE, SHARP = 400, 1500, 6000
+"""Pixels that judge, around a mask that fills a rectangle; the last where two candidates are nearly as good."""
+MOST = 5
+"""By how much more, where the mask fills little of its rectangle."""
+NEARLY = 0.15
+"""Difference of costs that noise and few pixels can make."""
+ROUGH_STEPS, STEPS = 70, 130
+"""Drawings of one refinement."""
+LEAST_SIGMA = 0.002
+"""Errors of the depth that are always reckoned with, over the depth [-]."""
+BORDER = 2.5
+"""Pixels beside a mask that may still be the object's."""
+UNSURE = 0.4
+"""Weight of pixels outside the mask whose depth cannot tell what is drawn from what is there."""
+UNEXPLAINED = 0.4
+"""Cost from which on an object may stand otherwise than upright."""
+UPRIGHT = math.cos(math.radians(5.0))
+"""What leans by less stands."""
+TURNS = 160
+"""Orientations that are tried then."""
+STOOD_LOSS = 0.1
+"""Cost that knowing the height of its support may add to a fit."""
+TILT_GAIN = 0.8
+"""Cost of a tilted candidate over that of the best upright one, from which on it is believed."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit:
+    """How an asset explains the pixels of an object."""
+
+    placed: Placement
+    tilted: bool
+    """Whether it is turned otherwise than about the vertical."""
+    cost: float
+    """Mean over the mask's pixels beyond what the noise costs, from 0 (explained exactly) to about CAP."""
+    overlap: float
+    """Of the pixels that asset or mask claim and nothing hides, those that both do [-]."""
+
+
+class Window:
+    """The pixels around a mask, with all that judges candidates."""
+
+    def __init__(self, seen: Observation, camera: PlacedCamera, name: str, pixels: int) -> None:
+        from scipy.ndimage import distance_transform_edt
+
+        mask = seen.mask(name)
+        rows, columns = np.nonzero(mask)
+        low, high = np.array([rows.min(), columns.min()]), np.array([rows.max(), columns.max()]) + 1
+        margin = 4 + np.ceil(0.3 * (high - low)).astype(int)
+        low, high = np.maximum(low - margin, 0), np.minimum(high + margin, mask.shape)
+        area = float(np.prod(high - low))
+        stride = max(1, round(math.sqrt(max(min(area / pixels, 2.0 * len(rows) / pixels), area / (MOST * pixels)))))
+        # The first of the strided rows and columns lie half a stride inside, so that the grid is in the middle.
+        grid = np.mgrid[low[0] + stride // 2 : high[0] : stride, low[1] + stride // 2 : high[1] : stride]
+        row, column = grid.reshape(2, -1)
+        self.own = mask[row, column]
+        self.origin = camera.position
+        self.rays, reach = camera.rays(column + 0.5, row + 0.5)
+        known = seen.known[row, column]
+        relative = max(seen.noise, LEAST_SIGMA)
+        self.expected = 0.5 * (seen.noise / relative) ** 2
+        """Cost of the true candidate, from the noise alone."""
+        self.shift_free = False
+        """Whether the depth of the object may be off by a common shift."""
+        self.perfect = self.expected + 0.01 if self.expected < 0.05 else 0.0
+        """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
+        self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
+        self.sigma = relative * np.where(known, self.range, 1.0)
+        self.smooth = np.where(known, seen.smooth_depth[row, column] * reach, np.nan)
+        calm = self.sigma * (1.0 if seen.noise < 0.01 else 0.35)
+        self.calm = 2.0 * calm
+        crop = tuple(slice(max(int(one) - 8, 0), int(other) + 8) for one, other in zip(low, high, strict=True))
+        away = distance_transform_edt(~mask[crop])[row - crop[0].start, column - crop[1].start]
+        self.beside = np.where(away <= BORDER, 0.5, 1.0)
+        self.count = max(int(self.own.sum()), 1)
+        self.middle = camera.rays([columns.mean() + 0.5], [rows.mean() + 0.5])[0][0]
+        right, down = camera.rotation[:, 0], camera.rotation[:, 1]
+        self.right, self.down = right, down
+        distances = self.range[self.own & known]
+        self.distance = float(np.median(distances)) if len(distances) else float(np.nanmedian(self.range))
+        self.angle = math.sqrt(len(rows)) / seen.camera.fx
+        """About how wide the mask is [rad]."""
+
+    def cost(self, drawn: Array, blur: float = 1.0) -> float:
+        """Mean cost of what is drawn: ranges [m] of the window's pixels, infinite where there is nothing."""
+        hit = np.isfinite(drawn)
+        inside = self.own & hit
+        error = drawn[inside] - self.range[inside]
+        if self.shift_free and np.isfinite(error).any():
+            error -= np.nanmedian(error)
+        total = float(np.nansum(np.minimum(0.5 * (error / (blur * self.sigma[inside])) ** 2, CAP)))
+        total += CAP * float(np.count_nonzero(self.own & ~hit))
+        outside = ~self.own & hit
+        total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
+        return total / self.count
+
+    def contradicted(self, drawn: Array) -> Array:
+        """How surely something would be seen at the range that is drawn [-], by pixel."""
+        with np.errstate(invalid="ignore"):
+            nearer = drawn - self.smooth
+            free = np.where(nearer > self.calm, 0.0, np.where(nearer > -self.calm, UNSURE, 1.0))
+        return np.where(np.isfinite(self.smooth), free, UNSURE)
+
+    def overlap(self, drawn: Array) -> float:
+        """Intersection over union with the mask, of pixels in which nothing nearer hides what is drawn."""
+        hit = np.isfinite(drawn)
+        both = np.count_nonzero(self.own & hit)
+        either = np.count_nonzero(self.own | (hit & (self.contradicted(drawn) > 0.0)))
+        return both / max(either, 1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Guess:
+    """Direction and distance of the middle, the angle that is filled, and the turn."""
+
+    across: float
+    """Tangents of the direction, from the middle of the mask, to the right and down [-]."""
+    down: float
+    distance: float
+    """Of the middle of the bounding box [m]."""
+    fills: float
+    """Radius over distance [-]."""
+    yaw: float
+    pitch: float = 0.0
+    roll: float = 0.0
+    first: Array | None = None
+    """How the asset is turned before, shape (3, 3); None where it stands as it was made."""
+
+    base: float | None = None
+    """Height of the lowest point [m], from which the distance follows; None where it is free."""
+
+    def placed(self, window: Window, caster: Caster) -> Placement:
+        ray = window.middle + self.across * window.right + self.down * window.down
+        ray /= np.linalg.norm(ray)
+        rotation = orientation(self.yaw, self.pitch, self.roll)
+        rotation = rotation if self.first is None else rotation @ self.first
+        distance = self.distance
+        if self.base is not None:
+            sinks = ray[2] - self.fills * caster.half_height(rotation)
+            reached = (self.base - window.origin[2]) / sinks if sinks < -1e-3 else distance
+            distance = min(max(reached, 0.5 * distance), 2.0 * distance)
+        centre = window.origin + distance * ray
+        scale = self.fills * distance / caster.radius
+        return Placement(scale=scale, rotation=rotation, position=centre - scale * rotation @ caster.centre)
+
+
+def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster) -> Fit:
+    """Scale, place and yaw with which `caster`'s mesh explains the pixels of object `name`.
+
+    Where none does, other orientations are tried: pens lean in cups, bananas lie.
+
+    Args:
+        seen: what is seen.
+        camera: in a frame whose z is up.
+        name: of the object.
+        caster: its mesh, in a frame whose z is up.
+    """
+    coarse, fine = (Window(seen, camera, name, pixels) for pixels in (COARSE, FINE))
+    rings = [[_aligned(coarse, caster, start, yaw=2 * math.pi * k / YAWS) for k in range(YAWS)] for start in STARTS]
+    firsts = [ring[k] for ring in rings for k in _valleys(_costs(coarse, caster, ring))]
+    sharp = Window(seen, camera, name, SHARP)
+    best = _judged(sharp, caster, _turned_about(fine, caster, _best(coarse, fine, caster, firsts)))
+    tilted = False
+    if best[1] > fine.expected + UNEXPLAINED:
+        turned = [_aligned(coarse, caster, start, first=one) for one in _orientations() for start in STARTS]
+        order = np.argsort(_costs(coarse, caster, turned), kind="stable")
+        found = _best(coarse, fine, caster, [turned[k] for k in order[:TRIED]], leans=True)
+        leaning = _judged(sharp, caster, found, leans=True)
+        if leaning[1] - fine.expected < TILT_GAIN * (best[1] - fine.expected):
+            best, tilted = _straightened(fine, caster, leaning)
+    return _fit(fine, caster, *best, tilted=tilted)
+
+
+def stood(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, found: Fit, base: float) -> Fit:
+    """`found` again, knowing that the lowest point of the object is at height `base` [m].
+
+    What the ground or a table carries is as far away as they are at that place, which is known better than any depth
+    of a small object.
+    """
+    fine = Window(seen, camera, name, FINE)
+    placed = found.placed
+    centre = placed.apply(caster.centre[None])[0] - fine.origin
+    distance = float(np.linalg.norm(centre))
+    # Away from the middle of the mask, in units of the plane that the middle ray is normal to.
+    tangent = np.linalg.lstsq(np.column_stack([fine.right, fine.down, -centre / distance]), -fine.middle, rcond=None)[0]
+    guess = _Guess(
+        float(tangent[0]),
+        float(tangent[1]),
+        distance,
+        placed.scale * caster.radius / distance,
+        0.0,
+        first=placed.rotation,
+        base=base,
+    )
+    best = _settled(fine, caster, _refined(fine, caster, guess))
+    if best[1] > found.cost + fine.expected + STOOD_LOSS:
+        # Models see small things before a far background too far away; what stands somewhere is there all the same.
+        fine.shift_free = True
+        best = _settled(fine, caster, _refined(fine, caster, guess))
+    return _fit(fine, caster, *best, tilted=found.tilted)
+
+
+def _fit(window: Window, caster: Caster, guess: _Guess, cost: float, *, tilted: bool) -> Fit:
+    placed = guess.placed(window, caster)
+    drawn = caster.ranges(window.origin, window.rays, placed)
+    return Fit(placed=placed, tilted=tilted, cost=max(0.0, cost - window.expected), overlap=window.overlap(drawn))
+
+
+def _straightened(window: Window, caster: Caster, leaning: tuple[_Guess, float]) -> tuple[tuple[_Guess, float], bool]:
+    """`leaning`, or the upright candidate next to it where it hardly leans; and whether it does."""
+    guess, cost = leaning
+    rotation = guess.placed(window, caster).rotation
+    if rotation[2, 2] < UPRIGHT:
+        return leaning, True
+    upright = replace(guess, yaw=yaw_of(rotation), pitch=0.0, roll=0.0, first=None)
+    found = _settled(window, caster, _refined(window, caster, upright))
+    return (found, False) if found[1] < cost + NEARLY else (leaning, True)
+
+
+def _turned_about(window: Window, caster: Caster, found: list[tuple[_Guess, float]]) -> list[tuple[_Guess, float]]:
+    """`found`, best first, and what becomes of the best after quarter turns, which look alike until the last."""
+    best, cost = found[0]
+    if cost < window.perfect:
+        return found
+    others = [replace(best, yaw=best.yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
+    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in others]
+    return sorted([*found, *tried], key=lambda one: one[1])
+
+
+def _judged(
+    sharp: Window, caster: Caster, found: list[tuple[_Guess, float]], *, leans: bool = False
+) -> tuple[_Guess, float]:
+    """The best of `found`, best first, by more pixels where they are nearly as good as one another."""
+    rivals = [one for one, cost in found if cost < found[0][1] + NEARLY]
+    if len(rivals) == 1:
+        return found[0]
+    costs = sorted(((_cost(sharp, caster, one), k) for k, one in enumerate(rivals)))
+    closest = [rivals[k] for cost, k in costs if cost < costs[0][0] + NEARLY / 3][:2]
+    tried = [_refined(sharp, caster, one, leans=leans, steps=ROUGH_STEPS) for one in closest]
+    return min(tried, key=lambda one: one[1])
+
+
+def _costs(window: Window, caster: Caster, guesses: list[_Guess]) -> Array:
+    return np.array([_cost(window, caster, guess, BLUR) for guess in guesses])
+
+
+def _best(
+    coarse: Window, fine: Window, caster: Caster, firsts: list[_Guess], *, leans: bool = False
+) -> list[tuple[_Guess, float]]:
+    """`firsts` after refinement, roughly at first, and their costs; the best first."""
+    firsts = sorted(firsts, key=lambda guess: _cost(coarse, caster, guess, BLUR))[:TRIED]
+    rough = [_refined(coarse, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=BLUR) for guess in firsts]
+    rough = sorted(rough, key=lambda one: one[1])
+    exact: list[tuple[_Guess, float]] = []
+    for guess, _ in rough:
+        nearer, _ = _refined(fine, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
+        exact.append(_refined(fine, caster, nearer, leans=leans))
+        least = min(cost for _, cost in exact)
+        if least < fine.perfect or (len(exact) >= REFINED and least < fine.expected + EXPLAINED):
+            break
+    exact = sorted(exact, key=lambda one: one[1])
+    return [_settled(fine, caster, exact[0], leans=leans), *exact[1:]]
+
+
+@cache
+def _orientations() -> tuple[Array, ...]:
+    """Turns that are spread evenly, shape (3, 3) each."""
+    from scipy.spatial.transform import Rotation
+
+    return tuple(Rotation.random(TURNS, rng=np.random.default_rng(0)).as_matrix())
+
+
+def _settled(
+    window: Window, caster: Caster, found: tuple[_Guess, float], *, leans: bool = False
+) -> tuple[_Guess, float]:
+    """What the simplex method comes to when it is started again where it ended."""
+    for _ in range(RESTARTS):
+        if found[1] < window.perfect:
+            break
+        again = _refined(window, caster, found[0], leans=leans)
+        better = again[1] < 0.95 * found[1]
+        found = min(found, again, key=lambda one: one[1])
+        if not better:
+            break
+    return found
+
+
+def _cost(window: Window, caster: Caster, guess: _Guess, blur: float = 1.0) -> float:
+    return window.cost(caster.ranges(window.origin, window.rays, guess.placed(window, caster)), blur)
+
+
+def _aligned(window: Window, caster: Caster, start: float, *, yaw: float = 0.0, first: Array | None = None) -> _Guess:
+    """A first guess at an orientation: the area and the middle of the mask, and its median distance."""
+    guess = _Guess(0.0, 0.0, window.distance, 0.7 * start * window.angle, yaw, first=first)
+    fills, distance = guess.fills, guess.distance
+    across = down = 0.0
+    for _ in range(5):
+        drawn = caster.ranges(window.origin, window.rays, guess.placed(window, caster))
+        hit = np.isfinite(drawn) & (window.own | (window.contradicted(drawn) > 0.0))
+        both = hit & window.own & np.isfinite(window.range)
+        if np.count_nonzero(both) < 3:
+            fills *= 1.3
+        else:
+            ratio = math.sqrt(window.count / np.count_nonzero(hit))
+            shift = window.rays[window.own].mean(axis=0) - window.rays[hit].mean(axis=0)
+            across, down = across + float(shift @ window.right), down + float(shift @ window.down)
+            distance += float(np.median((window.range - drawn)[both]))
+            distance = min(max(distance, 0.3 * window.distance), 3.0 * window.distance)
+            fills *= min(max(ratio, 0.6), 1.6)
+        guess = _Guess(across, down, distance, fills, yaw, first=first)
+    return guess
+
+
+def _valleys(costs: Array) -> list[int]:
+    """The lowest of a ring of costs, of which none are neighbours."""
+    if costs.max() - costs.min() < 0.02 * max(costs.max(), 0.05):
+        return [int(np.argmin(costs))]
+    chosen: list[int] = []
+    for k in np.argsort(costs, kind="stable"):
+        if all(min((k - one) % len(costs), (one - k) % len(costs)) > 1 for one in chosen):
+            chosen.append(int(k))
+        if len(chosen) == TRIED:
+            break
+    return chosen
+
+
+def _refined(
+    window: Window,
+    caster: Caster,
+    first: _Guess,
+    *,
+    leans: bool = False,
+    steps: int = STEPS,
+    blur: float = 1.0,
+) -> tuple[_Guess, float]:
+    """The best near `first`, and its cost."""
+    reach = [0.08 * first.fills, 0.08 * first.fills, 0.06, 0.15]
+    reach += [0.1 * first.fills] if first.base is None else []
+    reach += [0.25, 0.25] if leans else []
+
+    def guess(values: Array) -> _Guess:
+        moved = values * np.array(reach)
+        free = iter(moved)
+        across, down, fills, yaw = (float(next(free)) for _ in range(4))
+        distance = float(next(free)) if first.base is None else 0.0
+        return replace(
+            first,
+            across=first.across + across,
+            down=first.down + down,
+            distance=first.distance * math.exp(min(max(distance, -1.0), 1.0)),
+            fills=first.fills * math.exp(min(max(fills, -1.0), 1.0)),
+            yaw=first.yaw + yaw,
+            pitch=first.pitch + float(next(free, 0.0)),
+            roll=first.roll + float(next(free, 0.0)),
+        )
+
+    size = len(reach)
+    simplex = np.vstack([np.zeros(size), np.eye(size)]) - 0.3 / size
+    found = minimize(
+        lambda values: _cost(window, caster, guess(values), blur),
+        np.zeros(size),
+        method="Nelder-Mead",
+        options={
+            "initial_simplex": simplex,
+            "maxfev": steps * (2 if leans else 1),
+            "xatol": 0.01,
+            "fatol": 1e-4,
+            "adaptive": True,
+        },
+    )
+    return guess(found.x), float(found.fun)
