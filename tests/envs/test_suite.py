@@ -20,7 +20,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
-from pat3d.cli.documents import SuiteFacts  # noqa: E402
+from pat3d.cli.documents import ConventionFacts, SpecFacts, SuiteFacts  # noqa: E402
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
@@ -398,6 +398,15 @@ def test_a_suite_s_robot_is_the_one_it_was_made_for(made, monkeypatch):
     assert TabletopConfig(suite=made).arms == Suite.open(made).request.robot == "Panda"
     assert TabletopConfig(suite=made, robot="so101").arms == "so101"
     assert TabletopConfig().arms == "ur5e"
+
+
+def test_the_description_and_a_policy_s_conventions_are_documents(copy, capsys):
+    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0"], SpecFacts)
+    assert Path(written["file"]).is_file()
+    asked = ["suite", "check-policy", str(copy), "--policy", "scripted", "--episodes", "1", "--steps", "8"]
+    found = document_of(capsys, asked, ConventionFacts)
+    assert found["passed"]
+    assert found["explained"]["position"] == pytest.approx(1.0)
 
 
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):
