@@ -124,7 +124,7 @@ class LibraryFacts:
 
 @dataclass(frozen=True, kw_only=True)
 class FoundFacts:
-    """An object of a library that words may mean."""
+    """An object that a search found."""
 
     noun: str
     name: str

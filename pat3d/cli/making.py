@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING, Any
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
-from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, labeller_of, planner_of
+from pat3d.cli.reading import (
+    ASSETS,
+    CRITIC,
+    LIBRARIES,
+    PLANNER,
+    PROXIES,
+    critic_of,
+    depth_model_of,
+    labeller_of,
+    planner_of,
+)
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS, VIEWS
 from pat3d.generation.settings import DEVICES, Settings
@@ -40,7 +50,7 @@ PHOTOGRAPH = tuple(
     option(f"--{name}", text, metavar="FILE", group="a photograph instead of a sentence")
     for name, text in {
         "image": "the photograph, PNG or JPEG; PROMPT is then only what the scene is called",
-        "depth": ".npy in metres, or 16-bit PNG in millimetres",
+        "depth": ".npy in metres, or 16-bit PNG in millimetres; else the model of PAT3D_DEPTH_MODEL or pat3d.toml",
         "masks": "PNG or .npy whose pixels tell the object, or .npy of one mask an object",
         "labels": 'JSON or YAML: {"objects": [{"name": "red mug", "noun": "mug"}, ...]}, in order; else a model tells',
         "camera": 'JSON or YAML: {"angle": 60}, degrees across, or width, height, fx, fy, cx, cy',
@@ -112,11 +122,11 @@ def generate(options: argparse.Namespace) -> int:
 def _generate_from_image(options: argparse.Namespace) -> int:
     from pat3d.generation.pictured import Photograph, generate_from_image
 
-    missing = [f"--{name}" for name in ("image", "depth", "masks", "out") if getattr(options, name) is None]
+    missing = [f"--{name}" for name in ("image", "masks", "out") if getattr(options, name) is None]
     if missing:
         raise SpecError(
-            f"{', '.join(missing)} missing: a photograph needs --image, --depth, --masks and --out. "
-            "Depth and masks come from a depth camera, or from models such as Depth Pro and SAM 2."
+            f"{', '.join(missing)} missing: a photograph needs --image, --masks and --out, and --depth and "
+            "--labels where no model is set up for them. Masks come from models such as SAM 2."
         )
     if options.prompts is not None or options.critic:
         raise SpecError("--image makes one scene of one photograph, without --prompts and --critic.")
@@ -128,6 +138,7 @@ def _generate_from_image(options: argparse.Namespace) -> int:
             prompt=options.prompt or "",
             settings=Settings(**values(Settings, options)),
             labeller=labeller_of(options),
+            depth_model=depth_model_of(options),
             progress=progress,
         )
     return _finished(outcome, options)

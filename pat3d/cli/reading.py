@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pat3d.assets.generated.orders import Orders
     from pat3d.plan.llm.chat import Chat
     from pat3d.plan.llm.critic import Critic
+    from pat3d.vision.depth import DepthModel
     from pat3d.vision.labelling import Labeller
 
 PROXIES = option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true")
@@ -90,6 +91,25 @@ def critic_of(options: argparse.Namespace) -> Critic | None:
     from pat3d.plan.llm.critic import Critic
 
     return Critic(chat())
+
+
+def depth_model_of(options: argparse.Namespace) -> DepthModel | None:
+    """Who measures the depth of a photograph; None where `--depth` does.
+
+    Raises:
+        ModelError: no model is named, or it cannot be loaded.
+    """
+    if options.depth is not None:
+        return None
+    from pat3d.vision.depth import EXAMPLE, VARIABLE, TransformersDepth, depth_model_named
+
+    name = depth_model_named()
+    if name is None:
+        raise ModelError(
+            f"--depth is missing, and no model can measure it: set {VARIABLE}, or [vision] depth in pat3d.toml, to the "
+            f"name or the folder of one, such as {EXAMPLE}."
+        )
+    return TransformersDepth(name)
 
 
 def labeller_of(options: argparse.Namespace) -> Labeller | None:

@@ -21,6 +21,7 @@ from pat3d.generation.settings import Settings
 from pat3d.progress import Clock, CpuBudget, Event, Progress, silent
 from pat3d.scene.asset import Asset
 from pat3d.scene.folder import check_target
+from pat3d.vision.depth import DepthModel
 from pat3d.vision.files import (
     Label,
     Labels,
@@ -48,10 +49,10 @@ class Photograph:
 
     picture: Path
     """PNG or JPEG."""
-    depth: Path
-    """.npy in metres, or 16-bit PNG in millimetres."""
     masks: Path
     """PNG or .npy with the labels' values, or .npy of one mask an object."""
+    depth: Path | None = None
+    """.npy in metres, or 16-bit PNG in millimetres; None where a model is to measure it."""
     labels: Path | None = None
     """JSON or YAML, see `pat3d.vision.files.LABELS_SCHEMA`; None where a model is to say what the masks show."""
     camera: Path | None = None
@@ -65,6 +66,7 @@ def generate_from_image(
     prompt: str = "",
     settings: Settings | None = None,
     labeller: Labeller | None = None,
+    depth_model: DepthModel | None = None,
     progress: Progress = silent,
 ) -> Outcome:
     """Make the scene that a photograph shows, verify it and write its folder.
@@ -75,6 +77,7 @@ def generate_from_image(
         prompt: what the scene is called.
         settings: how to make it.
         labeller: says what the masks show, where no file does.
+        depth_model: measures the picture, where no file does.
         progress: told what is going on.
 
     Raises:
@@ -91,7 +94,7 @@ def generate_from_image(
     watched = budget.watching(progress)
     with clock("picture"):
         watched(Event(stage="reading the picture"))
-        seen, labels, notes = _read(photograph, labeller, watched)
+        seen, labels, notes = _read(photograph, labeller, depth_model, watched)
     with clock("assets"):
         assets = _assets(labels, own.seed, watched)
     with clock("fitting"):
@@ -120,10 +123,20 @@ def generate_from_image(
 
 
 def _read(
-    photograph: Photograph, labeller: Labeller | None, progress: Progress
+    photograph: Photograph, labeller: Labeller | None, depth_model: DepthModel | None, progress: Progress
 ) -> tuple[Observation, Labels, list[str]]:
     picture, angle = read_picture(photograph.picture)
-    depth, values = read_depth(photograph.depth), read_masks(photograph.masks)
+    notes: list[str] = []
+    values = read_masks(photograph.masks)
+    if photograph.depth is not None:
+        depth = read_depth(photograph.depth)
+    elif depth_model is not None:
+        progress(Event(stage="measuring depth", detail=depth_model.name))
+        measured = depth_model.measure(picture)
+        depth, angle = measured.depth, angle or measured.angle
+        notes.append(f"{depth_model.name} has measured the depth")
+    else:
+        raise SpecError("nothing says how far away things are: give depth, or a model that measures it.")
     if photograph.labels is not None:
         labels = read_labels(photograph.labels)
     elif labeller is not None:
@@ -133,7 +146,6 @@ def _read(
         raise SpecError("nothing says what the masks show: give labels, or a model that looks at them.")
     instances = instances_of(values, labels)
     height, width = depth.shape
-    notes: list[str] = []
     if photograph.camera is not None:
         camera = read_camera(photograph.camera, width, height)
     else:

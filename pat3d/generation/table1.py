@@ -95,7 +95,7 @@ def table1(
         entries = []
         for variant, scene in _variants(prompt, root / name, settings, progress):
             if isinstance(scene, Pat3dError):
-                values = dict.fromkeys(COLUMNS)
+                values: dict[str, float | None] = dict.fromkeys(COLUMNS)
                 entries.append(Entry(prompt=prompt, variant=variant, values=values, failed=str(scene)))
                 continue
             progress(Event(stage="measuring", detail=f"{name}: {variant}"))

@@ -49,7 +49,7 @@ class Caster:
         self.radius = float(np.linalg.norm(high - low) / 2.0)
         """Half the diagonal of the bounding box [m]."""
         self.vertices: Array = mesh.vertices
-        self._scene = RayScene((mesh.vertices - self.centre)[mesh.faces] / self.radius)
+        self._scene = RayScene(((mesh.vertices - self.centre)[mesh.faces] / self.radius).astype(np.float32))
 
     def half_height(self, rotation: Array) -> float:
         """How far the mesh, turned by `rotation`, reaches below its middle, over its radius [-]."""

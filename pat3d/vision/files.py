@@ -320,7 +320,8 @@ def like(array: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
 def usual_camera(width: int, height: int, angle: float | None) -> tuple[Pinhole, str]:
     """The camera of a picture of which no file tells, and a note of how it is known."""
     if angle is not None:
-        return Pinhole.of_angle(width, height, angle), f"the photograph says that its camera sees {angle:.0f} degrees"
+        note = f"the camera sees {angle:.0f} degrees across, as the photograph's notes or the depth model say"
+        return Pinhole.of_angle(width, height, angle), note
     note = f"nobody says what camera it was: one that sees {USUAL_ANGLE:g} degrees across is assumed"
     return Pinhole.of_angle(width, height), note
 

@@ -71,9 +71,20 @@ def test_a_photograph_becomes_a_verified_scene_and_the_same_one_again(photograph
 
 
 def test_what_a_photograph_needs_is_said(photographed, tmp_path, capsys):
-    del photographed["--depth"], photographed["--masks"]
+    del photographed["--image"], photographed["--masks"]
     assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
-    assert "--depth, --masks missing" in capsys.readouterr().err
+    assert "--image, --masks missing" in capsys.readouterr().err
+
+
+def test_without_depth_and_without_a_model_both_are_named(photographed, tmp_path, monkeypatch, capsys):
+    monkeypatch.delenv("PAT3D_DEPTH_MODEL", raising=False)
+    monkeypatch.delenv("PAT3D_CONFIG", raising=False)
+    monkeypatch.chdir(tmp_path)
+    del photographed["--depth"]
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    told = capsys.readouterr().err
+    assert "--depth is missing" in told
+    assert "PAT3D_DEPTH_MODEL" in told
 
 
 def test_a_label_that_nothing_is_known_for_is_said_and_nothing_written(photographed, tmp_path, capsys):

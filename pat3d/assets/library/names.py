@@ -105,7 +105,8 @@ def _metadata(raw: Mapping[str, Any]) -> Metadata | None:
     licence = raw.get("license") or raw.get("licence") or ""
     mass = raw.get("mass")
     names = [name for name in names if 0 < len(name) <= 100][:20]
-    up = next((axis for key in ("up", "up_axis", "upAxis", "upaxis") if (axis := _axis(raw.get(key)))), None)
+    axes = [_axis(raw.get(key)) for key in ("up", "up_axis", "upAxis", "upaxis")]
+    up: UpAxis | None = next((axis for axis in axes if axis is not None), None)
     if not names and not licence and mass is None and up is None:
         return None
     return Metadata(

@@ -18,9 +18,9 @@ def clip_judge(model: str) -> tuple[str, Judge]:
         CheckError: transformers is not installed, or the weights are not there.
     """
     try:
-        import transformers
+        import transformers  # pyright: ignore[reportMissingImports]
     except ImportError:
-        raise CheckError("needs transformers: pip install 'pat3d[scores]'") from None
+        raise CheckError("needs transformers: pip install 'pat3d[vision]'") from None
     try:
         loaded: Any = transformers.CLIPModel.from_pretrained(model)
         tokenizer: Any = transformers.AutoTokenizer.from_pretrained(model)

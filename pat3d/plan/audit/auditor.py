@@ -10,6 +10,7 @@ from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.text import Claim, Find, Mention, Said, read, singulars
 from pat3d.plan.audit.words import ARTICLES, DEEDS, ON_DISHES, PACKETS, POURED, REACHING, REPEATS, SILENT, Place
+from pat3d.plan.grammar.lexicon import FLOOR
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -98,7 +99,7 @@ class _Auditor:
             if not any(self._has(obj, word) for obj in self._plan.objects) and not self._named(word):
                 made.append((self._said.words.index(word), f'not in the scene: "{word}"'))
         made += self._unheard()
-        made += [(0, note) for note in self._made_as()]
+        made += [(0, note) for note in (*self._made_as(), *self._astray())]
         for claim in self._said.claims:
             if (note := self._broken(claim)) is not None:
                 made.append((claim.at, note))
@@ -151,6 +152,25 @@ class _Auditor:
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _astray(self) -> list[str]:
+        """Small things of which nothing says where they are, while others of their sentence are carried."""
+        tables = {obj.name for obj in self._plan.objects if obj.noun in FLOOR or obj.noun == "tray"}
+        carried = {a for a, kind, b in self._edges if kind in ("on", "in") and b in tables}
+        if not carried or self._tasks.strip() or self._undone:
+            return []
+        related = {name for edge in self._edges for name in (edge[0], edge[2])}
+        parts = {mention.part for mention in self._said.mentions for obj in self._of(mention) if obj.name in carried}
+        told = {obj.noun for obj in self._plan.objects if obj.name in related}
+        astray = [obj for obj in self._plan.objects if obj.noun not in told and obj.noun not in FLOOR]
+        astray = [obj for obj in astray if any(
+            mention.part in parts for mention in self._said.mentions if obj in self._of(mention)
+        )]  # fmt: skip
+        return [
+            f'"{phrase}": where is not said; on the ground'
+            for phrase in dict.fromkeys(obj.phrase for obj in astray)
+            if phrase.lower() not in self._told
+        ]
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""
