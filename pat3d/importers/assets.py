@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.library.body import Body, Inertial
 from pat3d.assets.library.names import Metadata, known_names, synonyms_of, words_of
+from pat3d.assets.library.readers.collision import FROM_PICTURE
 from pat3d.assets.library.readers.inertials import fault
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.cover import outside, surface_points
@@ -71,7 +72,8 @@ def asset_of(
     Raises:
         AssetError: nothing collides, or no matter can have its mass properties.
     """
-    notes = list(body.notes)
+    # Shapes that are not convex are cut themselves here, whatever the picture is.
+    notes = [note for note in body.notes if not note.endswith(FROM_PICTURE)]
     found: Colliders = convex_parts(body.touched, cache_dir=cache_dir, budget=budget)
     notes += found.notes
     low = np.min([part.bounds[0] for part in found.parts], axis=0)
