@@ -188,7 +188,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             gymnasium.logger.warn('render needs a mode: gymnasium.make("PAT3D-v0", render_mode="rgb_array").')
             return None
         depth = self.render_mode == "depth_array"
-        picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth, fine=True)
+        # Depth is no mean of several rays.
+        picture = self.pictures.take(self.config.render_camera, *self.config.render_size, depth=depth, fine=not depth)
         return picture.depth if depth else picture.image
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -97,8 +97,8 @@ class PAT3DScene(_Base):
         for camera in list(own.cameras):
             if camera.name in ("agentview", "frontview"):
                 own.delete(camera)
-        for geom in list(own.worldbody.geoms):
-            own.delete(geom)
+        for thing in (*own.worldbody.geoms, *own.lights):
+            own.delete(thing)
         spec = mujoco.MjSpec.from_file(str(self._loaded.mjcf))
         furnish(spec, self.placement)
         spec.attach(own, prefix="", frame=spec.worldbody.add_frame())

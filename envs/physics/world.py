@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.grasping.standing import Placement, Stand
 from pat3d.envs.physics.views import ANGLES, aim
+from pat3d.envs.rendering.lights import light_up
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.assembly import take_options
 from pat3d.envs.robots.robot import Robot
@@ -137,7 +138,7 @@ def _mounts(robot: Robot, placement: Placement) -> list[tuple[Mounted, Placement
 
 
 def furnish(spec: Any, placement: Placement) -> None:
-    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, and the cameras."""
+    """Add to the scene's MjSpec what the robot stands on, the workbench where there is one, cameras, and light."""
     import mujoco
 
     if placement.bench is not None:
@@ -145,6 +146,7 @@ def furnish(spec: Any, placement: Placement) -> None:
     _pedestal(mujoco, spec, placement, placement.base_position, "pedestal")
     if placement.other is not None:
         _pedestal(mujoco, spec, placement, placement.other.base_position, "pedestal/other")
+    light_up(spec)
     for name in ANGLES:
         spec.worldbody.add_camera(name=name)
     # Shadows reach as far as the robot does, not only around the objects.
@@ -179,7 +181,7 @@ def _bench(mujoco: Any, spec: Any, placement: Placement) -> None:
     ground.rgba = [0, 0, 0, 0]
     drawn = spec.geom("ground_visual")
     drawn.pos = [0, 0, placement.floor]
-    wood = spec.add_material(name="bench", rgba=[0.80, 0.77, 0.72, 1.0], specular=0.15, shininess=0.2)
+    wood = spec.add_material(name="bench", rgba=[0.90, 0.87, 0.81, 1.0], specular=0.15, shininess=0.2)
     steel = spec.add_material(name="bench/legs", rgba=[0.33, 0.34, 0.36, 1.0], specular=0.3, shininess=0.4)
 
     def box(name: str, position: list[float], size: list[float], material: Any) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import numpy as np
@@ -18,11 +17,11 @@ VARIABLE = "PAT3D_RENDERER"
 class OpenGL:
     """Draws one model through EGL or OSMesa."""
 
-    def __init__(self, model: Any) -> None:
+    def __init__(self, model: Any, kind: str) -> None:
+        """Make a context of `kind`, one of pat3d.view.gl.KINDS."""
         import mujoco
 
-        self._mujoco = mujoco
-        kind = "osmesa" if os.environ.get("MUJOCO_GL", "").lower() == "osmesa" else "egl"
+        self._mujoco, self._model = mujoco, model
         try:
             if kind == "osmesa":
                 from mujoco.osmesa import GLContext
@@ -30,24 +29,33 @@ class OpenGL:
                 from mujoco.egl import GLContext
             self._context = GLContext(model.vis.global_.offwidth, model.vis.global_.offheight)
             self._context.make_current()
-            self._mjr = self._mujoco.MjrContext(model, self._mujoco.mjtFontScale.mjFONTSCALE_100.value)
+            self._buffers = {False: self._buffer(fine=False)}
         except (ImportError, AttributeError, RuntimeError, self._mujoco.FatalError) as error:
             raise EnvironmentSetupError(
                 f"no picture can be drawn through {kind.upper()} ({error}). Install its library (Debian: libegl1 or "
                 f"libosmesa6), or set {VARIABLE}=cpu; pat3d doctor says what works here."
             ) from error
-        self._mujoco.mjr_setBuffer(self._mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._mjr)
-        self._mjr.readDepthMap = self._mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
-        self._model = model
         self._scene = self._mujoco.MjvScene(model=model, maxgeom=max(10000, 2 * model.ngeom))
         self._option = self._mujoco.MjvOption()
         self._camera = self._mujoco.MjvCamera()
         self._camera.type = self._mujoco.mjtCamera.mjCAMERA_FIXED
 
+    def _buffer(self, *, fine: bool) -> Any:
+        """What pictures are drawn into; smooth edges cost twice the time where there is no graphics card."""
+        mujoco, quality = self._mujoco, self._model.vis.quality
+        samples = quality.offsamples
+        quality.offsamples = samples if fine else 0
+        try:
+            made = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
+        finally:
+            quality.offsamples = samples
+        made.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
+        return made
+
     def draw(
         self, data: Any, camera: int, height: int, width: int, *, depth: bool, segmentation: bool, fine: bool = False
     ) -> Picture:
-        """See Renderer; shadows and smooth edges are in every picture."""
+        """See Renderer."""
         mujoco, scene = self._mujoco, self._scene
         limits = self._model.vis.global_
         if height > limits.offheight or width > limits.offwidth:
@@ -56,16 +64,23 @@ class OpenGL:
                 f"not {height} x {width}."
             )
         self._context.make_current()
+        if fine not in self._buffers:
+            self._buffers[fine] = self._buffer(fine=fine)
+        mjr = self._buffers[fine]
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, mjr)
         self._camera.fixedcamid = camera
         mujoco.mjv_updateScene(
             self._model, data, self._option, None, self._camera, mujoco.mjtCatBit.mjCAT_ALL.value, scene
         )
+        scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = fine
+        scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
+        scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = True
         window = mujoco.MjrRect(0, 0, width, height)
         image = np.empty((height, width, 3), dtype=np.uint8)
         far = np.empty((height, width), dtype=np.float32) if depth else None
-        mujoco.mjr_render(window, scene, self._mjr)
-        mujoco.mjr_readPixels(image, far, window, self._mjr)
-        geoms = self._geoms(window, height, width) if segmentation else None
+        mujoco.mjr_render(window, scene, mjr)
+        mujoco.mjr_readPixels(image, far, window, mjr)
+        geoms = self._geoms(mjr, window, height, width) if segmentation else None
         return Picture(
             image=np.ascontiguousarray(image[::-1]),
             depth=None if far is None else self._metres(far[::-1]),
@@ -75,7 +90,8 @@ class OpenGL:
     def close(self) -> None:
         """Free the context."""
         self._context.make_current()
-        self._mjr.free()
+        for one in self._buffers.values():
+            one.free()
         self._context.free()
 
     def _metres(self, buffer: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -84,13 +100,14 @@ class OpenGL:
         near, far = planes.znear * extent, planes.zfar * extent
         return (far * near / (buffer.astype(np.float64) * (far - near) + near)).astype(np.float32)
 
-    def _geoms(self, window: Any, height: int, width: int) -> NDArray[np.int32]:
+    def _geoms(self, mjr: Any, window: Any, height: int, width: int) -> NDArray[np.int32]:
         mujoco, scene = self._mujoco, self._scene
         flags = scene.flags.copy()
         scene.flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = scene.flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = True
-        mujoco.mjr_render(window, scene, self._mjr)
+        scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = False
+        mujoco.mjr_render(window, scene, mjr)
         colours = np.empty((height, width, 3), dtype=np.uint8)
-        mujoco.mjr_readPixels(colours, None, window, self._mjr)
+        mujoco.mjr_readPixels(colours, None, window, mjr)
         scene.flags[:] = flags
         number = colours.astype(np.int32) @ np.array([1, 2**8, 2**16], dtype=np.int32)
         geoms = np.full(scene.ngeom + 1, -1, dtype=np.int32)

@@ -1,8 +1,7 @@
-"""Pictures of a running simulation: MuJoCo's GL renderer on a graphics card, else rays traced on the CPU.
+"""Pictures of a running simulation: MuJoCo's GL renderer where EGL or OSMesa works, else rays traced on the CPU.
 
-GL is tried once in a process of its own because broken drivers crash or hang. Where it would run on the CPU itself, the
-rays are ten times faster. PAT3D_RENDERER=gl or cpu decides without trying, and so does MUJOCO_GL=egl or osmesa. Both
-see the same cameras and agree on depth and segmentation; their light differs.
+GL is tried once in a process of its own because broken drivers crash or hang. PAT3D_RENDERER=egl, osmesa or cpu decides
+without trying, and so does MUJOCO_GL=egl or osmesa. All see the same cameras in the same light; see TOLERANCE.
 """
 
 from __future__ import annotations
@@ -18,8 +17,12 @@ from pat3d.envs.rendering.opengl import VARIABLE, OpenGL
 from pat3d.envs.rendering.picture import Picture, Renderer
 from pat3d.envs.rendering.raytrace import RayTracer
 from pat3d.errors import EnvironmentSetupError
+from pat3d.view.gl import KINDS, gl_renderer
 
-BACKENDS = ("gl", "cpu")
+BACKENDS = (*KINDS, "cpu")
+
+TOLERANCE = 5.0
+"""Mean over an observation's pixels by which the colours of two renderers differ [of 255]."""
 
 
 class Pictures:
@@ -33,7 +36,7 @@ class Pictures:
         # The last entry is for pixels without any geom.
         labels = np.where(owner >= 0, owner + 2, np.where(owner == ROBOT, 1, 0))
         self._labels = np.append(labels, 0).astype(np.uint16)
-        self._renderer: Renderer = OpenGL(model) if backend() == "gl" else RayTracer(model)
+        self._renderer: Renderer = RayTracer(model) if backend() == "cpu" else OpenGL(model, backend())
 
     def take(
         self,
@@ -60,19 +63,15 @@ class Pictures:
 
 @functools.lru_cache(maxsize=1)
 def backend() -> str:
-    """What draws the pictures of this process: "gl" or "cpu".
+    """What draws the pictures of this process, one of BACKENDS.
 
     Raises:
-        EnvironmentSetupError: $PAT3D_RENDERER is neither.
+        EnvironmentSetupError: $PAT3D_RENDERER is none of them.
     """
     wanted = os.environ.get(VARIABLE, "").strip().lower()
     if wanted and wanted not in BACKENDS:
         raise EnvironmentSetupError(f'{VARIABLE}="{wanted}" is no renderer. Valid: {", ".join(BACKENDS)}, or unset.')
-    if wanted:
-        return wanted
-    if os.environ.get("MUJOCO_GL", "").lower() in ("egl", "osmesa"):
-        return "gl"
-    from pat3d.view.gl import egl_renderer, is_software
-
-    card = egl_renderer()
-    return "gl" if card is not None and not is_software(card) else "cpu"
+    asked = wanted or os.environ.get("MUJOCO_GL", "").strip().lower()
+    if asked in BACKENDS:
+        return asked
+    return next((kind for kind in KINDS if gl_renderer(kind) is not None), "cpu")

@@ -1,8 +1,8 @@
 """A renderer of MuJoCo models without any graphics library: one embree scene for every body, rays in its own frame.
 
-Bodies are rigid, so their scenes are built once and a new pose costs nothing. Light is a sun, a sky and a lamp at the
-camera. Observations have neither shadows nor smooth edges, for speed; films (`fine`) have both: a ray towards the sun
-from every point that is seen, and several rays through every pixel on the edge of something.
+Bodies are rigid, so their scenes are built once and a new pose costs nothing. Light is the model's. Observations have
+neither shadows nor smooth edges, for speed; films (`fine`) have both: a ray towards the sun from every point that is
+seen, and several rays through every pixel on the edge of something.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
+from pat3d.envs.rendering.lights import FADES, FLOOR, SKY, Lights
 from pat3d.envs.rendering.picture import Picture
 from pat3d.envs.rendering.surfaces import Body, Surfaces
 from pat3d.view.rays import pinhole_rays, unit
@@ -22,18 +23,8 @@ from pat3d.view.textures import nearest_texels
 Array = NDArray[np.float32]
 Numbers = NDArray[np.int32]
 
-SUN = np.array([0.35, -0.45, 0.82], dtype=np.float32)
-"""Direction of the light."""
-
-SKY = np.array([0.83, 0.88, 0.93], dtype=np.float32)
 TILE = 0.5
 """Side of the floor's tiles [m]."""
-
-SUNLIGHT = 0.48
-"""Share of the sun in the light on what faces it."""
-
-FLOOR_SHADE = 0.72
-"""Brightness of a floor in the shadow."""
 
 LIFTED = 1e-3
 """Points are so far above their surface when they look for the sun [m]."""
@@ -147,7 +138,7 @@ class RayTracer:
 
     def _shade(self, data: Any, eye: Array, rays: Array, seen: _Seen, *, fine: bool) -> tuple[Array, NDArray[np.bool_]]:
         """Colours of what is seen, shape (rays, 3), and which of it lies in the shadow, shape (rays,)."""
-        colours = np.tile(SKY, (len(rays), 1))
+        colours, lights = np.tile(SKY, (len(rays), 1)), Lights(self._model, data)
         shaded = np.zeros(len(rays), dtype=np.bool_)
         for number in np.unique(seen.part).tolist():
             which = np.flatnonzero(seen.part == number)
@@ -159,16 +150,16 @@ class RayTracer:
                 facing = -np.einsum("ij,ij->i", normal, rays[which])
                 normal *= np.where(facing < 0, -1.0, 1.0)[:, None].astype(np.float32)
                 if fine:
-                    shaded[which] = self._shadows(data, eye, rays[which], seen.reach[which], normal)
-                light = _light(normal, np.abs(facing), shaded[which])
-                colours[which] = self._paint(body, face, weights) * light[:, None]
+                    shaded[which] = self._shadows(data, eye, rays[which], seen.reach[which], normal, lights.sun)
+                colours[which] = self._paint(body, face, weights) * lights.on(normal, np.abs(facing), shaded[which])
             elif number < -1:
                 geom = self._planes[-2 - number]
                 axes = data.geom_xmat[geom].reshape(3, 3).astype(np.float32)
+                normal = np.tile(axes[:, 2], (len(which), 1))
                 if fine:
-                    normal = np.tile(axes[:, 2], (len(which), 1))
-                    shaded[which] = self._shadows(data, eye, rays[which], seen.reach[which], normal)
-                colours[which] = self._floor(data, geom, eye, rays[which], seen.reach[which], shaded[which])
+                    shaded[which] = self._shadows(data, eye, rays[which], seen.reach[which], normal, lights.sun)
+                light = lights.on(normal, np.abs(rays[which] @ axes[:, 2]), shaded[which])
+                colours[which] = self._floor(data, geom, eye, rays[which], seen.reach[which], light)
         return colours, shaded
 
     def _paint(self, body: Body, face: Numbers, weights: Array) -> Array:
@@ -182,20 +173,22 @@ class RayTracer:
                 colour[members] *= nearest_texels(self._textures[number], uv)
         return colour
 
-    def _floor(self, data: Any, geom: int, eye: Array, rays: Array, reach: Array, shaded: NDArray[np.bool_]) -> Any:
+    def _floor(self, data: Any, geom: int, eye: Array, rays: Array, reach: Array, light: Array) -> Array:
         """Colours of a plane where it is hit, shape (m, 3)."""
         axes = data.geom_xmat[geom].reshape(3, 3).astype(np.float32)
         point = (eye + reach[:, None] * rays - data.geom_xpos[geom].astype(np.float32)) @ axes
         tiles = (np.floor(point[:, 0] / TILE) + np.floor(point[:, 1] / TILE)) % 2
-        shade = np.where(tiles > 0, 0.80, 0.74) * np.where(shaded, FLOOR_SHADE, 1.0)
-        colour = shade[:, None] * np.array([1.0, 0.99, 0.96], dtype=np.float32)
-        # The floor fades into the sky.
-        fade = np.clip(reach / 12.0, 0.0, 1.0)[:, None]
-        return colour * (1.0 - fade) + SKY * fade
+        colour = np.where(tiles[:, None] > 0, *np.array(FLOOR, dtype=np.float32)) * light
+        near, far = FADES
+        fade = np.clip((reach - near) / (far - near), 0.0, 1.0)[:, None]
+        return (colour * (1.0 - fade) + SKY * fade).astype(np.float32)
 
-    def _shadows(self, data: Any, eye: Array, rays: Array, reach: Array, normal: Array) -> NDArray[np.bool_]:
-        """Whether something stands between the sun and the points at `reach` [m] along `rays`; they face `normal`."""
-        sun = (SUN / np.linalg.norm(SUN)).astype(np.float32)
+    def _shadows(
+        self, data: Any, eye: Array, rays: Array, reach: Array, normal: Array, sun: Array | None
+    ) -> NDArray[np.bool_]:
+        """Whether something stands between the `sun` and the points at `reach` [m] along `rays`; they face `normal`."""
+        if sun is None:
+            return np.zeros(len(rays), dtype=np.bool_)
         # What is turned away from the sun gets no light from it anyway.
         lit = np.flatnonzero(normal @ sun > 0.0)
         points = eye + reach[lit, None] * rays[lit] + LIFTED * normal[lit]
@@ -240,10 +233,3 @@ def _edges(seen: _Seen, shaded: NDArray[np.bool_], height: int, width: int) -> N
         found[here] |= differ
         found[there] |= differ
     return found.reshape(-1)
-
-
-def _light(normal: Array, facing: Array, shaded: NDArray[np.bool_]) -> Array:
-    """Brightness of surfaces with unit `normal`, seen at a slope of `facing`, in the sun or `shaded`; shape (n,)."""
-    sun = np.maximum(normal @ (SUN / np.linalg.norm(SUN)), 0.0) * ~shaded
-    sky = 0.5 + 0.5 * normal[:, 2]
-    return (0.36 + 0.28 * sky + SUNLIGHT * sun + 0.12 * facing).astype(np.float32)

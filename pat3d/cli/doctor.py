@@ -60,9 +60,11 @@ def doctor(options: argparse.Namespace) -> int:
         _warp(table)
         _parts(table, progress)
         _menagerie(table)
-        _egl(table)
+        _renderers(table)
         _engines(table)
         _model(table)
+        _photographs(table)
+        _embeddings(table)
         _metrics(table)
     from pat3d.scene.cache import cache_root
 
@@ -180,6 +182,39 @@ def _model(table: Table) -> None:
     table.add("ok", "language model", f"{settings.name} on {settings.server}{looks}, with {key}")
 
 
+def _photographs(table: Table) -> None:
+    """Report what `pat3d generate --image` can do without files; nobody is asked, and no weights are loaded."""
+    from pat3d.vision.depth import EXAMPLE, INSTALL, VARIABLE, depth_model_named
+
+    files = "with --depth, --masks and --labels, generate --image needs no model"
+    try:
+        name = depth_model_named()
+    except ModelError as error:
+        table.add("FAULT", "photographs", str(error))
+        return
+    if find_spec("transformers") is None:
+        table.add("no", "photographs", f"{files}; depth by a model: {INSTALL}, and {VARIABLE}={EXAMPLE}")
+    elif name is None:
+        table.add("no", "photographs", f"{files}; depth by a model: {VARIABLE}={EXAMPLE}, or pat3d.toml")
+    else:
+        table.add("ok", "photographs", f"{files}; depth by {name}; labels by the language model, if it sees")
+
+
+def _embeddings(table: Table) -> None:
+    """Report which server finds objects of libraries by meaning; nobody is asked."""
+    from pat3d.assets.library.meaning import MODEL, URL, embedding_settings
+
+    try:
+        settings = embedding_settings()
+    except ModelError as error:
+        table.add("no", "search by meaning", str(error))
+        return
+    if settings is None:
+        table.add("no", "search by meaning", f"for pat3d library search: {MODEL} names a model, {URL} its server")
+        return
+    table.add("ok", "search by meaning", f"{settings.model} on {settings.server}")
+
+
 def _metrics(table: Table) -> None:
     """Report which columns of the paper's table `pat3d metrics` can fill."""
     from pat3d.check.metrics.remeshing import can_remesh
@@ -192,16 +227,28 @@ def _metrics(table: Table) -> None:
         )
 
 
-def _egl(table: Table) -> None:
-    from pat3d.view.gl import egl_renderer, is_software
+def _renderers(table: Table) -> None:
+    """Report what draws the pictures of environments, and what else could."""
+    from pat3d.view.gl import KINDS, gl_renderer, is_software
 
-    card = egl_renderer()
-    if card is None:
-        table.add("no", "EGL", "MuJoCo's own renderer does not work here; libegl1 and a driver would enable it")
-    elif is_software(card):
-        table.add("ok", "EGL", f"MuJoCo's own renderer works, on the CPU ({card}); environments trace rays instead")
-    else:
-        table.add("ok", "EGL", f"MuJoCo's own renderer works too, and draws the pictures of environments ({card})")
+    found = {kind: gl_renderer(kind) for kind in KINDS}
+    used = next((kind for kind in KINDS if found[kind]), None)
+    for kind, name in found.items():
+        title = {"egl": "EGL", "osmesa": "OSMesa"}[kind]
+        if name is None:
+            table.add(
+                "no", title, f"MuJoCo's own renderer does not work through it; lib{kind}{_MAJOR[kind]} would enable it"
+            )
+        else:
+            where = "on the CPU, " if is_software(name) else ""
+            does = "draws the pictures of environments" if kind == used else "works too"
+            table.add("ok", title, f"MuJoCo's own renderer, {where}{does} ({name})")
+    if used is None:
+        table.add("ok", "ray tracer", "draws the pictures of environments, on the CPU")
+
+
+_MAJOR = {"egl": "1", "osmesa": "6"}
+"""Debian's versions of the libraries."""
 
 
 def _cores() -> int:

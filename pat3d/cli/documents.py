@@ -123,6 +123,15 @@ class LibraryFacts:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FoundFacts:
+    """An object that a search found."""
+
+    noun: str
+    name: str
+    score: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class SuiteFacts:
     """A suite of scenes with tasks."""
 

@@ -7,6 +7,7 @@ import re
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import QUIET_SECONDS, console, verdict
@@ -18,6 +19,8 @@ from pat3d.errors import SuiteError
 
 if TYPE_CHECKING:
     from pat3d.envs.suites.generate import Status, Watcher
+
+MAX_EPISODES = 100_000
 
 _WORKERS = option("--workers", "processes; auto for one a core", default="auto")
 _FOLDER = option("folder", "suite folder", metavar="OUT")
@@ -74,9 +77,14 @@ def generate(options: argparse.Namespace) -> int:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
         )
+    finished = Suite.open(options.folder)
+    if status.made and find_spec("gymnasium"):
+        from pat3d.policies_eval.run.interface import suite_interface, write_interface
+
+        write_interface(finished.folder.path, suite_interface(finished))
     if options.json:
-        return _document(Suite.open(options.folder))
-    _summary(Suite.open(options.folder))
+        return _document(finished)
+    _summary(finished)
     if status.made:
         console().print(
             f"\n{status.made} scenes in {status.seconds:.0f} s: {status.per_hour:.0f} an hour with "
@@ -126,15 +134,89 @@ def show(options: argparse.Namespace) -> int:
     return 0
 
 
+@command(
+    _FOLDER,
+    option("--split", "of the episodes", default="train"),
+    option("--episodes", "scripted demonstrations for the statistics; 0 for none", type=int, default=10),
+    option("--seed", "of the episodes", type=int, default=0),
+    summary="write spec.json: what actions and observations mean, cameras, and statistics to normalise with",
+    examples="""
+    pat3d suite spec suites/tabletop --episodes 50
+    """,
+)
+def spec(options: argparse.Namespace) -> int:
+    """`pat3d suite spec`."""
+    from pat3d.envs.suites.suite import Suite
+    from pat3d.policies_eval.run.interface import suite_interface, with_statistics, write_interface
+
+    suite = Suite.open(options.folder)
+    interface = suite_interface(suite)
+    if options.episodes:
+        episodes, settings = _episodes(options, suite)
+        interface = with_statistics(interface, episodes, settings, console(stderr=True))
+    console().print(str(write_interface(suite.folder.path, interface)), markup=False, soft_wrap=True)
+    return 0
+
+
+@command(
+    _FOLDER,
+    option("--policy", "as pat3d evaluate takes it", required=True, metavar="POLICY"),
+    option("--split", "of the episodes", default="train"),
+    option("--episodes", "in which the policy is asked", type=int, default=3),
+    option("--seed", "of the episodes", type=int, default=0),
+    option("--steps", "of an episode at most", type=int, metavar="N", shown="until the task is done"),
+    option("--obs", "state, rgb or rgbd", default="state"),
+    summary="compare a policy's actions with right ones: flipped gripper, Euler angles, degrees, another frame",
+    examples="""
+    pat3d suite check-policy suites/tabletop --policy ws://127.0.0.1:8000 --obs rgb
+    """,
+    notes="The scripted policy does the tasks; the other one is asked in the same states, and what it answers is not "
+    "done.",
+)
+def check_policy(options: argparse.Namespace) -> int:
+    """`pat3d suite check-policy`: exit code 1 where something looks wrong."""
+    from pat3d.envs.suites.suite import Suite
+    from pat3d.policies_eval.analysis.conventions import EXPLAINED, examine, resemblance
+    from pat3d.policies_eval.policies.registry import make_policy
+    from pat3d.policies_eval.run.probe import compare_actions
+
+    episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs)
+    compared = compare_actions(make_policy(options.policy), episodes, settings, options.steps)
+    found, alike = examine(compared), resemblance(compared)
+    faulty = {one.part for one in found}
+    for part, share in alike.items():
+        if part not in faulty:
+            says = "as it should be" if share > EXPLAINED else "resembles nothing known, so nothing can be said"
+            console().print(f"{part}: {says} (explains {100 * max(share, 0.0):.0f} %)", markup=False, highlight=False)
+    return verdict([one.text for one in found])
+
+
+def _episodes(options: argparse.Namespace, suite: Any, **more: Any) -> tuple[Any, Any]:
+    """Episodes of a suite's split and what is the same for all of them."""
+    from pat3d.policies_eval.run.episodes import episodes_of
+    from pat3d.policies_eval.run.settings import RolloutSettings
+    from pat3d.policies_eval.run.suites import suite_settings
+
+    if not 1 <= options.episodes <= MAX_EPISODES:
+        raise SuiteError(f"--episodes is 1 to {MAX_EPISODES}, not {options.episodes}.")
+    scenes, _ = suite_settings(options.folder, options.split)
+    settings = RolloutSettings(robot=suite.request.robot, **more)
+    return episodes_of(scenes, options.episodes, seed=options.seed), settings
+
+
 suite = with_verbs(
     generate=generate,
     check=check,
     show=show,
+    spec=spec,
     examples="""
     pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
     pat3d suite check suites/tabletop
     pat3d suite show suites/tabletop
+    pat3d suite spec suites/tabletop
+    pat3d suite check-policy suites/tabletop --policy ws://127.0.0.1:8000 --obs rgb
     """,
+    **{"check-policy": check_policy},
 )
 
 

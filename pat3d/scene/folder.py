@@ -30,6 +30,7 @@ OWN = (
     "report.json",
     "summary.json",
     "preview.png",
+    "picture.png",
     "trajectory.npz",
     "loss.png",
     "before_after.png",

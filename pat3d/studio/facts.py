@@ -117,7 +117,7 @@ def _drifts(verification: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """Of every object, of its centre of mass [mm] and [degrees]."""
     found = {}
     objects = _part(verification, "mujoco").get("objects")
-    for one in objects if isinstance(objects, list) else ():
+    for one in objects if isinstance(objects, list | tuple) else ():
         if isinstance(one, dict):
             name, mm, degrees = one.get("name"), one.get("centre_mm"), one.get("degrees")
             if isinstance(mm, int | float) and isinstance(degrees, int | float):

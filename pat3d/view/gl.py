@@ -1,4 +1,4 @@
-"""Whether MuJoCo can draw through EGL here, found out without risking this process."""
+"""Whether MuJoCo can draw through EGL or OSMesa here, found out without risking this process."""
 
 from __future__ import annotations
 
@@ -20,17 +20,11 @@ with mujoco.Renderer(model, 64, 64) as renderer:
 """
 
 
+KINDS = ("egl", "osmesa")
+"""Ways to draw without a window, the better one first; EGL has the graphics card where there is one."""
+
 SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software")
 """In the names of renderers that are no graphics card."""
-
-
-def probe_egl(timeout: float = 20.0) -> bool:
-    """Whether MuJoCo's EGL renderer draws a picture here. Never raises.
-
-    Args:
-        timeout: [s] after which the answer is no.
-    """
-    return egl_renderer(timeout) is not None
 
 
 def is_software(renderer: str) -> bool:
@@ -38,18 +32,19 @@ def is_software(renderer: str) -> bool:
     return any(word in renderer.lower() for word in SOFTWARE)
 
 
-def egl_renderer(timeout: float = 20.0) -> str | None:
-    """The name of what draws MuJoCo's pictures through EGL here, None where nothing does.
+def gl_renderer(kind: str, timeout: float = 20.0) -> str | None:
+    """The name of what draws MuJoCo's pictures through `kind` here, None where nothing does.
 
     Broken drivers crash or hang, so the attempt runs in a process of its own. Never raises.
 
     Args:
+        kind: one of KINDS.
         timeout: [s] after which the answer is None.
     """
     try:
         done = subprocess.run(
             [sys.executable, "-P", "-c", _PROBE],
-            env={**os.environ, "MUJOCO_GL": "egl", "PYOPENGL_PLATFORM": "egl"},
+            env={**os.environ, "MUJOCO_GL": kind, "PYOPENGL_PLATFORM": kind},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             timeout=timeout,

@@ -36,6 +36,8 @@ class Demonstration:
     """What the scripted policy answered, shape (steps, action size)."""
     done: NDArray[np.float32]
     """What was done: the same with noise."""
+    interface: dict[str, Any] | None = None
+    """What observations and actions mean, see `pat3d.envs.interface`; cameras as in this episode."""
 
 
 class Demonstrator:
@@ -104,6 +106,8 @@ def demonstrations(
     """
     if not 0.0 <= noise <= 1.0:
         raise EvaluationError(f"noise is 0 to 1, not {noise}.")
+    from pat3d.envs.interface import describe
+
     runner, policy = Runner(settings or RolloutSettings()), Demonstrator(noise)
     succeeded = 0
     try:
@@ -121,6 +125,7 @@ def demonstrations(
                 observations={name: np.stack([seen[name] for seen in policy.seen]) for name in policy.seen[0]},
                 actions=np.stack(policy.answers),
                 done=result.actions,
+                interface=describe(runner.env),
             )
             if succeeded == successes:
                 break

@@ -2,6 +2,7 @@
 
 meta/info.json                                 features, totals, where files are
 meta/stats.json                                statistics of every feature over all frames
+meta/interface.json                            frames, units, conventions and cameras, see pat3d.envs.interface
 meta/tasks.parquet                             instructions and their numbers
 meta/episodes/chunk-000/file-000.parquet       a row an episode: where its frames are, and its statistics
 data/chunk-000/file-000.parquet                a row a frame
@@ -100,10 +101,15 @@ class _Writer:
         self._bytes = self._file = 0
         self._films: dict[str, FilmWriter] = {}
         self._film_file = self._film_frames = 0
-        self._totals: dict[str, _Totals] = {}
+        self._totals: dict[str, Totals] = {}
+        self._interface: dict[str, Any] | None = None
+        self._cameras: list[Any] = []
 
     def add(self, one: Demonstration) -> None:
         """Take in one episode."""
+        if one.interface is not None:
+            self._interface = self._interface or one.interface
+            self._cameras.append(one.interface["cameras"])
         steps, number = len(one.actions), len(self._episodes)
         values, pictures = _values_of(one)
         task = self._tasks.setdefault(one.instruction, len(self._tasks))
@@ -136,7 +142,7 @@ class _Writer:
         }
         for name, array in (values | pictures).items():
             row |= {f"stats/{name}/{kind}": found.tolist() for kind, found in _statistics(array).items()}
-            self._totals.setdefault(name, _Totals()).add(array)
+            self._totals.setdefault(name, Totals()).add(array)
         self._episodes.append(row)
         self._pending.append(values)
         self._bytes += size
@@ -171,7 +177,10 @@ class _Writer:
             name: {kind: found.tolist() for kind, found in total.result().items()}
             for name, total in self._totals.items()
         }
-        for name, content in (("info", info), ("stats", stats)):
+        contents = {"info": info, "stats": stats}
+        if self._interface is not None:
+            contents["interface"] = {**self._interface, "cameras_of_episodes": self._cameras}
+        for name, content in contents.items():
             (self._root / "meta" / f"{name}.json").write_text(json.dumps(content, indent=4) + "\n", encoding="utf-8")
 
     def _features_of(self, values: Values, pictures: Values) -> dict[str, dict[str, Any]]:
@@ -232,7 +241,7 @@ class _Writer:
         self._pending, self._bytes, self._file = [], 0, self._file + 1
 
 
-class _Totals:
+class Totals:
     """Statistics over all frames; those of pictures from their episodes."""
 
     def __init__(self) -> None:
@@ -240,12 +249,14 @@ class _Totals:
         self._parts: list[dict[str, NDArray[Any]]] = []
 
     def add(self, array: NDArray[Any]) -> None:
+        """Take in the values of an episode, the frames first."""
         if array.ndim == 4:
             self._parts.append(_statistics(array))
         else:
             self._arrays.append(array)
 
     def result(self) -> dict[str, NDArray[Any]]:
+        """Least, largest, mean, standard deviation, quantiles and count."""
         if self._arrays:
             return _statistics(np.concatenate(self._arrays))
         counts = np.array([part["count"][0] for part in self._parts], dtype=np.float64)

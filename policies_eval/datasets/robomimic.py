@@ -40,6 +40,8 @@ def write_robomimic(demonstrations: Sequence[Demonstration], file: str | os.Path
         data.attrs["total"] = sum(len(one.actions) for one in demonstrations)
         # Type 2 is what robomimic calls Gymnasium's environments.
         data.attrs["env_args"] = json.dumps({"env_name": ENV_ID, "type": 2, "env_kwargs": {}})
+        if demonstrations and demonstrations[0].interface is not None:
+            data.attrs["interface"] = json.dumps(demonstrations[0].interface)
         for name, one in zip(names, demonstrations, strict=True):
             _write(data.create_group(name), one)
         held_out = names[HELD_OUT - 1 :: HELD_OUT]
@@ -54,6 +56,8 @@ def _write(group: Any, one: Demonstration) -> None:
     group.attrs["num_samples"] = steps
     group.attrs["instruction"] = one.instruction
     group.attrs["episode"] = json.dumps(one.episode.to_json() | {"scene": Path(one.episode.scene).name})
+    if one.interface is not None:
+        group.attrs["cameras"] = json.dumps(one.interface["cameras"])
     group.create_dataset("actions", data=one.actions)
     group.create_dataset("executed_actions", data=one.done)
     group.create_dataset("rewards", data=ends.astype(np.float64))

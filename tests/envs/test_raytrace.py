@@ -8,9 +8,19 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
-from pat3d.envs.rendering.raytrace import SKY, SUN, TILE, RayTracer
+from pat3d.envs.rendering.lights import FLOOR, SKY, SUN, light_up
+from pat3d.envs.rendering.raytrace import TILE, RayTracer
 
 SIZE = 11
+
+
+def lit_model(text: str) -> mujoco.MjModel:
+    """A world in the environments' light."""
+    spec = mujoco.MjSpec.from_string(text)
+    light_up(spec)
+    return spec.compile()
+
+
 BOX = """
 <mujoco>
   <worldbody>
@@ -22,7 +32,7 @@ BOX = """
 
 
 def traced(quat: str = "1 0 0 0") -> tuple[RayTracer, mujoco.MjData]:
-    model = mujoco.MjModel.from_xml_string(BOX.format(quat=quat))
+    model = lit_model(BOX.format(quat=quat))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     return RayTracer(model), data
@@ -34,10 +44,10 @@ def middle(tracer: RayTracer, data: mujoco.MjData):
 
 
 def lit(normal) -> np.ndarray:
-    """The box's colour under sun, sky and the camera's lamp; the sky is as bright as the normal points up."""
+    """The box's colour under sun, sky and the camera's lamp; the sky shines straight down, and so does the camera."""
     x, y, z = np.array(normal) / np.linalg.norm(normal)
     sun = max(float(SUN @ [x, y, z]) / float(np.linalg.norm(SUN)), 0.0)
-    brightness = 0.36 + 0.28 * (0.5 + 0.5 * z) + 0.48 * sun + 0.12 * abs(z)
+    brightness = 0.40 + 0.15 * max(z, 0.0) + 0.42 * sun + 0.10 * abs(z)
     return np.clip(255.0 * brightness * np.array([0.8, 0.4, 0.2]), 0.0, 255.0)
 
 
@@ -91,7 +101,7 @@ COLOURS = [(1.0, 0.2, 0.1), (0.2, 0.6, 0.4), (0.05, 0.4, 0.5), (0.3, 0.1, 0.9)]
 
 def test_every_geom_of_a_body_has_its_own_texture_or_none():
     cameras = "".join(f'<camera pos="{x} 0 2" fovy="5"/>' for x in range(4))
-    model = mujoco.MjModel.from_xml_string(PAINTED.format(cameras=cameras))
+    model = lit_model(PAINTED.format(cameras=cameras))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     tracer = RayTracer(model)
@@ -108,7 +118,7 @@ def test_every_geom_of_a_body_has_its_own_texture_or_none():
 @pytest.mark.parametrize("tilt", [0.0, 25.0, 60.0, 80.0])
 def test_a_floor_is_where_the_view_meets_it_in_tiles_that_fade_into_the_sky(tilt):
     """Seen from 2 m above a floor that is turned, from one straight down to one with its horizon in the picture."""
-    model = mujoco.MjModel.from_xml_string(
+    model = lit_model(
         f"""<mujoco><worldbody><geom name="floor" type="plane" size="0 0 1" pos="0.3 -0.2 0.1" euler="0 0 30"/>
         <camera pos="1 0.5 2.1" euler="{tilt} 0 0" fovy="40"/></worldbody></mujoco>"""
     )
@@ -135,9 +145,12 @@ def test_a_floor_is_where_the_view_meets_it_in_tiles_that_fade_into_the_sky(tilt
     tiles = place[:, :2] / TILE
     # Away from the joints, which are as sharp as rounding allows.
     plain = (np.abs(tiles - np.round(tiles)) > 1e-3).all(axis=1)
-    shade = np.where(np.floor(tiles).sum(axis=1) % 2 > 0, 0.8, 0.74)[:, None] * [1.0, 0.99, 0.96]
-    fade = np.clip(depth * np.linalg.norm(views[below], axis=1) / 12.0, 0.0, 1.0)[:, None]
-    expected = 255.0 * (shade * (1.0 - fade) + SKY * fade)
+    shade = np.where(np.floor(tiles).sum(axis=1)[:, None] % 2 > 0, *np.array(FLOOR))
+    far_away = np.linalg.norm(views[below], axis=1)
+    lamp = 0.10 * -views[below][:, 2] / far_away
+    light = 0.40 + 0.15 + 0.42 * float(SUN[2] / np.linalg.norm(SUN)) + lamp[:, None]
+    fade = np.clip((depth * far_away - 2.0) / 10.0, 0.0, 1.0)[:, None]
+    expected = 255.0 * (shade * light * (1.0 - fade) + SKY * fade)
     assert len(set(np.round(shade[plain, 0], 3))) == 2
     np.testing.assert_allclose(drawn.image[below][plain], expected[plain], atol=0.6)
 
@@ -157,7 +170,7 @@ SHADED = """
 def in_the_sun(height: float, fine: bool):
     """A box on a floor, seen from above, and a ball on the line from the middle of its top to the sun."""
     ball = np.array([0.0, 0.0, 0.2]) + height * SUN / np.linalg.norm(SUN)
-    model = mujoco.MjModel.from_xml_string(SHADED.format(x=ball[0], y=ball[1], z=ball[2]))
+    model = lit_model(SHADED.format(x=ball[0], y=ball[1], z=ball[2]))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     return RayTracer(model).draw(data, 0, 101, 101, depth=False, segmentation=True, fine=fine)
@@ -166,7 +179,7 @@ def in_the_sun(height: float, fine: bool):
 def test_what_something_hides_from_the_sun_has_the_light_of_sky_and_lamp_alone():
     """A ball that does not cover the middle of the picture throws its shadow there, in films alone."""
     sun = float(SUN[2] / np.linalg.norm(SUN))
-    shade = lit((0.0, 0.0, 1.0)) - 255.0 * 0.48 * sun * np.array([0.8, 0.4, 0.2])
+    shade = lit((0.0, 0.0, 1.0)) - 255.0 * 0.42 * sun * np.array([0.8, 0.4, 0.2])
     film, plain = in_the_sun(0.6, True), in_the_sun(0.6, False)
     assert film.geoms is not None
     assert film.geoms[50, 50] == 1
@@ -194,7 +207,7 @@ def test_a_box_throws_its_shadow_on_the_floor_away_from_the_sun():
 def test_pixels_on_an_edge_are_between_what_is_on_both_sides_and_others_stay():
     """A tilted box covers a part of each pixel on its edges; what is inside is as it was."""
     text = BOX.format(quat="0.98 0 0 0.2").replace('fovy="5"', 'fovy="20"')
-    model = mujoco.MjModel.from_xml_string(text)
+    model = lit_model(text)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     tracer = RayTracer(model)
@@ -211,3 +224,14 @@ def test_pixels_on_an_edge_are_between_what_is_on_both_sides_and_others_stay():
         inside &= np.roll(plain.geoms, shift, axis=(0, 1)) == plain.geoms
     np.testing.assert_array_equal(film.image[inside], plain.image[inside])
     assert not between[inside].any()
+
+
+@pytest.mark.parametrize("factor", [0.5, 0.0])
+def test_a_light_of_the_model_that_is_weaker_is_weaker_in_the_picture(factor):
+    """So that a perturbation of the lights is one of the pictures."""
+    tracer, data = traced()
+    before = middle(tracer, data).astype(float)
+    model = tracer._model
+    model.light_diffuse[model.light("sun").id] *= factor
+    sun = 255.0 * 0.42 * float(SUN[2] / np.linalg.norm(SUN)) * np.array([0.8, 0.4, 0.2])
+    np.testing.assert_allclose(before - middle(tracer, data), (1.0 - factor) * sun, atol=1.01)

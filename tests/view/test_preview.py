@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from pat3d.errors import SpecError
-from pat3d.view.gl import probe_egl
+from pat3d.view.gl import gl_renderer
 from pat3d.view.preview import contact_sheet, save_picture, save_preview, save_turntable
 from tests.view.shapes import ball, block, scene
 
@@ -89,8 +89,8 @@ def test_sheets_that_cannot_be_made_are_refused(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_egl_probe_answers_without_raising(monkeypatch):
-    assert probe_egl() in (True, False)
-    assert probe_egl(timeout=0.001) is False
+def test_the_probe_of_gl_answers_without_raising(monkeypatch):
+    assert gl_renderer("egl", timeout=0.001) is None
+    assert gl_renderer("no such kind") is None
     monkeypatch.setattr(sys, "executable", "/no/such/python")
-    assert probe_egl() is False
+    assert gl_renderer("egl") is None

@@ -89,7 +89,7 @@ def collapsed(corners: NDArray[np.float64], kept: Kept, limit: int, short: float
         except QhullError:
             break
         if len(hull.vertices) < len(points):
-            keep = np.sort(hull.vertices)
+            keep = np.sort(hull.vertices).astype(np.int64)
             points = points[keep]
             known.keep(keep)
             continue
