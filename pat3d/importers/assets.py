@@ -20,21 +20,17 @@ from pat3d.assets.mesh.cover import outside, surface_points
 from pat3d.assets.mesh.regions import find_regions
 from pat3d.assets.mesh.repair import repair
 from pat3d.assets.mesh.topology import signed_volume
+from pat3d.check.foreign.shapes import DENSITY
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import MassProperties, mass_properties
 from pat3d.importers.colliders import Colliders, convex_parts
 from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset, VisualMesh
-
-LIGHTEST, HEAVIEST = 1e-5, 1e5
-"""[kg]; what is lighter or heavier cannot be settled."""
+from pat3d.scene.physics import HEAVIEST, LIGHTEST
 
 AT_BASE = 1e-6
 """An origin this far from the height of the base [m] is on it."""
-
-_UNSAID = 1000.0
-"""Density [kg/m^3] of what has no mass, as SDFormat and UsdPhysics prescribe and MuJoCo does."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,7 +83,7 @@ def asset_of(
     made_of = find_material(like.material if like else "plastic")
     properties, source, wrong = _weighed(body, origin, visual, volume, parts)
     notes += [f"its inertia was replaced by that of a uniform body: {wrong}"] if wrong else []
-    notes += [] if source != "assumed" else [f"no mass is said: {_UNSAID:g} kg/m^3 was taken"]
+    notes += [] if source != "assumed" else [f"no mass is said: {DENSITY:g} kg/m^3 was taken"]
     if not LIGHTEST <= properties.mass <= HEAVIEST:
         raise AssetError(
             f"its mass is {properties.mass:.3g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be simulated and verified."
@@ -215,7 +211,7 @@ def _weighed(
         return _uniform(parts, volume, given.mass), body.declared, wrong
     if given is not None:
         return _uniform(parts, volume, given.mass), body.declared, "the file gives a mass alone"
-    return _uniform(parts, volume, _UNSAID * volume), "assumed", ""
+    return _uniform(parts, volume, DENSITY * volume), "assumed", ""
 
 
 def _uniform(parts: tuple[ConvexPart, ...], volume: float, mass: float) -> MassProperties:
