@@ -21,7 +21,7 @@ import math
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +34,10 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.io import load_scene
 from pat3d.scene.model import GROUND, Scene, SceneObject
 from pat3d.view.camera import frame
-from pat3d.view.geometry import Geometry
+from pat3d.view.preview import scene_items
 from pat3d.vision.camera import Pinhole, PlacedCamera
 from pat3d.vision.caster import Caster, Placement
+from pat3d.vision.drawing import draw
 from pat3d.vision.observation import LEAST_PIXELS, Observation
 from pat3d.vision.recover import Recovered, recover
 
@@ -53,7 +54,7 @@ PROMPTS = (
     "a cup with two pens, a book and an alarm clock on a desk",
 )
 WIDTH, HEIGHT = 640, 480
-LEAST_SEEN = 150
+LEAST_SEEN = 130
 """Pixels of every object that a camera has to show."""
 SAME = 0.04
 """Of an object's pixels; fewer that differ, in silhouette or by 2 % of its size in depth, do not decide a turn."""
@@ -88,24 +89,6 @@ class Tally:
     """Errors [deg], a value for every view."""
     worst: list[dict[str, Any]] = field(default_factory=list)
     proven: list[bool] = field(default_factory=list)
-
-
-def draw(scene: Scene, camera: PlacedCamera) -> tuple[np.ndarray, np.ndarray]:
-    """Depth [m] of every pixel, NaN for the sky, and 1 + index of the object, 0 for none; shape (height, width)."""
-    pinhole = camera.pinhole
-    rows, columns = np.mgrid[: pinhole.height, : pinhole.width]
-    rays, reach = camera.rays(columns.ravel() + 0.5, rows.ravel() + 0.5)
-    geometry = Geometry([(obj.asset.visual, obj.pose) for obj in scene.objects])
-    origins = np.tile((camera.position - geometry.origin).astype(np.float32), (len(rays), 1))
-    directions = rays.astype(np.float32)
-    item = geometry.first_items(origins, directions)
-    _, far = geometry.first_faces(origins, directions)
-    ground = np.where(rays[:, 2] < -1e-6, -camera.position[2] / np.minimum(rays[:, 2], -1e-6), np.inf)
-    ranges = np.where(item >= 0, far, ground)
-    item = np.where((item >= 0) & (far <= ground), item, -1)
-    depth = np.where(ranges < 50.0, ranges / reach, np.nan)
-    shape = (pinhole.height, pinhole.width)
-    return depth.reshape(shape).astype(np.float32), (item + 1).reshape(shape).astype(np.int32)
 
 
 def random_camera(scene: Scene, rng: np.random.Generator) -> PlacedCamera:
@@ -159,11 +142,16 @@ def see(
     """A view of `scene` in which every object can be seen.
 
     Returns:
-        The observation, its depth before the noise, the camera, the assets at other sizes, and by what they were resized.
+        The observation, its depth before the noise, the camera, the assets at other sizes, and the factors of these.
     """
-    for _ in range(200):
+    for _ in range(2000):
         camera = random_camera(scene, rng)
-        depth, instances = draw(scene, camera)
+        # A small picture tells soon whether a large one is worth drawing.
+        small = replace(camera, pinhole=camera.pinhole.resized(WIDTH // 4, HEIGHT // 4))
+        counts = np.bincount(draw(scene_items(scene), small)[1].ravel(), minlength=len(scene.objects) + 1)[1:]
+        if counts.min() < LEAST_SEEN / 16:
+            continue
+        depth, instances = draw(scene_items(scene), camera)
         counts = np.bincount(instances.ravel(), minlength=len(scene.objects) + 1)[1:]
         if counts.min() < LEAST_SEEN:
             continue
@@ -311,11 +299,12 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=20261122)
     parser.add_argument("--disturbed", action="store_true")
     parser.add_argument("--proven", type=int, default=0, metavar="N", help="settle and verify the first N views too")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="stop after this time, with fewer views")
     parser.add_argument("--report", type=Path, help="write every object's errors here, as JSON")
     options = parser.parse_args()
     how = Disturbance(noise=0.05, eroded=1, occluded=0.2) if options.disturbed else Disturbance()
     goals = (5.0, 12.0, 20.0) if options.disturbed else (2.0, 5.0, 10.0)
-    scenes, tally, begin = scenes_of(options.scenes), Tally(), time.process_time()
+    scenes, tally, begin, started = scenes_of(options.scenes), Tally(), time.process_time(), time.monotonic()
     for number in range(options.views):
         rng = np.random.default_rng([options.seed, number])
         scene = scenes[number % len(scenes)]
@@ -329,8 +318,12 @@ def main() -> int:
             for line in failures:
                 print(f"view {number}, {scene.prompt}: {line}", file=sys.stderr, flush=True)
         print(f"view {number}: {scene.prompt}", file=sys.stderr, flush=True)
+        if time.monotonic() - started > options.seconds:
+            break
     seconds = time.process_time() - begin
-    print(f"{options.views} views of {len(scenes)} scenes, {len(tally.centre)} objects, {how}, {seconds:.0f} s of CPU")
+    print(
+        f"{len(tally.gravity)} views of {len(scenes)} scenes, {len(tally.centre)} objects, {how}, {seconds:.0f} s CPU"
+    )
     print(told("centre", [100 * one for one in tally.centre], goals[0], " %"))
     print(told("scale", [100 * one for one in tally.scale], goals[1], " %"))
     print(told("yaw", tally.yaw, goals[2], " deg"))

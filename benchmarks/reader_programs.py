@@ -201,35 +201,18 @@ def urdfdom(path: Path) -> dict[str, Any]:
     import subprocess
     import xml.etree.ElementTree as ET
 
-    program = (
-        Path(sys.prefix) / "lib" / f"python3.{sys.version_info.minor}" / "site-packages/cmeel.prefix/bin/check_urdf"
-    )
+    prefix = Path(sys.prefix) / "lib" / f"python3.{sys.version_info.minor}" / "site-packages" / "cmeel.prefix"
+    program, environment = prefix / "bin" / "check_urdf", {**os.environ, "LD_LIBRARY_PATH": str(prefix / "lib")}
 
     def mass(file: Path) -> float:
-        done = subprocess.run([str(program), str(file)], capture_output=True, text=True, check=False)
+        command = [str(program), str(file)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if done.returncode or not re.search(r"[Ss]uccessfully", done.stdout):
             raise ValueError(f"{file.name}: {(done.stderr or done.stdout).strip()[:200]}")
         # It prints the tree of links and no masses.
         return float(ET.parse(file).getroot().find("link/inertial/mass").get("value"))  # pyright: ignore
 
     return _objects(path, mass, metadata.version("cmeel-urdfdom"))
-
-
-def sdformat(path: Path) -> dict[str, Any]:
-    """Parsed by libsdformat, which says every error; masses of the models that are not static."""
-    import sdformat14 as package  # pyright: ignore[reportMissingImports]
-
-    root = package.Root()
-    root.load(str(path))
-    world = root.world_by_index(0)
-    models = [world.model_by_index(number) for number in range(world.model_count())]
-    moving = [model for model in models if not model.static()]
-    mass = sum(
-        float(model.link_by_index(number).inertial().mass_matrix().mass())
-        for model in moving
-        for number in range(model.link_count())
-    )
-    return {"version": metadata.version("sdformat14-py-bindings"), "bodies": len(moving), "mass": mass}
 
 
 def mujoco_usd_converter(path: Path) -> dict[str, Any]:
@@ -257,11 +240,15 @@ def urdf_usd_converter(path: Path) -> dict[str, Any]:
 
 
 def _rigid(path: str) -> dict[str, Any]:
-    """Count and mass of the rigid bodies of a stage."""
+    """Count and mass of the rigid bodies of a stage that no fixed joint ties to the world."""
     from pxr import Usd, UsdPhysics  # pyright: ignore[reportMissingImports]
 
     stage = Usd.Stage.Open(path)
-    moving = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    joints = [UsdPhysics.FixedJoint(prim) for prim in stage.Traverse() if prim.IsA(UsdPhysics.FixedJoint)]
+    ends = [[*one.GetBody0Rel().GetTargets(), *one.GetBody1Rel().GetTargets()] for one in joints]
+    rigid = {prim.GetPath(): prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)}
+    tied = {path for pair in ends for path in pair if sum(end in rigid for end in pair) == 1}
+    moving = [prim for path, prim in rigid.items() if path not in tied]
     mass = sum(float(UsdPhysics.MassAPI(prim).GetMassAttr().Get()) for prim in moving)
     return {"bodies": len(moving), "mass": mass}
 
@@ -340,7 +327,6 @@ PROGRAMS = {
         urdfdom,
         urdf_usd_converter,
         drake,
-        sdformat,
         openusd,
         mujoco_usd_converter,
         ovphysx,

@@ -76,7 +76,6 @@ READERS = tuple(
         ("PyBullet", "urdf", "manifest.json", "pybullet", ("pybullet",)),
         ("Drake, directives", "urdf", "manifest.json", "drake", ("drake",)),
         ("Drake, SDF", "sdf", "scene.sdf", "drake", ("drake",)),
-        ("libsdformat 14", "sdf", "scene.sdf", "sdformat", ("sdformat14-py-bindings==1.0.0",)),
         ("mujoco-usd-converter", "mjcf", "scene.xml", "mujoco_usd_converter", ("mujoco-usd-converter==0.8.0",)),
         ("OpenUSD", "usd", "scene.usdc", "openusd", OURS),
         ("Newton", "usd", "scene.usdc", "newton", ("newton",)),

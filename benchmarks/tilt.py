@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from benchmarks.transfer import make, random_spec
+from benchmarks.transfer import failures, make, random_spec
 from pat3d.assets.shapes import box, cylinder, ellipsoid
 from pat3d.check.certificate import MAX_TILT, certify
 from pat3d.check.engines.protocol import Engine, EngineRun
@@ -260,8 +260,8 @@ def measure(which: str, given: argparse.Namespace) -> str:
         if record.is_file():
             return record.read_text(encoding="utf-8")
         name, folder = f"random {int(which):03d}", made(int(which), given.work)
-        if folder is None:
-            return f"{name:24} no scene"
+        if folder is None or (reasons := failures(folder)):
+            return f"{name:24} not made" if folder is None else f"{name:24} not verified: {reasons[0]}"
         scene = load_scene(folder)
     elif given.what == "scenes":
         name, scene = Path(which).name, load_scene(which)

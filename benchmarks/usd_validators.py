@@ -1,10 +1,11 @@
 """Other people's validators over USD exports: OpenUSD's own, NVIDIA's, and the rigid-body rules of SimReady.
 
-    python benchmarks/usd_validators.py exports/desk/usd exports/bowl/usd
+    python benchmarks/usd_validators.py exports/desk/usd exports/bowl/usd exports/desk/simready
 
 Theirs run in environments of their own (`--environments`), made on the first run: their pins contradict ours, and
 SimReady's rules, once installed, join NVIDIA's and ask every scene to be a robot. A scene is held to OpenUSD's,
-NVIDIA's and our rules, every asset of it to SimReady's too. Exits with 1 if any complains.
+NVIDIA's and our rules, every asset of it to SimReady's too; those of a simready export to the whole profile. Exits with
+1 if any complains.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ PACKAGES = {
     "simready": ("simready-validate==2026.8.0", "simready-foundation-tier-core==2026.8.0", "numpy==2.4.6"),
 }
 
-PROFILE = ("Robotics-Prop", "3.1.0")
+PROFILE = ("Robotics-Prop", "4.0.0")
 
 FEATURES = {
     "FET_001_STANDARD": "minimal",
@@ -30,6 +31,9 @@ FEATURES = {
     "FET_003_NEWTON": "rigid bodies, Newton",
     "FET_003_MUJOCO": "rigid bodies, MuJoCo",
     "FET_006_STANDARD": "UsdPreviewSurface",
+    "FET_011_STANDARD": "semantic labels",
+    "FET_011_RTX": "labels of materials",
+    "FET_031_STANDARD": "self-contained",
 }
 """What an object in a scene can be held to; the rest is about robots, packages and catalogues."""
 
@@ -75,8 +79,8 @@ def nvidia(path: Path, programs: Path) -> list[str]:
     return [] if report["status"] == "PASS" else [json.dumps(rule)[:300] for rule in report["rules"]]
 
 
-def simready(path: Path, programs: Path) -> list[str]:
-    """Requirements of `FEATURES` that an asset fails."""
+def simready(path: Path, programs: Path, *, whole: bool = False) -> list[str]:
+    """Requirements of `FEATURES` that an asset fails, or where it fails the `whole` profile."""
     profile, version = PROFILE
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "report.json"
@@ -84,6 +88,8 @@ def simready(path: Path, programs: Path) -> list[str]:
         done = _run([*command, "--output", str(output), str(path)])
         if not output.exists():
             return [f"simready-validate ended with {done.returncode}: {done.stderr[-300:]}"]
+        if whole:
+            return [] if f"[PASSED] {profile} v{version}" in done.stdout else [done.stdout[-600:]]
         (report,) = json.loads(output.read_text(encoding="utf-8")).values()
     features = report["features_summary"]
     absent = [f"{name} was not checked" for name in FEATURES if name not in features]
@@ -112,10 +118,14 @@ def main() -> int:
     for folder in arguments.folders:
         scenes = sorted(path for path in folder.glob("scene.*") if path.suffix in (".usdc", ".usda", ".usdz"))
         assets = sorted(path for path in folder.glob("assets/*/*") if path.suffix in (".usdc", ".usda"))
-        for path in scenes + assets:
+        assets = [path for path in assets if path.stem == path.parent.name]
+        ready = sorted(folder.glob("*/usd/*.usdc")) if (folder / "assets.json").is_file() else []
+        for path in scenes + assets + ready:
             issues = {"OpenUSD": openusd(path), "ours": ours(path), "NVIDIA": nvidia(path, theirs["nvidia"])}
             if path in assets:
                 issues["SimReady"] = simready(path, theirs["simready"])
+            if path in ready:
+                issues["SimReady"] = simready(path, theirs["simready"], whole=True)
             counts = " ".join(f"{len(found):8d}" for found in issues.values())
             print(f"{path.relative_to(folder.parent)!s:48s} {counts}", flush=True)
             for name, found in issues.items():

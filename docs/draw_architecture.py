@@ -18,6 +18,7 @@ FLOORS = (
     ("importers", "scenes and objects of other programs"),
     ("check", "certificate, penetration, stillness"),
     ("exporters", "mjcf, usd, urdf, sdf: writer beside reader"),
+    ("vision", "photographs: gravity, fits, what stands on what"),
     ("layout", "poses without contact, relation predicates"),
     ("assets, plan, sim, view", "objects; sentences; settling; pictures"),
     ("scene", "the model that all share, its folder"),

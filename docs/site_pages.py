@@ -29,13 +29,33 @@ MOVED = {
 SCHEMAS = {
     "Scene specification": ("pat3d.generation.spec_schema", "BUILD_SCHEMA", "`scene.yaml`, what `pat3d build` reads"),
     "Scene": ("pat3d.scene.schema", "SCENE_SCHEMA", "`scene.json` of a scene folder"),
+    "Labels of a photograph": ("pat3d.vision.files", "LABELS_SCHEMA", "What `pat3d generate --labels` reads"),
+    "Camera of a photograph": ("pat3d.vision.files", "CAMERA_SCHEMA", "What `pat3d generate --camera` reads"),
     "Library settings": ("pat3d.assets.library.overrides", "SCHEMA", "`library.yaml` of a library"),
     "Noun": ("pat3d.assets.nouns.language", "SCHEMA", "What `pat3d catalogue add` reads"),
 }
 """Heading: module, name in it, and what files it describes."""
 
-FACTS = ("PlanFacts", "OutcomeFacts", "EditedFacts", "ExportFacts", "KindFacts")
-"""Documents of `--json`, in `pat3d.generation.facts`."""
+FACTS = {
+    "pat3d.generation.facts": ("PlanFacts", "OutcomeFacts", "EditedFacts", "ExportFacts", "KindFacts"),
+    "pat3d.cli.documents": (
+        "OptimizedFacts",
+        "ForeignFacts",
+        "SuiteFacts",
+        "LibraryFacts",
+        "FoundFacts",
+        "EvaluationFacts",
+        "ComparisonFacts",
+        "RankedFacts",
+        "ReplayFacts",
+        "DemonstrationFacts",
+        "PartFacts",
+        "FoundFacts",
+        "SpecFacts",
+        "ConventionFacts",
+    ),
+}
+"""Documents of `--json`, by module."""
 
 PUBLIC = {
     "Scenes": ("pat3d.generate", "pat3d.build", "pat3d.load_scene", "pat3d.save_scene"),
@@ -133,7 +153,7 @@ def _command(words: str, command: Any, summary: str, level: int) -> Iterator[str
 
 def schemas() -> str:
     """A table for every schema of a file, and for every document of `--json`."""
-    from pat3d.generation import facts
+    from pat3d.generation.facts import schema_of
 
     parts = []
     for heading, (module, name, what) in SCHEMAS.items():
@@ -141,8 +161,8 @@ def schemas() -> str:
         parts += [f"## {heading}", "", f"{what}.", "", *_table(schema)]
         for part, inner in schema.get("$defs", {}).items():
             parts += [f"### {heading}: {part}", "", *_table(inner)]
-    for name in FACTS:
-        schema = facts.schema_of(getattr(facts, name))
+    for module, name in ((module, name) for module, names in FACTS.items() for name in names):
+        schema = schema_of(getattr(import_module(module), name))
         parts += [f"## {name}", "", _plain(schema["description"]), "", *_table(schema)]
     return "\n".join(parts)
 

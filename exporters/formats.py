@@ -15,8 +15,11 @@ from pat3d.scene.model import Scene
 FORMATS = ("mjcf", "usd", "urdf", "sdf")
 """Names of the formats, each also the name of its folder."""
 
-VIEWS = ("html", "glb")
-"""Formats to look at, likewise: they hold no physics, and no simulator reads them back."""
+VIEWS = ("html", "glb", "simready")
+"""Formats of which nothing is read back, likewise: two to look at, and the assets for NVIDIA's asset libraries."""
+
+NEED_USD = ("usd", "simready")
+"""Those that usd-core writes."""
 
 _WRITERS = {
     "mjcf": ("pat3d.exporters.mjcf.writer", "write_mjcf"),
@@ -25,6 +28,7 @@ _WRITERS = {
     "sdf": ("pat3d.exporters.sdf.writer", "write_sdf"),
     "html": ("pat3d.exporters.html.writer", "write_html"),
     "glb": ("pat3d.exporters.glb.writer", "write_glb"),
+    "simready": ("pat3d.exporters.simready.writer", "write_simready"),
 }
 
 
@@ -88,8 +92,9 @@ def chosen(formats: Iterable[str]) -> tuple[str, ...]:
     unknown = [name for name in names if name not in (*FORMATS, *VIEWS)]
     if unknown or not names:
         raise SpecError(f'unknown format "{", ".join(unknown)}". Valid: {", ".join((*FORMATS, *VIEWS))}.')
-    if "usd" in names and not has_usd():
-        raise ExportError("usd needs usd-core, which is not installed: pip install 'pat3d[usd]'.")
+    lacking = [name for name in names if name in NEED_USD]
+    if lacking and not has_usd():
+        raise ExportError(f"{lacking[0]} needs usd-core, which is not installed: pip install 'pat3d[usd]'.")
     return tuple(dict.fromkeys(names))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import shlex
 import subprocess
 import sys
 from importlib import import_module
@@ -12,10 +13,12 @@ from typing import Any
 
 import pytest
 
+import pat3d.errors
 import pat3d.exporters
 from pat3d.cli.commands import COMMANDS, find
-from pat3d.cli.main import parser
+from pat3d.cli.main import main, parser
 from pat3d.cli.options import Command
+from tests.test_readme import blocks_of, run_block
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -26,6 +29,39 @@ FENCE = re.compile(r"^```\{toctree\}\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 def site(monkeypatch) -> Any:
     monkeypatch.syspath_prepend(DOCS)
     return import_module("site_pages")
+
+
+SAID = re.findall(r"^\$ (pat3d .+)\n(.+)$", (DOCS / "reference" / "errors.md").read_text(), re.MULTILINE)
+
+
+@pytest.mark.parametrize(("line", "message"), SAID, ids=[line for line, _ in SAID])
+def test_errors_are_as_their_page_says(line, message, tmp_path, monkeypatch, capsys):
+    for name in ("PAT3D_MODEL", "PAT3D_MODEL_URL", "PAT3D_MODEL_KEY", "PAT3D_CONFIG", "OPENAI_API_KEY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    here = tmp_path / "here"
+    (here / "letters").mkdir(parents=True)
+    (here / "letters" / "one.txt").write_text("mine")
+    monkeypatch.chdir(here)
+    assert main(shlex.split(line)[1:]) == getattr(pat3d.errors, message.split(":")[0]).exit_code
+    assert capsys.readouterr().err.splitlines()[-1] == f"pat3d: {message}"
+    assert sorted(path.name for path in here.rglob("*")) == ["letters", "one.txt"]
+
+
+def test_code_of_the_page_of_errors_runs(tmp_path):
+    for block in blocks_of(DOCS / "reference" / "errors.md"):
+        if block.language == "python":
+            run_block(block, tmp_path)
+
+
+def test_the_gallery_is_what_its_script_draws(monkeypatch):
+    monkeypatch.syspath_prepend(DOCS)
+    drawn = import_module("draw_gallery")
+    assert drawn.page() == (DOCS / "gallery.md").read_text()
+    wanted = {drawn.picture_of(one) for one in drawn.SENTENCES}
+    assert len(wanted) == len(drawn.SENTENCES) == 30
+    assert wanted == set(drawn.PICTURES.iterdir())
+    assert sum(path.stat().st_size for path in wanted) < 1.5e6
 
 
 def listed(page: Path) -> list[str]:

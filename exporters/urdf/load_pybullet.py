@@ -71,10 +71,12 @@ def load_pybullet(folder: str | Path, client: int = 0, *, geometric_friction: bo
         )
         bodies[entry["name"]] = body
         friction = math.sqrt(entry["friction"]) if geometric_friction else entry["friction"]
+        # Without anchors friction holds velocities only, and what is loaded creeps by millimetres a minute.
         pybullet.changeDynamics(
             body,
             -1,
             lateralFriction=friction,
+            frictionAnchor=1,
             spinningFriction=SPINNING_FRICTION,
             linearDamping=0.0,
             angularDamping=0.0,

@@ -89,6 +89,7 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, i
     else:
         _seen(stage, asset, name, path.parent, root.GetPath().AppendChild("visual"), materials.AppendChild("visual"))
     friction = physics_material(stage, materials.AppendChild("physics"), asset.material.friction)
+    _label(friction, asset)
     collision = UsdGeom.Xform.Define(stage, root.GetPath().AppendChild("collision")).GetPath()
     for number, part in enumerate(asset.parts):
         _part(stage, collision.AppendChild(part_name(number)), part, friction, as_mesh=as_mesh)
@@ -113,7 +114,13 @@ def _seen(stage: Stage, asset: Asset, name: str, folder: Path, mesh: PrimPath, m
     for one, file in maps.items():
         write_texture(asset.visual.maps[one], folder / file)
     look = textured_material(stage, material, f"./{name}.png", surface_of(asset), maps)
+    _label(look, asset)
     UsdShade.MaterialBindingAPI.Apply(_visual(stage, mesh, asset.visual)).Bind(look)
+
+
+def _label(material: Surface, asset: Asset) -> None:
+    """Say what a material is, for sensors and synthetic data."""
+    UsdSemantics.LabelsAPI.Apply(material.GetPrim(), "material").CreateLabelsAttr([asset.material.name])
 
 
 def part_name(number: int) -> str:

@@ -21,6 +21,7 @@ COMMANDS = {
     "optimize": ("mending", "find an initial layout from which a scene settles with its relations where its own fails"),
     "check": ("checking", "verify a scene folder again; exit code 1 when a check fails"),
     "metrics": ("metrics", "the D and R of the paper's Table 1 of scenes, whoever made them: motion, overlaps"),
+    "bench": ("metrics", "the paper's Table 1 on your prompts, beside its published rows"),
     "verify": ("verify", "verify a scene file that is not ours: what overlaps, what is not balanced, what moves"),
     "export": ("export", "write a scene, a mesh or a folder of meshes for other programs, and verify it the same"),
     "catalogue": ("catalogue", "what can be made, with pictures"),

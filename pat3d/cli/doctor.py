@@ -63,6 +63,8 @@ def doctor(options: argparse.Namespace) -> int:
         _renderers(table)
         _engines(table)
         _model(table)
+        _photographs(table)
+        _embeddings(table)
         _metrics(table)
     from pat3d.scene.cache import cache_root
 
@@ -178,6 +180,39 @@ def _model(table: Table) -> None:
     key = "a key from the environment" if settings.key else f"no key ({' or '.join(KEYS)})"
     looks = f", pictures by {settings.vision}" if settings.vision else ""
     table.add("ok", "language model", f"{settings.name} on {settings.server}{looks}, with {key}")
+
+
+def _photographs(table: Table) -> None:
+    """Report what `pat3d generate --image` can do without files; nobody is asked, and no weights are loaded."""
+    from pat3d.vision.depth import EXAMPLE, INSTALL, VARIABLE, depth_model_named
+
+    files = "with --depth, --masks and --labels, generate --image needs no model"
+    try:
+        name = depth_model_named()
+    except ModelError as error:
+        table.add("FAULT", "photographs", str(error))
+        return
+    if find_spec("transformers") is None:
+        table.add("no", "photographs", f"{files}; depth by a model: {INSTALL}, and {VARIABLE}={EXAMPLE}")
+    elif name is None:
+        table.add("no", "photographs", f"{files}; depth by a model: {VARIABLE}={EXAMPLE}, or pat3d.toml")
+    else:
+        table.add("ok", "photographs", f"{files}; depth by {name}; labels by the language model, if it sees")
+
+
+def _embeddings(table: Table) -> None:
+    """Report which server finds objects of libraries by meaning; nobody is asked."""
+    from pat3d.assets.library.meaning import MODEL, URL, embedding_settings
+
+    try:
+        settings = embedding_settings()
+    except ModelError as error:
+        table.add("no", "search by meaning", str(error))
+        return
+    if settings is None:
+        table.add("no", "search by meaning", f"for pat3d library search: {MODEL} names a model, {URL} its server")
+        return
+    table.add("ok", "search by meaning", f"{settings.model} on {settings.server}")
 
 
 def _metrics(table: Table) -> None:

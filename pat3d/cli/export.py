@@ -69,7 +69,7 @@ _MESH_OPTIONS = (
     option("--out", "where to write; each format has its folder", metavar="FOLDER", required=True),
     option(
         "--formats",
-        f"{', '.join(FORMATS)} for simulators, {' and '.join(VIEWS)} to look at, with commas or spaces between",
+        f"{', '.join(FORMATS)} for simulators, html and glb to look at, simready for NVIDIA's asset libraries",
         nargs="+",
         metavar="FORMAT",
         shown="all for simulators",
@@ -89,6 +89,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
     pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
+    pat3d export scenes/desk --formats simready --out exports/desk        assets with thumbnails and metadata
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
     pat3d export mug.glb --max-hulls 40 --decomposition-limit 60 --out assets/mug
     pat3d export scans/ --masses masses.csv --out assets               with a row "mug,0.31" for scans/mug.obj

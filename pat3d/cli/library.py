@@ -8,7 +8,6 @@ from pat3d.assets.library.index import CPU_LIMIT, Library, add_library, library_
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.library.store import Entry
 from pat3d.cli.console import console, watch
-from pat3d.cli.documents import library_facts, library_object_facts
 from pat3d.cli.gallery import write_gallery
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option, with_verbs
@@ -46,6 +45,8 @@ def add(options: argparse.Namespace) -> int:
         )
         page = write_gallery(library, pictures=not options.no_pictures, progress=progress)
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         print_facts(library_facts(library))
         return 0 if library.ready else 1
     _told(library)
@@ -58,6 +59,8 @@ def list_all(options: argparse.Namespace) -> int:
     """`pat3d library list`."""
     names = library_names()
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         print_facts([library_facts(open_library(name)) for name in names])
         return 0
     if not names:
@@ -85,6 +88,8 @@ def show(options: argparse.Namespace) -> int:
     name, _, said = options.name.partition("/")
     library = open_library(name)
     if options.json:
+        from pat3d.cli.documents import library_facts, library_object_facts
+
         print_facts(library_object_facts(_entry(library, said)) if said else library_facts(library))
         return 0
     if not said:
@@ -99,6 +104,37 @@ def show(options: argparse.Namespace) -> int:
 
 
 @command(
+    option("words", "what is looked for: a name, or where an embeddings server is set up, a description"),
+    option("--libraries", "libraries to look in", nargs="+", default=None, shown="all", metavar="NAME"),
+    JSON,
+    examples="""
+    pat3d library search "power drill"
+    pat3d library search "to cut paper with" --libraries ycb lab
+    """,
+    notes="Names alone decide unless PAT3D_EMBEDDINGS names a model of a server that speaks OpenAI's /embeddings "
+    "(PAT3D_EMBEDDINGS_URL, PAT3D_EMBEDDINGS_KEY). Vectors are kept in the index.",
+    summary="what is called so, or is nearest in meaning",
+)
+def search(options: argparse.Namespace) -> int:
+    """`pat3d library search`."""
+    from pat3d.assets.library import meaning
+
+    settings = meaning.embedding_settings()
+    found = meaning.search(options.words, options.libraries or library_names(), settings=settings)
+    if options.json:
+        from pat3d.cli.documents import FoundFacts
+
+        print_facts([FoundFacts(noun=one.noun, name=one.name, score=float(one.score)) for one in found])
+        return 0 if found else 1
+    for one in found:
+        console().print(f"{one.noun:40s} {one.score:.2f}  {one.name}", markup=False, soft_wrap=True)
+    if not found:
+        more = "" if settings else f"; by names alone, since {meaning.MODEL} names no embeddings model"
+        console().print(f'nothing is called "{options.words}"{more}.', markup=False, soft_wrap=True)
+    return 0 if found else 1
+
+
+@command(
     option("name", "a library", metavar="NAME"),
     JSON,
     summary="forget a library: its index is removed, its objects stay",
@@ -106,6 +142,8 @@ def show(options: argparse.Namespace) -> int:
 def remove(options: argparse.Namespace) -> int:
     """`pat3d library remove`."""
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         facts = library_facts(open_library(options.name))
         remove_library(options.name)
         print_facts(facts)
@@ -119,11 +157,13 @@ library = with_verbs(
     add=add,
     list=list_all,
     show=show,
+    search=search,
     remove=remove,
     examples="""
     pat3d library add ~/ycb --name ycb
     pat3d library list
     pat3d library show ycb/drill
+    pat3d library search "power drill"
     pat3d generate "the YCB drill beside a sugar box on a tray" --libraries ycb --out scenes/drill
     pat3d library remove ycb
     """,

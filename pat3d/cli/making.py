@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING, Any
 from pat3d.cli.console import console, show_many, show_report, verdict, watch
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values
-from pat3d.cli.reading import ASSETS, CRITIC, LIBRARIES, PLANNER, PROXIES, critic_of, planner_of
+from pat3d.cli.reading import (
+    ASSETS,
+    CRITIC,
+    LIBRARIES,
+    PLANNER,
+    PROXIES,
+    critic_of,
+    depth_model_of,
+    labeller_of,
+    planner_of,
+)
 from pat3d.errors import SpecError
 from pat3d.exporters.formats import FORMATS, VIEWS
 from pat3d.generation.settings import DEVICES, Settings
@@ -35,6 +45,17 @@ _KEYWORDS = {
     "formats": {"metavar": "FORMAT"},
 }
 _FROM_FILE = {name: {"default": None, "shown": "the file's"} for name in ("seed", "friction")}
+PHOTOGRAPHED = ("depth", "masks", "labels", "camera")
+PHOTOGRAPH = tuple(
+    option(f"--{name}", text, metavar="FILE", group="a photograph instead of a sentence")
+    for name, text in {
+        "image": "the photograph, PNG or JPEG; PROMPT is then only what the scene is called",
+        "depth": ".npy in metres, or 16-bit PNG in millimetres; else the model of PAT3D_DEPTH_MODEL or pat3d.toml",
+        "masks": "PNG or .npy whose pixels tell the object, or .npy of one mask an object",
+        "labels": 'JSON or YAML: {"objects": [{"name": "red mug", "noun": "mug"}, ...]}, in order; else a model tells',
+        "camera": 'JSON or YAML: {"angle": 60}, degrees across, or width, height, fx, fy, cx, cy',
+    }.items()
+)
 _OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
 
 
@@ -50,6 +71,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     LIBRARIES,
     ASSETS,
     CRITIC,
+    *PHOTOGRAPH,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
@@ -60,11 +82,14 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     pat3d generate "the YCB drill beside a sugar box on a tray" --libraries ycb --out scenes/drill
     pat3d generate "a teapot dinosaur on a plate" --assets mesh:http://127.0.0.1:8080 --out scenes/tea
     pat3d generate --planner llm --critic "una taza roja sobre la mesa" --out scenes/taza
+    pat3d generate "my desk" --image desk.jpg --depth desk.npy --masks desk.png --labels desk.json --out scenes/desk
     pat3d generate --prompts prompts.txt --out scenes      one a line; the same command goes on where it stopped
     """,
 )
 def generate(options: argparse.Namespace) -> int:
     """`pat3d generate`."""
+    if options.image is not None or any(getattr(options, name) is not None for name in PHOTOGRAPHED):
+        return _generate_from_image(options)
     if (options.prompt is None) == (options.prompts is None):
         raise SpecError('give either a sentence, pat3d generate "a red mug on a table", or --prompts FILE.')
     if options.out is None:
@@ -91,6 +116,31 @@ def generate(options: argparse.Namespace) -> int:
             from pat3d.plan.scene_plan import Decided
 
             outcome = run_prompt(options.prompt, planner=Decided(decided=plan, source=planner), **common)
+    return _finished(outcome, options)
+
+
+def _generate_from_image(options: argparse.Namespace) -> int:
+    from pat3d.generation.pictured import Photograph, generate_from_image
+
+    missing = [f"--{name}" for name in ("image", "masks", "out") if getattr(options, name) is None]
+    if missing:
+        raise SpecError(
+            f"{', '.join(missing)} missing: a photograph needs --image, --masks and --out, and --depth and "
+            "--labels where no model is set up for them. Masks come from models such as SAM 2."
+        )
+    if options.prompts is not None or options.critic:
+        raise SpecError("--image makes one scene of one photograph, without --prompts and --critic.")
+    files = {name: Path(value) for name in PHOTOGRAPHED if (value := getattr(options, name)) is not None}
+    with watch(console(stderr=True)) as progress:
+        outcome = generate_from_image(
+            Photograph(picture=Path(options.image), **files),
+            out=options.out,
+            prompt=options.prompt or "",
+            settings=Settings(**values(Settings, options)),
+            labeller=labeller_of(options),
+            depth_model=depth_model_of(options),
+            progress=progress,
+        )
     return _finished(outcome, options)
 
 

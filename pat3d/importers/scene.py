@@ -102,8 +102,9 @@ def read_scene(path: Path, *, root: Path | None = None, keyframe: str | None = N
     """
     root = root or path.resolve().parent.parent
     kind = "manifest" if path.name == MAIN[0] else FORMATS[path.suffix.lower()]
-    if kind == "mjcf" and "<robot" in path.read_text(encoding="utf-8", errors="replace")[:4096]:
-        kind = "urdf"
+    if kind == "mjcf":
+        with path.open("rb") as file:
+            kind = "urdf" if b"<robot" in file.read(4096) else kind
     if keyframe is not None and kind != "mjcf":
         raise SpecError(f"--keyframe {keyframe}: only MJCF has keyframes.")
     if kind == "mjcf":

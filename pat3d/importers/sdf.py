@@ -37,9 +37,7 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     notes: list[str] = []
     hung = {_end(joint, end).split("::")[0]: joint for joint in outer.findall("joint") for end in ("child", "parent")}
     objects, heights = list[ImportedObject](), list[float]()
-    for number, one in enumerate(_things(outer, path, root, notes)):
-        if number >= MAX_MODELS:
-            raise AssetError(f"{path}: more than {MAX_MODELS} links.")
+    for one in _things(outer, path, root, notes):
         if not isinstance(one, ImportedObject):
             heights.append(one)
             continue
@@ -62,7 +60,9 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
 
 def _things(outer: ET.Element, path: Path, root: Path, notes: list[str]) -> Iterator[ImportedObject | float]:
     """Every object, and the height [m] of every level plane."""
-    for model, frame, file in _models(outer, path, root, (np.eye(3), np.zeros(3)), MAX_DEPTH):
+    for number, (model, frame, file) in enumerate(_models(outer, path, root, (np.eye(3), np.zeros(3)), MAX_DEPTH)):
+        if number >= MAX_MODELS:
+            raise AssetError(f"{path}: more than {MAX_MODELS} models.")
         name = model.get("name", "?")
         try:
             yield from _of_model(model, frame, file, root, notes)

@@ -38,14 +38,21 @@ class _Teller:
         self._plan = plan
         self._base = {obj.name: _base(obj, plan) for obj in plan.objects}
         self._kinds: dict[str, list[str]] = {}
-        """Objects that one phrase named alike."""
+        """Objects that one phrase named alike, and single ones that are called alike."""
         self._like: dict[str, list[str]] = {}
         for obj in plan.objects:
-            like = self._kinds.setdefault(f"{self._base[obj.name]}/{obj.phrase.lower()}", [])
+            like = self._kinds.setdefault(f"{self._base[obj.name]}/{self._phrase(obj)}", [])
             like.append(obj.name)
             self._like[obj.name] = like
         self._named: set[str] = set()
         self._below = {rel.child: rel for rel in plan.relations if rel.supports}
+
+    def _phrase(self, obj: PlannedObject) -> str:
+        """The phrase that tells `obj` from what is called alike; none where every one of these has its own."""
+        phrases = [
+            other.phrase.lower() for other in self._plan.objects if self._base[other.name] == self._base[obj.name]
+        ]
+        return obj.phrase.lower() if len(set(phrases)) < len(phrases) else ""
 
     def told(self) -> str:
         sentences = [*self._supports(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]

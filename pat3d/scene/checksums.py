@@ -23,7 +23,7 @@ SCENE = "scene.json"
 MANIFEST = "checksums.json"
 FORMAT = "pat3d-checksums"
 
-EXPORTS = ("mjcf", "usd", "urdf", "sdf", "html", "glb")
+EXPORTS = ("mjcf", "usd", "urdf", "sdf", "html", "glb", "simready")
 """Folders of a scene folder that hold an export each."""
 
 OWNED = ("assets", *EXPORTS)

@@ -114,6 +114,7 @@ class Episodes:
 
     def _draw(self, number: int, one: Recording, place: np.ndarray) -> None:
         import trimesh
+        from trimesh.visual import ColorVisuals
 
         scene = self._server.scene
         above = scene.add_frame(f"/episodes/{number}", show_axes=False, position=place)
@@ -124,7 +125,7 @@ class Episodes:
                 vertices=body.corners.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), process=False
             )
             alpha = np.full((count, 1), 255, dtype=np.uint8)
-            mesh.visual = trimesh.visual.ColorVisuals(mesh, face_colors=np.hstack([body.colours, alpha]))
+            mesh.visual = ColorVisuals(mesh, face_colors=np.hstack([body.colours, alpha]))
             bodies.append(scene.add_mesh_trimesh(f"/episodes/{number}/{body.number}", mesh))
         name = "AB"[number]
         label = scene.add_label(f"/episodes/{number}/name", f"{name}: {one.outcome.replace('_', ' ')}")

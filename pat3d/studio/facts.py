@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pat3d.scene.model import SceneObject
 from pat3d.studio.session import Session
+from pat3d.studio.workbench import Order
+
+LATEST = 20
+"""Orders that are listed."""
 
 _SPECIAL = str.maketrans({one: f"\\{one}" for one in "\\`*_{}[]()<>#+-!|"})
 
@@ -68,6 +72,14 @@ def changed(session: Session) -> str:
     )
 
 
+def orders(found: Sequence[Order]) -> str:
+    """What was ordered, the latest first."""
+    return "\n".join(
+        f"- {plain(one.title)}: **{one.state}**{f', {plain(one.said)}' if one.said else ''}"
+        for one in found[: -LATEST - 1 : -1]
+    )
+
+
 def verdict(session: Session) -> str:
     """Whether the scene is verified, and by how much."""
     found = session.verification
@@ -117,7 +129,7 @@ def _drifts(verification: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """Of every object, of its centre of mass [mm] and [degrees]."""
     found = {}
     objects = _part(verification, "mujoco").get("objects")
-    for one in objects if isinstance(objects, list) else ():
+    for one in objects if isinstance(objects, list | tuple) else ():
         if isinstance(one, dict):
             name, mm, degrees = one.get("name"), one.get("centre_mm"), one.get("degrees")
             if isinstance(mm, int | float) and isinstance(degrees, int | float):

@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import Pat3dError
-from pat3d.exporters.formats import FORMATS, VIEWS, has_usd
+from pat3d.exporters.formats import FORMATS, NEED_USD, VIEWS, has_usd
 from pat3d.geometry.pose import Pose
 from pat3d.studio import facts
 from pat3d.studio.session import Session
@@ -56,6 +56,8 @@ class Panel:
             self._filling = True
             try:
                 self._status.show()
+                self._orders.content = facts.orders(self._bench.orders)
+                self._forget.visible = any(one.state == "waiting" for one in self._bench.orders)
                 if status.working and session is self._looked:
                     return
                 self._show_session(session)
@@ -107,6 +109,7 @@ class Panel:
                 "forces": gui.add_checkbox("Contact forces", False),
                 "ghost": gui.add_checkbox("Initial layout", False),
                 "before": gui.add_checkbox("Before the edits", False),
+                "shadows": gui.add_checkbox("Shadows", False),
             }
             for box in self._boxes.values():
                 box.on_update(lambda _: self._toggle())
@@ -133,7 +136,7 @@ class Panel:
         with gui.add_folder("Save and export", expand_by_default=False):
             self._name = gui.add_text("Name", name, hint="a subfolder of the studio's folder")
             gui.add_button("Save").on_click(lambda _: self._save())
-            kinds = [one for one in (*FORMATS, *VIEWS) if one != "usd" or has_usd()]
+            kinds = [one for one in (*FORMATS, *VIEWS) if one not in NEED_USD or has_usd()]
             self._formats = {one: gui.add_checkbox(one, one == "mjcf") for one in kinds}
             gui.add_button("Export").on_click(lambda _: self._export())
         with gui.add_folder("New scene"):
@@ -141,6 +144,9 @@ class Panel:
             self._seed = gui.add_number("Seed", 0, min=0, max=2**31 - 1, step=1)
             gui.add_button("Plan", hint="say how it is read, and make nothing").on_click(lambda _: self._plan())
             gui.add_button("Make", color="green").on_click(lambda _: self._make())
+            self._orders = gui.add_markdown("")
+            self._forget = gui.add_button("Drop what waits", visible=False)
+            self._forget.on_click(lambda _: self._bench.forget())
 
     def _click(self, name: str) -> None:
         self._bench.do(lambda now: needed(now).select(name))
@@ -209,7 +215,9 @@ class Panel:
             self._name.value = self._store.name_for(sentence)
             return session, said
 
-        self._bench.start("Making", work)
+        if self._bench.order("Making", sentence, work):
+            return
+        self._bench.do(lambda now: now, "too many sentences wait already.")
 
     def _settled(self, now: Session | None, progress: Watch) -> tuple[Session, str]:
         session = needed(now).settled(progress, run=self._run)

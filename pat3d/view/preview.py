@@ -87,6 +87,15 @@ def side_by_side(
     return sheet.image
 
 
+def save_row(panels: Sequence[tuple[str, NDArray[np.uint8]]], path: str | os.PathLike[str]) -> None:
+    """Write captioned pictures of one size, shape (height, width, 3), in a row."""
+    height, width = panels[0][1].shape[:2]
+    sheet = _Sheet(columns=len(panels), rows=1, width=width, height=height, gap=8, text=max(round(height / 30), 11))
+    for index, (caption, picture) in enumerate(panels):
+        sheet.put(index, picture, caption)
+    save_png(sheet.image, path)
+
+
 def save_picture(
     scene: Scene,
     path: str | os.PathLike[str],

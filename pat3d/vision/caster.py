@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.geometry.rotations import about, yaw_matrix
+from pat3d.geometry.rotations import yaw_matrix
 from pat3d.scene.asset import VisualMesh
 from pat3d.view.rays import RayScene
 from pat3d.vision.camera import Array
@@ -31,7 +32,10 @@ class Placement:
 def orientation(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> Array:
     """A turn by `roll` about x, then `pitch` about y, then `yaw` about the vertical [rad]; shape (3, 3)."""
     turned = yaw_matrix(yaw)
-    return turned if pitch == roll == 0.0 else turned @ about("y", pitch) @ about("x", roll)
+    if pitch == roll == 0.0:
+        return turned
+    (c, s), (a, b) = (math.cos(pitch), math.sin(pitch)), (math.cos(roll), math.sin(roll))
+    return turned @ np.array([[c, s * b, s * a], [0.0, a, -b], [-s, c * b, c * a]])
 
 
 class Caster:
@@ -45,7 +49,7 @@ class Caster:
         self.radius = float(np.linalg.norm(high - low) / 2.0)
         """Half the diagonal of the bounding box [m]."""
         self.vertices: Array = mesh.vertices
-        self._scene = RayScene((mesh.vertices - self.centre)[mesh.faces] / self.radius)
+        self._scene = RayScene(((mesh.vertices - self.centre)[mesh.faces] / self.radius).astype(np.float32))
 
     def half_height(self, rotation: Array) -> float:
         """How far the mesh, turned by `rotation`, reaches below its middle, over its radius [-]."""

@@ -38,8 +38,8 @@ EXPLAINED = 0.1
 """Cost above which more of them are refined exactly."""
 STARTS = (1.0, 2.2)
 """Sizes of first guesses, over what the mask would say if nothing hid the object."""
-BLUR = 12.0
-"""Factor on sigma of the rough refinement."""
+BLUR, HALFWAY = 12.0, 3.5
+"""Factors on sigma of the rough refinement, and of what comes between it and the exact one."""
 RESTARTS = 3
 """Of the simplex method at most, while each makes the cost less by a twentieth."""
 COARSE, FINE, SHARP = 400, 1500, 6000
@@ -62,6 +62,8 @@ UPRIGHT = math.cos(math.radians(5.0))
 """What leans by less stands."""
 TURNS = 160
 """Orientations that are tried then."""
+STOOD_LOSS = 0.1
+"""Cost that knowing the height of its support may add to a fit."""
 TILT_GAIN = 0.8
 """Cost of a tilted candidate over that of the best upright one, from which on it is believed."""
 
@@ -102,6 +104,10 @@ class Window:
         relative = max(seen.noise, LEAST_SIGMA)
         self.expected = 0.5 * (seen.noise / relative) ** 2
         """Cost of the true candidate, from the noise alone."""
+        self.shift_free = False
+        """Whether the depth of the object may be off by a common shift."""
+        self.perfect = self.expected + 0.01 if self.expected < 0.05 else 0.0
+        """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
         self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
         self.sigma = relative * np.where(known, self.range, 1.0)
         self.smooth = np.where(known, seen.smooth_depth[row, column] * reach, np.nan)
@@ -123,8 +129,10 @@ class Window:
         """Mean cost of what is drawn: ranges [m] of the window's pixels, infinite where there is nothing."""
         hit = np.isfinite(drawn)
         inside = self.own & hit
-        error = np.where(inside, drawn, 0.0) - np.where(inside, self.range, 0.0)
-        total = float(np.nansum(np.minimum(0.5 * (error[inside] / (blur * self.sigma[inside])) ** 2, CAP)))
+        error = drawn[inside] - self.range[inside]
+        if self.shift_free and np.isfinite(error).any():
+            error -= np.nanmedian(error)
+        total = float(np.nansum(np.minimum(0.5 * (error / (blur * self.sigma[inside])) ** 2, CAP)))
         total += CAP * float(np.count_nonzero(self.own & ~hit))
         outside = ~self.own & hit
         total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
@@ -229,6 +237,10 @@ def stood(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, fo
         base=base,
     )
     best = _settled(fine, caster, _refined(fine, caster, guess))
+    if best[1] > found.cost + fine.expected + STOOD_LOSS:
+        # Models see small things before a far background too far away; what stands somewhere is there all the same.
+        fine.shift_free = True
+        best = _settled(fine, caster, _refined(fine, caster, guess))
     return _fit(fine, caster, *best, tilted=found.tilted)
 
 
@@ -252,7 +264,7 @@ def _straightened(window: Window, caster: Caster, leaning: tuple[_Guess, float])
 def _turned_about(window: Window, caster: Caster, found: list[tuple[_Guess, float]]) -> list[tuple[_Guess, float]]:
     """`found`, best first, and what becomes of the best after quarter turns, which look alike until the last."""
     best, cost = found[0]
-    if cost < window.expected + 0.01:
+    if cost < window.perfect:
         return found
     others = [replace(best, yaw=best.yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
     tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in others]
@@ -285,8 +297,10 @@ def _best(
     rough = sorted(rough, key=lambda one: one[1])
     exact: list[tuple[_Guess, float]] = []
     for guess, _ in rough:
-        exact.append(_refined(fine, caster, guess, leans=leans))
-        if len(exact) >= REFINED and min(cost for _, cost in exact) < fine.expected + EXPLAINED:
+        nearer, _ = _refined(fine, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
+        exact.append(_refined(fine, caster, nearer, leans=leans))
+        least = min(cost for _, cost in exact)
+        if least < fine.perfect or (len(exact) >= REFINED and least < fine.expected + EXPLAINED):
             break
     exact = sorted(exact, key=lambda one: one[1])
     return [_settled(fine, caster, exact[0], leans=leans), *exact[1:]]
@@ -305,6 +319,8 @@ def _settled(
 ) -> tuple[_Guess, float]:
     """What the simplex method comes to when it is started again where it ended."""
     for _ in range(RESTARTS):
+        if found[1] < window.perfect:
+            break
         again = _refined(window, caster, found[0], leans=leans)
         better = again[1] < 0.95 * found[1]
         found = min(found, again, key=lambda one: one[1])

@@ -1,6 +1,6 @@
 """Which way is up, and how high the camera is: the plane on which things stand.
 
-A plane n . X + d = 0 in camera axes is linear in what a depth camera measures. With X = z s for the slopes s of a pixel,
+A plane n . X + d = 0 in camera axes is linear in what a depth camera measures: with X = z s, s the slopes of a pixel,
 
     1/z = -(n . s) / d = a . s,      n = -a / |a| turned upwards,      d = 1 / |a|.
 
@@ -73,11 +73,12 @@ def _find_plane(
     slopes = seen.camera.slopes(columns + 0.5, rows + 0.5)
     depth = seen.depth[rows, columns].astype(np.float64)
     tolerance = 2.5 * max(seen.noise, 0.004)
-    best, most = None, 0
+    best: Array | None = None
+    most = 0
     for _ in range(TRIALS):
         three = rng.choice(len(rows), 3, replace=False)
         try:
-            a = np.linalg.solve(slopes[three], 1.0 / depth[three])
+            a = np.asarray(np.linalg.solve(slopes[three], 1.0 / depth[three]), dtype=np.float64)
         except np.linalg.LinAlgError:
             continue
         if not _may_carry(a, others, tolerance):
@@ -90,7 +91,11 @@ def _find_plane(
     for _ in range(10):
         error = depth * (slopes @ best) - 1.0
         weight = np.clip(1.0 - (error / (1.6 * tolerance)) ** 2, 0.0, None) * depth
-        best = np.linalg.lstsq(slopes * weight[:, None], weight / depth, rcond=None)[0]
+        solved = np.linalg.lstsq(slopes * weight[:, None], weight / depth, rcond=None)[0]
+        best = np.asarray(solved, dtype=np.float64)
+    if not _may_carry(best, others, tolerance):
+        # The front of a thing passes for a floor until it is looked at closely.
+        return None
     length = float(np.linalg.norm(best))
     share = float(np.mean(np.abs(depth * (slopes @ best) - 1.0) < tolerance))
     return Plane(up=-best / length, height=1.0 / length, share=share)
@@ -129,7 +134,7 @@ def level_camera(seen: Observation, plane: Plane, *, beneath: float = 0.0) -> Pl
         # Straight from above, the picture's up is the scene's depth.
         forward = np.array([0.0, -1.0, 0.0]) + up[1] * up
     forward /= np.linalg.norm(forward)
-    rotation = np.stack([np.cross(forward, up), forward, up])
+    rotation = np.asarray(np.stack([np.cross(forward, up), forward, up]), dtype=np.float64)
     rows, columns = np.nonzero((seen.instances > 0) & seen.known)
     if not len(rows):
         raise LayoutError("no object of the picture has a known depth.")

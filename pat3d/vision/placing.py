@@ -60,8 +60,8 @@ def placed_apart(bodies: Mapping[str, Placed], relations: tuple[Relation, ...]) 
         found = _set_down(body, done, parent, inside=inside)
         if found is None:
             raise LayoutError(
-                f'"{name}" finds no room on "{parent}" near where the picture shows it; is its mask, or that of what is '
-                "beside it, another object's?"
+                f'"{name}" finds no room on "{parent}" near where the picture shows it; is its mask, or that of '
+                "what is beside it, another object's?"
             )
         moved = float(np.linalg.norm((found.position - body.position)[:2]))
         if moved > 0.01:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from pat3d.assets.library.store import scaled
 from pat3d.errors import LayoutError
@@ -13,14 +15,12 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
 from pat3d.vision.camera import PlacedCamera
 from pat3d.vision.caster import Caster, Placement
-from pat3d.vision.fitting import Fit, fit, stood
+from pat3d.vision.fitting import STOOD_LOSS, Fit, fit, stood
 from pat3d.vision.gravity import Plane, ground_plane, level_camera, surface_plane
 from pat3d.vision.observation import Observation
 from pat3d.vision.placing import from_the_ground
 from pat3d.vision.supports import carried_at, supports
 
-STOOD_LOSS = 0.1
-"""Cost that knowing the height of its support may add to a fit; beyond it, what was thought to carry it does not."""
 POOR = 1.0
 """Cost of a fit from which on a note says so."""
 LEAST_SURFACE = 0.5
@@ -48,6 +48,30 @@ class Recovered:
     def bodies(self) -> dict[str, Placed]:
         """Every object where it was fitted."""
         return {name: _body(name, self.assets[name], one.placed) for name, one in self.fits.items()}
+
+    def resized(self, sizes: Mapping[str, float], seen: Observation) -> Recovered:
+        """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
+
+        Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
+
+        Args:
+            sizes: longest sides [m] of some objects.
+            seen: the picture it was recovered from.
+        """
+        name = max(sizes, key=lambda one: self.fits[one].overlap * float(seen.mask(one).sum()) ** 0.5)
+        factor = sizes[name] / float(self.sized(name).size.max())
+        fits = {
+            each: replace(
+                one,
+                placed=replace(
+                    one.placed, scale=factor * one.placed.scale, position=factor * np.asarray(one.placed.position)
+                ),
+            )
+            for each, one in self.fits.items()
+        }
+        note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m.'
+        camera = replace(self.camera, position=factor * self.camera.position)
+        return replace(self, camera=camera, fits=fits, notes=(*self.notes, note))
 
 
 def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progress = silent) -> Recovered:
@@ -77,6 +101,7 @@ def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progres
         base = 0.0 if relation is None else carried_at(bodies[name], bodies[relation.parent], slack)
         progress(Event(stage="standing on what carries it", detail=name))
         lower = stood(seen, camera, name, casters[name], fits[name], base)
+        # Otherwise it stands on something else, which is hidden, or the asset is not what is seen.
         if lower.cost < fits[name].cost + STOOD_LOSS:
             fits[name] = lower
             bodies[name] = _body(name, assets[name], lower.placed)

@@ -33,7 +33,7 @@ class _Columns:
         # The simulator stands things on the convex parts, so these are what carries.
         corners = np.concatenate([part.vertices[part.faces] for part in body.body.asset.parts])
         self.middle = (body.low + body.high) / 2
-        self._scene = RayScene(corners @ body.rotation.T + body.position - self.middle)
+        self._scene = RayScene((corners @ body.rotation.T + body.position - self.middle).astype(np.float32))
         self.reach = float(body.high[2] - body.low[2]) + 1.0
 
     def under(self, points: Array) -> Array:

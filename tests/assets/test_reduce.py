@@ -132,3 +132,16 @@ def test_faces_that_are_nearly_parallel_do_not_meet_in_a_needle():
     assert _outside(points, part) < 1e-9
     assert inflation(part, points).distance < 0.05 * np.ptp(points)
     assert inflation(part, points).volume < 0.5
+
+
+def test_a_bar_of_many_corners_fits_within_half_a_millimetre():
+    """Half of a round bar of 36 x 100 mm, as a scanner has it: 10 sides around the half have corners 0.22 mm out."""
+    rng = np.random.default_rng(3)
+    angle, along = np.pi * rng.uniform(size=3000), rng.uniform(0.0, 0.1, size=3000)
+    bar = np.stack([0.018 * np.cos(angle), along, 0.018 * np.sin(angle)], axis=1)
+    bar = np.concatenate([bar, [[x, y, 0.0] for x in (-0.018, 0.018) for y in (0.0, 0.1)]])
+    part = reduce_hull(bar)
+    assert len(part.vertices) <= 34
+    assert _outside(bar, part) <= 1e-12
+    assert inflation(part, bar).distance < 5e-4
+    assert part.bounds[0, 2] == 0.0

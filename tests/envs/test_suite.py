@@ -20,7 +20,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
-from pat3d.cli.documents import SuiteFacts  # noqa: E402
+from pat3d.cli.documents import ConventionFacts, SpecFacts, SuiteFacts  # noqa: E402
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
@@ -422,6 +422,15 @@ class Flipped(ScriptedPolicy):
 
     def act(self, observation):
         return super().act(observation) * [1, 1, 1, 1, 1, 1, -1]
+
+
+def test_the_description_and_a_policy_s_conventions_are_documents(copy, capsys):
+    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0"], SpecFacts)
+    assert Path(written["file"]).is_file()
+    asked = ["suite", "check-policy", str(copy), "--policy", "scripted", "--episodes", "1", "--steps", "8"]
+    found = document_of(capsys, asked, ConventionFacts)
+    assert found["passed"]
+    assert found["explained"]["position"] == pytest.approx(1.0)
 
 
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):

@@ -47,7 +47,7 @@ def test_formats_may_be_written_into_the_scene_s_own_folder(folder):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--formats", "mjcf,fbx"], 'unknown format "fbx". Valid: mjcf, usd, urdf, sdf, html, glb.'),
+        (["--formats", "mjcf,fbx"], 'unknown format "fbx". Valid: mjcf, usd, urdf, sdf, html, glb, simready.'),
         (["--formats", ","], "Valid: mjcf"),
         (["--formats", "mjcf", "--mass", "2"], "--mass is for meshes"),
     ],

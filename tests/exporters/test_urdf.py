@@ -109,6 +109,39 @@ def test_pybullet_holds_the_scene_still(tmp_path):
         pybullet.disconnect(client)
 
 
+def test_pybullet_lets_nothing_creep_and_holds_nothing_that_slides(tmp_path):
+    """Friction that only holds velocities lets a tower of four creep by 0.6 mm a minute; a slope still is one."""
+    pybullet = pytest.importorskip("pybullet")
+    from pat3d.exporters.urdf.load_pybullet import load_pybullet
+
+    def places(bodies):
+        return np.array([pybullet.getBasePositionAndOrientation(body, client)[0] for body in bodies.values()])
+
+    client = pybullet.connect(pybullet.DIRECT)
+    try:
+        bodies = load_pybullet(write_urdf(tower(4), tmp_path / "tower").parent, client)
+        for _ in range(1500):
+            pybullet.stepSimulation(physicsClientId=client)
+        before = places(bodies)
+        for _ in range(1500):
+            pybullet.stepSimulation(physicsClientId=client)
+        # 0.1 mm a minute, for a second and a half.
+        assert np.abs(places(bodies) - before).max() < 2.5e-6
+        pybullet.resetSimulation(physicsClientId=client)
+        slick = Material(name="slick", density=900.0, friction=0.1)
+        plate, slab = (asset_of(box(size, size, 0.02), material=slick) for size in (0.6, 0.2))
+        scene = scene_of(placed("plate", plate, fixed=True), placed("slab", slab, (0, 0, 0.02 + GAP)))
+        body = {"slab": load_pybullet(write_urdf(scene, tmp_path / "slab").parent, client)["slab"]}
+        lean, start = math.radians(7.0), places(body)
+        pybullet.setGravity(9.81 * math.sin(lean), 0.0, -9.81 * math.cos(lean), physicsClientId=client)
+        for _ in range(500):
+            pybullet.stepSimulation(physicsClientId=client)
+        slid = 9.81 * (math.sin(lean) - 0.1 * math.cos(lean)) * 0.5**2 / 2
+        assert places(body)[0, 0] - start[0, 0] == pytest.approx(slid, rel=0.01)
+    finally:
+        pybullet.disconnect(client)
+
+
 def test_pybullet_holds_a_saddle_on_a_roof_that_it_would_roll_off_without_friction(tmp_path):
     """At PyBullet's own solver threshold it moves by half a millimetre in 5 s; the gaps are 0.02 mm."""
     pybullet = pytest.importorskip("pybullet")

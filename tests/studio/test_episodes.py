@@ -1,6 +1,7 @@
 """A recorded episode done again for a page: every state of it, and the figures that are charted."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -58,7 +59,7 @@ def test_an_episode_that_is_not_there_is_refused(folder):
 def test_episodes_that_only_one_did_are_left_out_and_outcomes_choose(folder):
     one = read_evaluation(folder)
     outcome = one.results[0].outcome
-    shorter = SimpleNamespace(results=one.results[:1])
+    shorter: Any = SimpleNamespace(results=one.results[:1])
     assert list(listed([one])) == [0, 1]
     assert list(listed([one, shorter])) == [0]
     assert listed([one, shorter])[0].endswith(" / ".join([outcome.replace("_", " ")] * 2))

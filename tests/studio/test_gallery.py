@@ -3,6 +3,7 @@
 import time
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -36,7 +37,7 @@ ENTRIES = (
 )
 
 
-def suite(folder, entries=ENTRIES):
+def suite(folder, entries=ENTRIES) -> Any:
     """As much of a suite as a gallery looks at."""
     return SimpleNamespace(
         entries=entries,

@@ -31,7 +31,7 @@ def states(frames):
         # Rows of a state are the columns of its linear map, a little stretched.
         made[frame, 2, 1:] = 1.0001 * pose.rotation.T
         made[frame, 2, 0] = pose.rotation @ CENTRES[2] + (0.0, 0.0, 0.01 * left)
-    return made
+    return made.astype(np.float32)
 
 
 def test_frames_are_poses_and_the_last_one_is_the_rest(folder):

@@ -23,13 +23,13 @@ from pat3d.assets.library.guess import (
     Typical,
     axis_of,
     guess_unit,
-    guess_up,
     longest_side,
     unit_of,
 )
 from pat3d.assets.library.readers.inertials import fault
 from pat3d.assets.library.resting import resting_poses, standing
 from pat3d.assets.library.store import Entry
+from pat3d.assets.library.upright import guess_up
 from pat3d.assets.materials import material
 from pat3d.assets.mesh.cover import outside
 from pat3d.assets.mesh.importing import METRES, TO_Z_UP, Placing, asset_of
@@ -172,9 +172,7 @@ def _made(
 ) -> tuple[Asset, dict[str, Any], list[str]]:
     typical, doubts = typical_of(like), list[str]()
     unit, metres = _unit(body, typical, settings)
-    up = Guess(value=settings["up"], reason="library.yaml says so", confidence=1.0, source="given") if (
-        "up" in settings
-    ) else guess_up(body, typical)  # fmt: skip
+    up = _up(body, typical, settings, metadata)
     doubts += [
         f"{what} {guess.value}: {guess.reason}; {100 * guess.confidence:.0f} % sure"
         for what, guess in (("unit", unit), ("up", up))
@@ -296,6 +294,15 @@ def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> t
         return guess, METRES[settings["units"]]
     guess = guess_unit(body, typical)
     return guess, body.metres if body.metres is not None else METRES[unit_of(guess)]
+
+
+def _up(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: names.Metadata) -> Guess:
+    """The axis that points up: library.yaml's, the file's, its metadata's, or a guess."""
+    if "up" in settings:
+        return Guess(value=settings["up"], reason="library.yaml says so", confidence=1.0, source="given")
+    if body.up is None and metadata.up is not None:
+        return Guess(value=metadata.up, reason="its metadata say so", confidence=1.0, source="declared")
+    return guess_up(body, typical)
 
 
 def _material(settings: Mapping[str, Any], like: str) -> tuple[str, bool]:

@@ -8,9 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from pat3d.assets.catalogue import lookup
+from pat3d.assets.mesh.importing import UpAxis
 
 GENERIC = frozenset({
     "model", "models", "mesh", "meshes", "object", "objects", "obj", "asset", "assets", "visual", "visuals", "textured",
@@ -44,6 +45,8 @@ class Metadata:
     licence: str = ""
     mass: float | None = None
     """[kg]"""
+    up: UpAxis | None = None
+    """Axis that points up."""
     size: float | None = None
     """Longest side [m]."""
     raw: Mapping[str, Any] = field(default_factory=dict)
@@ -102,14 +105,29 @@ def _metadata(raw: Mapping[str, Any]) -> Metadata | None:
     licence = raw.get("license") or raw.get("licence") or ""
     mass = raw.get("mass")
     names = [name for name in names if 0 < len(name) <= 100][:20]
-    if not names and not licence and mass is None:
+    axes = [_axis(raw.get(key)) for key in ("up", "up_axis", "upAxis", "upaxis")]
+    up: UpAxis | None = next((axis for axis in axes if axis is not None), None)
+    if not names and not licence and mass is None and up is None:
         return None
     return Metadata(
         names=tuple(names),
         licence=str(licence)[:200] if isinstance(licence, str) else "",
         mass=float(mass) if isinstance(mass, int | float) and not isinstance(mass, bool) and mass > 0 else None,
+        up=up,
         raw=raw,
     )
+
+
+def _axis(said: object) -> UpAxis | None:
+    """The axis that "y", "Z_UP", "+z" or [0, 1, 0] names, or None."""
+    if isinstance(said, str):
+        word = re.fullmatch(r"\+?(-?[xyz])([ _-]?(up|axis))?", said.strip().lower())
+        return cast(UpAxis, word[1]) if word else None
+    if isinstance(said, list) and len(said) == 3 and all(isinstance(one, int | float) for one in said):
+        large = [at for at in range(3) if abs(said[at]) > 0.99]
+        if len(large) == 1 and sum(abs(one) for one in said) < 1.01:
+            return cast(UpAxis, ("-" if said[large[0]] < 0 else "") + "xyz"[large[0]])
+    return None
 
 
 def _pbtxt(text: str) -> dict[str, Any]:

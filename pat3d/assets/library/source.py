@@ -24,11 +24,11 @@ class LibrarySource:
     def __init__(self, name: str) -> None:
         """Raises: AssetError: there is no such library."""
         self.name = name
-        self._library: Library = open_library(name)
+        self.library: Library = open_library(name)
 
     @cached_property
     def _entries(self) -> dict[str, Entry]:
-        return {entry.key: entry for entry in self._library.ready}
+        return {entry.key: entry for entry in self.library.ready}
 
     def nouns(self) -> Sequence[Known]:
         """Every object that is ready."""
@@ -58,7 +58,7 @@ class LibrarySource:
             AssetError: the index is damaged.
         """
         entry = self._entry(noun)
-        asset = scaled(self._library.asset(entry.key), variant.scale)
+        asset = scaled(self.library.asset(entry.key), variant.scale)
         record = dict(asset.provenance)
         if variant.scale != 1.0:
             record["scale_asked"] = variant.scale
@@ -80,7 +80,7 @@ class LibrarySource:
         key = noun.split("/", 1)[-1]
         if key in self._entries:
             return self._entries[key]
-        known = next((one for one in self._library.entries if one.key == key), None)
+        known = next((one for one in self.library.entries if one.key == key), None)
         if known is not None:
             raise PromptError(f'"{noun}" is {known.state}: {known.reason}')
         near = difflib.get_close_matches(key, list(self._entries), n=3, cutoff=0.4)

@@ -103,18 +103,18 @@ def save_asset(path: Path, asset: Asset) -> None:
         "anchors": asset.anchors,
         "provenance": dict(asset.provenance),
     }
+    arrays: dict[str, Any] = {
+        "vertices": asset.visual.vertices,
+        "faces": asset.visual.faces,
+        "uv": asset.visual.uv,
+        "texture": asset.visual.texture,
+        **{f"map_{name}": image for name, image in asset.visual.maps.items()},
+        "points": np.concatenate([part.vertices for part in asset.parts]),
+        "counts": np.array([len(part.vertices) for part in asset.parts]),
+        "facts": np.array(json.dumps(facts)),
+    }
     with replaced_file(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(
-            file,
-            vertices=asset.visual.vertices,
-            faces=asset.visual.faces,
-            uv=asset.visual.uv,
-            texture=asset.visual.texture,
-            **{f"map_{name}": image for name, image in asset.visual.maps.items()},
-            points=np.concatenate([part.vertices for part in asset.parts]),
-            counts=np.array([len(part.vertices) for part in asset.parts]),
-            facts=np.array(json.dumps(facts)),
-        )
+        np.savez_compressed(file, **arrays)
 
 
 def load_asset(path: Path) -> Asset:

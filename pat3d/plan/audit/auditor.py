@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.text import Claim, Find, Mention, Said, read, singulars
-from pat3d.plan.audit.words import DEEDS, SILENT, Place
+from pat3d.plan.audit.words import ARTICLES, DEEDS, ON_DISHES, PACKETS, POURED, REACHING, REPEATS, SILENT, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -39,30 +39,37 @@ _DOORS = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave",
 """What things are in when they are in it: to be on it is something else."""
 _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
 """Notes that say how a thing is made, not that it is missing."""
-_REPEATS = frozenset({"each", "every", "either", "per", "pair", "pairs", "both", "row", "rows", "stack", "stacks",
-                      "more", "others", "other", "another", "one", "ones", "rest", "half", "most", "x", "times", "pile",
-                      "heap", "piles", "rainbow"})  # fmt: skip
-"""Words by which there are more of a thing than its name's number says."""
+_OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
+"""Notes on a word of a phrase, which say nothing of the rest of it."""
 
 
-def audited(plan: ScenePlan, find: Find) -> ScenePlan:
+def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> ScenePlan:
     """`plan` with a note on everything that its prompt says on its face and the plan does not have.
 
     Args:
         plan: to be compared with its own prompt.
         find: the catalogue noun that a name means, or None.
+        furniture: nouns of what stands on the floor by nature, of which nobody says where it is.
     """
-    auditor = _Auditor(plan, read(plan.prompt, find))
+    auditor = _Auditor(plan, read(plan.prompt, find), furniture)
     return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *auditor.differences()))))
 
 
+def _covered(note: str) -> str:
+    """What `note` says is missing or otherwise."""
+    found = _OF.match(note)
+    return note if found is None else next(part for part in found.groups() if part)
+
+
 class _Auditor:
-    def __init__(self, plan: ScenePlan, said: Said) -> None:
+    def __init__(self, plan: ScenePlan, said: Said, furniture: Collection[str]) -> None:
+        self._furniture = frozenset(furniture)
         self._plan = plan
         self._said = said
-        told = [note for note in plan.notes if not _ASSUMED.search(note)]
-        self._told = " ".join((*(note for note in told if "no task does" not in note), *plan.set_aside)).lower()
-        self._undone = " ".join(note for note in told if "no task does" in note).lower()
+        told = [note for note in plan.notes if not _ASSUMED.search(note) and "no task does" not in note]
+        self._told = " ".join((*map(_covered, told), *plan.set_aside)).lower()
+        self._quoted = " ".join((*plan.notes, *plan.set_aside)).lower()
+        self._undone = " ".join(note for note in plan.notes if "no task does" in note).lower()
         self._tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
         self._edges: set[tuple[str, str, str]] = set()
         for rel in plan.relations:
@@ -93,6 +100,7 @@ class _Auditor:
             if not any(self._has(obj, word) for obj in self._plan.objects) and not self._named(word):
                 made.append((self._said.words.index(word), f'not in the scene: "{word}"'))
         made += self._unheard()
+        made += [(0, note) for note in (*self._made_as(), *self._astray())]
         for claim in self._said.claims:
             if (note := self._broken(claim)) is not None:
                 made.append((claim.at, note))
@@ -135,13 +143,52 @@ class _Auditor:
             if not counts or any(self._named(said) for said in (noun, *(mention.text for mention in mentions))):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
-            known = [mention for at, mention in enumerate(mentions)
-                     if mention.new or not at or mention.lead not in {one.lead for one in mentions[:at]}]  # fmt: skip
+            placed = {claim.at for claim in self._said.claims}
+            leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
+            known = [mention for mention, before in zip(mentions, leads, strict=True)
+                     if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
             endless = any(mention.plural and mention.number is None for mention in known)
-            endless = endless or bool(_REPEATS & set(self._said.words))
+            endless = endless or bool(REPEATS & set(self._said.words)) or self._headless()
             most = max(least, sum(mention.number or 1 for mention in known))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
+        return made
+
+    def _astray(self) -> list[str]:
+        """Small things of which nothing says where they are, while others of their sentence are carried."""
+        tables = {obj.name for obj in self._plan.objects if obj.noun in self._furniture or obj.noun == "tray"}
+        carried = {a for a, kind, b in self._edges if kind in ("on", "in") and b in tables}
+        if not carried or self._tasks.strip() or self._undone:
+            return []
+        related = {name for edge in self._edges for name in (edge[0], edge[2])}
+        parts = {mention.part for mention in self._said.mentions for obj in self._of(mention) if obj.name in carried}
+        told = {obj.noun for obj in self._plan.objects if obj.name in related}
+        astray = [obj for obj in self._plan.objects if obj.noun not in told and obj.noun not in self._furniture]
+        astray = [obj for obj in astray if any(
+            mention.part in parts for mention in self._said.mentions if obj in self._of(mention)
+        )]  # fmt: skip
+        return [
+            f'"{phrase}": where is not said; on the ground'
+            for phrase in dict.fromkeys(obj.phrase for obj in astray)
+            if phrase.lower() not in self._told
+        ]
+
+    def _headless(self) -> bool:
+        """Whether a phrase without a noun ("the two") names objects."""
+        return any(obj.phrase and set(obj.phrase.lower().split()) <= ARTICLES for obj in self._plan.objects)
+
+    def _made_as(self) -> list[str]:
+        """Objects that are told of in no word of their phrase, and what is poured or spread and made in its bottle."""
+        made: list[str] = []
+        for obj in self._plan.objects:
+            words = {each for word in re.findall(r"[\w']+", obj.phrase.lower()) for each in (word, *singulars(word))}
+            name = set(re.findall(r"[a-z']+", obj.name.lower()))
+            carriers = carriers_of(obj.name, self._plan.relations)
+            dish = any(other.noun in ON_DISHES for other in self._plan.objects if other.name in carriers)
+            if words - ARTICLES and not words & (name | REPEATS) and obj.phrase.lower() not in self._quoted:
+                made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
+            elif obj.noun in POURED and dish and not words & PACKETS:
+                made.append(f'"{obj.phrase}" is made as what it comes in')
         return made
 
     def _unheard(self) -> list[tuple[int, str]]:
@@ -152,15 +199,14 @@ class _Auditor:
         told = [text for obj in self._plan.objects for text in (obj.phrase.lower(), obj.name, *obj.adjectives)]
         phrases = {word for text in told for word in re.findall(r"[\w'-]+", text)}
         materials = {obj.material for obj in self._plan.objects if obj.material}
-        notes = self._told + self._undone
-        asked = self._plan.task or self._tasks.strip() or self._undone or "is read as the scene" in " ".join(self._plan.notes)
+        asked = self._tasks.strip() or self._undone or "is read as the scene" in self._quoted
         made: list[tuple[int, str]] = []
         for at, word in enumerate(words):
-            if at in named or word in phrases or word in SILENT or not word[0].isalpha() or find_colour(word) or (
-                find_material(word) in materials
-            ):  # fmt: skip
+            if at in named or word in phrases or word in SILENT or not word[0].isalpha():
                 continue
-            if not re.search(rf"\b{re.escape(word)}\b", notes) and not (asked and word in DEEDS):
+            if find_colour(word) or find_material(word) in materials:
+                continue
+            if not re.search(rf"\b{re.escape(word)}\b", self._quoted) and not (asked and word in DEEDS):
                 made.append((at, f'not heard: "{word}"'))
         return made
 
@@ -181,26 +227,25 @@ class _Auditor:
         asked = claim.of is None and (self._tasks.strip() or self._undone)
         if self._named(claim.said) or claim.said in self._undone or asked or any(name in self._tasks for name in of):
             return None
-        here = {name for name, _ in self._here(claim)}
-        if claim.whose is not None and (own := [obj.name for obj in self._of(claim.whose)]):
-            if not self._holds(claim, set(own), of) and self._holds(claim, here, of):
-                return f'"{claim.said}" is not read as said of "{claim.whose.text}"'
-        if not self._holds(claim, here, of):
+        turned = any(each.kind == "upside_down" for each in self._plan.postures)
+        if (turned and claim.place == "above") or not self._holds(claim, self._here(claim), of):
             return f'not as said: "{claim.said}"'
+        whose = {obj.name for obj in self._of(claim.whose)} if claim.whose is not None else set()
+        if claim.whose is not None and whose and not self._holds(claim, whose, of):
+            return f'"{claim.said}" is not read as said of "{claim.whose.text}"'
         return None
 
-    def _here(self, claim: Claim) -> list[tuple[str, int]]:
+    def _here(self, claim: Claim) -> set[str]:
         """The objects that `claim` may be said of: those named with it, and where it is a pronoun's, before it."""
         words = set(self._said.words)
-        reach = bool(words & {"it", "them", "they", "there", "that", "this", "these", "both", "one", "ones", "each",
-                              "former", "latter", "other", "first", "second", "last"})
+        reach = bool(words & REACHING) or ":" in words
         named = {obj.name for mention in self._said.mentions for obj in self._of(mention)}
-        return [(obj.name, 0) for obj in self._plan.objects if obj.name not in named] + [
-            (obj.name, mention.start)
+        return {obj.name for obj in self._plan.objects if obj.name not in named} | {
+            obj.name
             for mention in self._said.mentions
-            if mention is not claim.of and (mention.part == claim.part or reach or ":" in words)
+            if mention is not claim.of and (mention.part == claim.part or reach)
             for obj in self._of(mention)
-        ]
+        }
 
     def _just_before(self, claim: Claim, names: Sequence[str]) -> bool:
         """Whether `names` are what is named right before `claim`, one after the other or by one plural."""
@@ -222,7 +267,6 @@ class _Auditor:
             return any(kind in kinds and {a, b} & here for a, kind, b in self._edges)
         if claim.said.startswith(("on the left", "on the right")):
             kinds |= {"on"}
-        closed = claim.of.noun in _DOORS and claim.place in ("in", "from")
-        if closed and claim.place == "in":
+        if claim.of.noun in _DOORS and claim.place == "in":
             kinds -= {"on"}
         return any(a in here and b in of and kind in kinds for a, kind, b in self._edges)

@@ -12,13 +12,27 @@ from dataclasses import dataclass, field
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.words import (
-    BREAKS, IRREGULAR, LONGEST, NUMBERS, PARTICIPLES, RELATIONS, SHADES, SINGLE, UNITS, UNSURE, Place,
-)  # fmt: skip
+    ADJECTIVES,
+    ARTICLES,
+    BREAKING,
+    IRREGULAR,
+    LEADING,
+    LONGEST,
+    NUMBERS,
+    PARTICIPLES,
+    PRONOUNS,
+    RELATIONS,
+    SHADES,
+    SINGLE,
+    SOME,
+    UNITS,
+    UNSURE,
+    Place,
+)
 
-_WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['\u2019-][^\W_]+)*|[.;!?\n]+|[,:()]")
+_WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
-_SOME = frozenset({"few", "couple", "pair", "several", "many", "number", "lot", "dozen", "set"})
 
 Find = Callable[[str], str | None]
 """The noun of the catalogue that a name means, or None."""
@@ -131,29 +145,28 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     return made
 
 
-def _mention(words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]) -> Mention:
+def _mention(
+    words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]
+) -> Mention:
     ahead = _before(words, start, taken)
     colours = tuple(colour for at in ahead if (colour := find_colour(words[at])) and words[at - 1] not in SHADES)
-    first = words[ahead[-1] if ahead else start]
-    measured = {at for at in ahead if words[at + 1] == "m" or words[at + 1].startswith(UNITS)}
-    lead = [words[at] for at in ahead if at not in measured] or [first]
+    lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
-    if _elliptic(words, ahead):
+    if _elliptic(words, ahead) or SOME & lead:
         number, plural = None, True
-    if _SOME & set(lead):
-        number, plural = None, True
-    new = number is not None and not {"the", "these", "those", "both", "all", "other"} & set(lead)
-    return Mention(start=start, end=end, text=" ".join(words[start:end]), noun=noun, plural=plural,
-                   number=number, new=new,
-                   lead=frozenset(lead) - BREAKS.articles - {first} | ({first} - BREAKS.articles if ahead else set()), owned=bool({"its", "their"} & set(lead)), colours=colours, part=part)  # fmt: skip
+    return Mention(
+        start=start, end=end, text=" ".join(words[start:end]), noun=noun, plural=plural, number=number,
+        new=number is not None and not {"the", "these", "those", "both", "all", "other"} & lead,
+        lead=frozenset(lead - ARTICLES), owned=bool({"its", "their"} & lead), colours=colours, part=part,
+    )  # fmt: skip
 
 
 def _elliptic(words: Sequence[str], ahead: Sequence[int]) -> bool:
     """Whether the noun is said of more than the words before it: "a red and a blue cup"."""
     at = ahead[-1] - 1 if ahead else -1
     return at > 0 and words[at] in ("and", ",") and (
-        find_colour(words[at - 1]) is not None or words[at - 1] in BREAKS.adjectives
+        find_colour(words[at - 1]) is not None or words[at - 1] in ADJECTIVES
     )  # fmt: skip
 
 
@@ -161,12 +174,13 @@ def _before(words: Sequence[str], start: int, taken: set[int]) -> list[int]:
     """The words that lead to the name at `start`, nearest first, up to its article or number."""
     made: list[int] = []
     at = start - 1
-    while at >= 0 and at not in taken | ({at} if _breaks(words, at) else set()):
+    while at >= 0 and at not in taken and not _breaks(words, at):
         made.append(at)
-        if words[at] in BREAKS.articles:
+        if words[at] in ARTICLES:
             break
         at -= 1
-    if at in taken and words[at] and find_colour(words[at]):
+    if at in taken and find_colour(words[at]):
+        # An orange plate.
         made.append(at)
     while made and (words[made[-1]] in (",", "and")):
         made.pop()
@@ -178,8 +192,8 @@ def _breaks(words: Sequence[str], at: int) -> bool:
     if word in (",", "and"):
         # "a red and white mug", "a small, red mug"
         sides = words[max(0, at - 1)], words[at + 1] if at + 1 < len(words) else ""
-        return not all(find_colour(side) or find_material(side) or side in BREAKS.adjectives for side in sides)
-    return word in BREAKS.words or not word[0].isalnum()
+        return not all(find_colour(side) or find_material(side) or side in ADJECTIVES for side in sides)
+    return word in BREAKING or not word[0].isalnum()
 
 
 def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
@@ -203,7 +217,7 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             while of not in said.mentions:
                 of = starts[of.end]
             end = of.end
-        pronoun = of is None and at + size < len(words) and words[at + size] in BREAKS.pronouns
+        pronoun = of is None and at + size < len(words) and words[at + size] in PRONOUNS
         if of is not None or pronoun:
             text = " ".join(words[at : end if of is not None else at + size + 1])
             made.append(Claim(place=place, said=text, at=at, of=of, part=parts[at], whose=_whose(said, at)))
@@ -216,7 +230,7 @@ def _whose(said: Said, at: int) -> Mention | None:
     words, back = said.words, at - 1
     if words[at] in PARTICIPLES:
         return next((mention for mention in said.mentions if mention.end == at), None)
-    while back > 0 and words[back] in BREAKS.links:
+    while back > 0 and words[back] in LEADING:
         back -= 1
     if back < 1 or words[back] not in ("which", "that"):
         return None

@@ -1,4 +1,4 @@
-"""The words that an audit knows: numbers, relation words, and what ends a noun phrase."""
+"""The words that an audit knows: numbers, relation words, what ends a noun phrase, what says nothing by itself."""
 
 from __future__ import annotations
 
@@ -14,35 +14,69 @@ NUMBERS = {
     "a": 1, "an": 1, "one": 1, "another": 1, "single": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6,
     "seven": 7, "eight": 8, "nine": 9, "ten": 10, "eleven": 11, "twelve": 12, "dozen": 12, "both": 2,
 }  # fmt: skip
+SOME = frozenset({"few", "couple", "pair", "several", "many", "number", "lot", "dozen", "set"})
+"""Words with which "a" counts nothing."""
 IRREGULAR = {
     "mice": "mouse", "knives": "knife", "loaves": "loaf", "shelves": "shelf", "dice": "die", "geese": "goose",
     "cacti": "cactus", "leaves": "leaf", "scarves": "scarf", "bookshelves": "bookshelf",
 }  # fmt: skip
 SINGLE = frozenset({"flowers", "grapes", "fries", "noodles", "playing cards"})
 """Names that are plural and mean one object."""
-PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "filled", "full", "topped"})
-"""Words of holding that are said of what stands right before them."""
-UNITS = ("cm", "mm", "centimet", "millimet", "meter", "metre", "inch", "foot", "feet", "ml", "lit", "kg", "gram", "degree")
+UNITS = ("cm", "mm", "centimet", "millimet", "meter", "metre", "inch", "foot", "feet", "ml", "lit", "kg", "gram",
+         "degree")  # fmt: skip
 """Beginnings of words after a number that counts nothing."""
 UNSURE = frozenset({
     "can", "level", "present", "display", "light", "watch", "wrap", "stick", "plane", "line", "stack", "rest", "square",
     "match", "set", "left", "bunch", "pair", "print", "iron", "folder", "weight", "object", "cross", "ring", "token",
-    "throw", "scale", "stand", "paper", "file", "clip", "slip", "present", "letter", "bolt", "sign", "wheel", "robot",
+    "throw", "scale", "stand", "paper", "file", "clip", "slip", "letter", "bolt", "sign", "wheel", "robot",
 })  # fmt: skip
 """Names that are other words as often, or parts of a thing."""
 SHADES = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "warm", "cool", "rich", "muted"})
+ADJECTIVES = frozenset({
+    "small", "large", "big", "little", "tiny", "huge", "round", "square", "tall", "short", "long", "wide", "thin",
+    "thick", "old", "new", "empty", "clear", "flat", "wooden", "shiny",
+})  # fmt: skip
+"""Words between which "and" and a comma join no objects."""
+ARTICLES = frozenset({
+    "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "some", "any", "all", "both",
+    "its", "their", "my", "your", "his", "her", "our", "no", *NUMBERS,
+})  # fmt: skip
+PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him", "her", "this"})
+REACHING = PRONOUNS | {"they", "there", "these", "ones", "former", "latter", "other", "first", "second", "last"}
+"""Words that speak of what another sentence has named."""
+REPEATS = frozenset({
+    "each", "every", "either", "per", "pair", "pairs", "both", "row", "rows", "stack", "stacks", "more", "others",
+    "other", "another", "one", "ones", "rest", "half", "most", "x", "times", "pile", "heap", "piles", "rainbow",
+})  # fmt: skip
+"""Words by which there are more of a thing than its name's number says."""
+LEADING = frozenset({
+    "is", "are", "was", "were", "in", "turn", "sits", "sit", "stands", "stand", "lies", "lie", "rests", "rest",
+    "sitting", "standing", "lying", "resting", "placed", "itself", "also", "has", "have",
+})  # fmt: skip
+"""Words between a relative pronoun and the relation word."""
+PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "filled", "full", "topped"})
+"""Words of holding that are said of what stands right before them."""
+
+POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce", "honey", "syrup", "vinegar",
+                    "milk", "olive oil", "tomato sauce", "peanut butter", "salad dressing", "sugar box",
+                    "salt shaker"})  # fmt: skip
+ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
+                       "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
+"""What of something poured is meant to be on, or in."""
+PACKETS = frozenset({"bottle", "jar", "can", "box", "carton", "packet", "tube", "shaker", "container", "jug"})
 
 
 def _relations() -> dict[tuple[str, ...], Place]:
+    sides = [f"{word} the {side}{tail}" for word in ("to", "on", "at") for side in ("{}",) for tail in ("", " side")]
+    left, right = ([f"{side.format(name)} of" for side in sides] for name in ("left", "right"))
     table: dict[Place, tuple[str, ...]] = {
         "on": ("on", "onto", "upon"),
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
         "in": ("in", "inside", "within", "into", "inside of"),
-        "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by", "close to", "alongside", "adjacent to", "against", "along"),
-        "left": ("left of", "to the left of", "on the left of", "at the left of", "to the left side of",
-                 "on the left side of", "at the left side of"),
-        "right": ("right of", "to the right of", "on the right of", "at the right of", "to the right side of",
-                  "on the right side of", "at the right side of"),
+        "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by",
+                   "close to", "alongside", "adjacent to", "against", "along"),
+        "left": ("left of", *left),
+        "right": ("right of", *right),
         "front": ("in front of", "before", "to the front of"),
         "behind": ("behind", "in back of"),
         "under": ("under", "beneath", "below", "underneath"),
@@ -57,63 +91,53 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
         "side": ("on the left", "on the right", "to the left", "to the right", "to its left", "to its right",
-                 "on its left", "on its right", "from left to right", "on one side", "on the other side", "on the other", "in the middle",
-                 "in a row", "on top", "in front", "on either side", "on both sides", "hand over", "hands over",
-                 "on top of each other", "next to each other", "beside each other", "on each other"),
+                 "on its left", "on its right", "from left to right", "on one side", "on the other side",
+                 "on the other", "in the middle", "in a row", "on top", "in front", "on either side", "on both sides",
+                 "hand over", "hands over", "on top of each other", "next to each other", "beside each other",
+                 "on each other"),
     }  # fmt: skip
     return {tuple(words.split()): place for place, phrases in table.items() for words in phrases}
 
 
 RELATIONS = _relations()
 LONGEST = max(map(len, RELATIONS))
-
-
-class BREAKS:
-    """What ends a noun phrase to the left of its noun, and what may stand between it and a relation word."""
-
-    articles = frozenset({
-        "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "some", "any", "all", "both",
-        "its", "their", "my", "your", "his", "her", "our", "no", *NUMBERS,
-    })  # fmt: skip
-    pronouns = frozenset({"it", "them", "which", "each", "one", "that", "both", "him", "her", "this"})
-    links = frozenset({
-        "is", "are", "was", "were", "in", "turn", "sits", "sit", "stands", "stand", "lies", "lie", "rests", "rest",
-        "sitting", "standing", "lying", "resting", "placed", "itself", "also", "itself", "has", "have",
-    })  # fmt: skip
-    words = (
-        links | pronouns | frozenset(word for phrase in RELATIONS for word in phrase)
-    ) - articles - {"left", "right", "front", "top", "full", "side", "row", "middle", "other"} | frozenset({
+_WITHIN = frozenset({"left", "right", "front", "top", "full", "side", "row", "middle", "other"}) | ARTICLES
+"""Words of relation phrases that stand in noun phrases too."""
+BREAKING = (
+    LEADING | PRONOUNS | frozenset(word for phrase in RELATIONS for word in phrase) | {
         "and", "or", "but", "then", "while", "to", "at", "as", "than", "there", "here", "be", "been", "being",
         "hangs", "hang", "leans", "lean", "put", "place", "move", "take", "pick", "bring", "stack", "where", "who",
         "whose", "what", "when", "not", "without", "except", "like", "including", "of", "'s",
-    })  # fmt: skip
-    adjectives = frozenset({
-        "small", "large", "big", "little", "tiny", "huge", "round", "square", "tall", "short", "long", "wide", "thin",
-        "thick", "old", "new", "empty", "clear", "flat", "wooden", "shiny",
-    })  # fmt: skip
-
+    }
+) - _WITHIN  # fmt: skip
+"""Words that end a noun phrase to the left of its noun."""
 
 _BUILDING = """
-a an the this that these those its their my your his her our some any all both each every either other another own same
-it them they which who one ones and or but then while so as also too plus here there where is are was were be been
+a an the that this these those its their it them they his her my your our some any all both each every either other
+another own same which who one ones and or but then while so as also too plus here there where is are was were be been
 being has have had do does of to at by in on with for from into onto up down out off over next side sides row rows line
-stack pile top middle center centre edge corner end left right front back first second third last
-nothing showing complete featuring including objects items things everything others exactly about well together
-somewhere what shown seen should must need i'd give following features color immediate amidst belongs goes go
-upside upright head facing faces face turned turn vertically wearing directly opposite former latter decorated bearing
-fruit fruits toys tools vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom upper topmost leftmost rightmost lower pieces piece
-very quite just only really please can could you i me we us would like want see imagine show create make
+stack pile top middle center centre edge corner end left right front back first second third last nothing showing
+complete featuring including objects items things everything others exactly about well together somewhere what shown
+seen should must need i'd give following features color immediate amidst belongs goes go upside upright head facing
+faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
+vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
+upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
+like want see imagine show create make
 """
 _POSTURES = """
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
-stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
+stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced
+stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
-DEEDS = frozenset("""
+_DEEDS = """
 unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
-put place pick take move grab grasp lift bring stack transfer fetch drop insert push slide carry return get hold use
-using arm arms hand robot robotic gripper away back close
-""".split())
-"""Words of a task."""
-SILENT = frozenset((*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS))
+put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
+robot robotic gripper away back close
+"""
+SILENT = frozenset(
+    (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)
+)
 """Words that build a sentence, and words for places, which are compared with the plan as claims."""
+DEEDS = frozenset(_DEEDS.split())
+"""Words of a task."""

@@ -270,7 +270,7 @@ class Cutter(Asides):
         if follower == "of" or self._nouns.match([word]) or self._names(word, follower):
             return False
         if self._opens and word in lexicon.COMMANDS:
-            return True
+            return word not in lexicon.DEMONSTRATIVES or follower != "one"
         after_phrase = self._last is not None and self._last.kind not in ("joint", "rel", "have")
         moving = bool(
             link_at(self._tokens, self._at + 1)

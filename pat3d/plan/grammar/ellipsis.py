@@ -17,7 +17,19 @@ _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(chunks))), nouns)))
+    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(_full(chunks)))), nouns)))
+
+
+def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "one bowl is full of figs and another of nuts" as "..., and another is full of nuts"."""
+    made = list(chunks)
+    for at in range(1, len(chunks) - 1):
+        phrase, filled = chunks[at].phrase, next((one for one in chunks[:at] if one.link and one.link.filling), None)
+        other = phrase is not None and phrase.head in ("another", "other")
+        if filled is not None and other and chunks[at + 1].text == "of":
+            verb = Chunk(kind="verb", text="is", words=("is",))
+            made = [*chunks[: at + 1], verb, filled, *chunks[at + 2 :]]
+    return made
 
 
 def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -31,17 +43,19 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
         if piece.kind == "place" and piece.text in _SIDES and made and _the_one(made[-1].phrase):
             # "the one in the middle" is the middle one.
             told = replace(made[-1].phrase, modifiers=Modifiers(adjectives=(_SIDES[piece.text],)))  # type: ignore[type-var]
-            made[-1] = replace(made[-1], phrase=told)
-            continue
-        made.append(piece)
+            made[-1], phrase = replace(made[-1], phrase=told), told
+        else:
+            made.append(piece)
         gap = phrase is not None and follower is not None and phrase.kind == "pieces" and follower.kind == "object"
-        if not gap or not follower.determined:  # type: ignore[union-attr]
+        if not gap or not (follower.determined or follower.plural):  # type: ignore[union-attr]
             continue
-        for before in range(at - 2, -1, -1):
-            link, told = chunks[before + 1], chunks[before].phrase
-            if told is not None and told.kind == "pieces" and link.kind in ("have", "rel"):
-                made.append(link)
-                break
+        links = [(chunks[n].phrase, chunks[n + 1]) for n in range(at - 2, -1, -1)]
+        told = (
+            link for one, link in links if one is not None and one.kind == "pieces" and link.kind in ("have", "rel")
+        )
+        verbs = (link for _, link in links if link.link is not None and link.link.finite)
+        if (link := next(told, None) or next(verbs, None)) is not None:
+            made.append(link)
     return made
 
 

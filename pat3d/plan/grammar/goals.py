@@ -19,7 +19,12 @@ class Goals(Having):
         """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
         if modifier.mod[0] != "link":  # type: ignore[index]
             return None
-        extra = ("extra", modifier.mod[1], modifier.heads)  # type: ignore[index]
+        at = modifier.mod[1]  # type: ignore[index]
+        if self._link(at).manner == "source":
+            # "the cups in the bin from the table": where they are before.
+            said = ("rel", at, goal.heads, modifier.heads)
+            return replace(goal, cost=goal.cost + modifier.cost + 0.1, facts=(*goal.facts, *modifier.facts, said))
+        extra = ("extra", at, modifier.heads)
         return replace(goal, cost=goal.cost + modifier.cost + 0.6, facts=(*goal.facts, *modifier.facts, extra))
 
     def _goal(self, named: Node, modifier: Node) -> Node | None:
@@ -39,6 +44,10 @@ class Goals(Having):
         cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
         cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
             "modified" in named.flags and self._is_pronoun(named.heads)
+        )
+        # What an object "with" another is moved to stands behind both.
+        cost += 0.2 * (link.manner == "with") + 0.6 * any(
+            fact[0] == "rel" and self._link(fact[1]).manner == "source" for fact in modifier.facts
         )
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)

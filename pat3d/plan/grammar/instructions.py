@@ -228,6 +228,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         edges = [(item, world.supports.get(item)) for item in step.items[:1]]
         # "unload the cups from the crate" is about the crate.
         holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
+        likely = world.likely
+        holders = [item for item in holders if likely.hollow(world.noun(item)) or likely.closet(world.noun(item))]
         return [f"unload:{names[item]}" for item in holders if item in names]
     if step.manner == "sort":
         return ["sort"] if len(step.goal) > 1 else []

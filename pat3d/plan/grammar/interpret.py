@@ -15,7 +15,6 @@ from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
-from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Step, World
@@ -55,8 +54,10 @@ class Interpreter(Placing):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
-        self._said.related = [(set(fact[2]), set(fact[3])) for fact in facts
-                               if fact[0] in ("rel", "have", "list", "goal")]  # fmt: skip
+        self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
+        self._said.related = [
+            (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
+        ]
         self._chunks = self._said.with_parts(facts)
         self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
         for at, chunk in enumerate(self._chunks):
@@ -191,19 +192,23 @@ class Interpreter(Placing):
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
         link = self._chunks[at].relation
-        before = self._world.subject
-        parents = self._said.refs_of(parent_heads, link, child_heads)
+        before, parents = self._world.subject, self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         if not parent_heads:
             parents = [item for item in before if item not in children]
         phrases = [self._chunks[head].phrase for head in child_heads]
-        made_up = self._clause.manner in ("make", "stack") and all(
-            phrase is not None
-            and phrase.determined
-            and not phrase.definite
-            and phrase.kind in ("object", "unknown")
-            and not phrase.superlative.size_word
-            for phrase in phrases
+        taken = any(chunk.link is not None and chunk.link.manner == "source" for chunk in self._chunks)
+        made_up = (
+            self._clause.manner in ("make", "stack")
+            and not taken
+            and all(
+                phrase is not None
+                and phrase.determined
+                and not phrase.definite
+                and phrase.kind in ("object", "unknown")
+                and not phrase.superlative.size_word
+                for phrase in phrases
+            )
         )
         if made_up:
             if self._clause.manner == "stack" and len(children) > 1:
@@ -303,7 +308,9 @@ class Interpreter(Placing):
         one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
         if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
-        elif several and len(children) < len(parents) and not set(children) & set(parents):
+        elif self._said.for_each(parent_heads, children, parents) or (
+            several and len(children) < len(parents) and not set(children) & set(parents)
+        ):
             children = multiply(self._world, children, len(parents))
         if link.kind == "on" and phrase is not None and self._lies_on(phrase, children, parents):
             return
@@ -341,8 +348,7 @@ class Interpreter(Placing):
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
-        link = self._chunks[at].relation
-        self._have(link, owner_heads, child_heads)
+        self._have(self._chunks[at].relation, owner_heads, child_heads)
 
     def _listed(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         self._have(Link(manner="with"), owner_heads, child_heads)
@@ -350,7 +356,12 @@ class Interpreter(Placing):
     def _have(self, link: Link, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         world = self._world
         owners = self._said.refs_of(owner_heads)
-        each = self._said.speaks_of_each(owner_heads, carrying=True)
+        if len(owners) == 1 and owners[0].group.multiplied and owners[0].group.phrase.determined:
+            # "A nightstand on either side of the bed holds a lamp": each of the two does.
+            owners = list(owners[0].group.items)
+        each = self._said.speaks_of_each(owner_heads, carrying=True) or len(owners) > len(
+            self._said.refs_of(owner_heads)
+        )
         ordered = [(head, self._chunks[head].phrase) for head in child_heads]
         things = [head for head, phrase in ordered if phrase and phrase.kind not in ("part", "pieces", "background")]
         for head, phrase in ordered:
@@ -361,9 +372,7 @@ class Interpreter(Placing):
                 continue
             elif phrase is not None and phrase.kind == "pieces" and link.manner not in ("include", "with") and owners:
                 things.append(head)
-        if not owners or link.manner == "include":
-            return
-        children = self._said.refs_of(sorted(things))
+        children = self._said.refs_of(sorted(things)) if owners and link.manner != "include" else []
         if not children:
             return
         if link.manner == "flank":
@@ -385,13 +394,3 @@ class Interpreter(Placing):
             items = [item for item in self._said.ref(head) if item not in owners]
             if items:
                 self._relating.hold(link, owners, items)
-
-    def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
-        for group in dict.fromkeys(item.group for item in owners):
-            words = phrase.modifiers
-            if words.colours or words.palette or words.material:
-                describe(group, words, part=phrase.said)
-            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
-                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
-        if not owners and phrase.words not in self._world.aside:
-            self._world.aside.append(phrase.words)

@@ -98,8 +98,8 @@ def _refuse_negations(tokens: Sequence[Token]) -> None:
             )
         if (token.text, follower) in _EXCEPTIONS or token.text in ("except", "excluding"):
             raise PromptError(
-                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say what is there, and how many '
-                'in numbers: "four of the five apples are in the basket".'
+                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say what is '
+                'there, and how many in numbers: "four of the five apples are in the basket".'
             )
         if token.text in ("every", "each") and follower in _ALTERNATE:
             raise PromptError(

@@ -68,6 +68,10 @@ class Phrase:
     """Content that is no rigid body ("tea")."""
 
 
+_STUFF = (["straw"], ["stone"], ["cloth"], ["cork"], ["rope"], ["foam"])
+"""What "a ..." is a thing of its own, and before a noun a material."""
+
+
 class PhraseReader:
     """Reads noun phrases from the tokens of one prompt."""
 
@@ -109,7 +113,7 @@ class PhraseReader:
                 single = flags.get("one", False) and not flags.get("each", False)
                 count = None if flags.get("each", False) else count
                 phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
-                if single and (phrase.count or 1) > 1:
+                if single and ((phrase.count or 1) > 1 or (phrase.plural and phrase.definite)):
                     phrase, count = replace(phrase, one_of=True), phrase.count
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined
@@ -261,7 +265,8 @@ class PhraseReader:
             return replace(base, kind="background", substance=head)
         if any(word in lexicon.PARTS for word in singular):
             return replace(base, kind="part", said=singular[-1])
-        if all(is_modifier(word) for word in words):
+        stuff = words in _STUFF and count is None and not self._definite
+        if all(is_modifier(word) for word in words) and not stuff:
             return replace(base, kind="pieces", modifiers=read_modifiers(words))
         return base
 

@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import read_modifiers
-from pat3d.plan.grammar.objects import Maker, multiply, recount
+from pat3d.plan.grammar.objects import Maker, describe, multiply, recount
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
@@ -117,7 +117,8 @@ class Placing:
         if world.is_a(meant[0], tuple(lexicon.OPENED)) or within(meant[0]) < _HARDLY_IN:
             return meant
         fit = [item for item in world.items() if item is not child and (
-            world.is_a(item, tuple(lexicon.OPENED)) or world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN
+            world.is_a(item, tuple(lexicon.OPENED))
+            or (world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN)
         )]  # fmt: skip
         return fit[-1:] or meant
 
@@ -229,3 +230,13 @@ class Placing:
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
                 self._world.place(upper.items, "on", lower.items)
+
+    def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
+        for group in dict.fromkeys(item.group for item in owners):
+            words = phrase.modifiers
+            if words.colours or words.palette or words.material:
+                describe(group, words, part=phrase.said)
+            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
+                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
+        if not owners and phrase.words not in self._world.aside:
+            self._world.aside.append(phrase.words)

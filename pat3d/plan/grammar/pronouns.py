@@ -13,7 +13,6 @@ from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
 
-
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
 
@@ -41,6 +40,8 @@ class Pronouns:
         """What the clauses are about, by where they begin."""
         self.fronts: set[int] = set()
         """Phrases of the modifier that a clause opens with: "behind it there is"."""
+        self.goals: set[int] = set()
+        """Relation words that say where something is to go."""
         self.related: list[tuple[set[int], set[int]]] = []
         """Phrases that a relation joins, so that they are different objects."""
 
@@ -59,6 +60,23 @@ class Pronouns:
     def ref_all(self, heads: Sequence[int]) -> list[Item]:
         """What the chunks `heads` speak of together."""
         return [item for head in heads for item in self.ref(head) if item in item.group.items]
+
+    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
+        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
+        told = self.each | self.all if carrying else self.each
+        return any(inner in told for head in heads for inner in self._meant(head))
+
+    def for_each(self, heads: Sequence[int], children: Sequence[Item], parents: Sequence[Item]) -> bool:
+        """Whether there are as many of `children` at each of `parents`: "three forks left of each plate"."""
+        fresh = all(not (item.group.phrase.definite or item.group.multiplied) for item in children)
+        whole = all(set(item.group.items) <= set(children) for item in children)
+        return self.speaks_of_each(heads) and fresh and whole and len(parents) > 1 < len(children)
+
+    def _meant(self, head: int) -> tuple[int, ...]:
+        """What the grammar says that `head` means, itself where it says nothing."""
+        return (
+            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
+        )
 
     def _pronoun(self, at: int, link: Link | None, other: Sequence[Item], *, child: bool) -> list[Item]:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
@@ -91,6 +109,8 @@ class Pronouns:
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
+        if plural and len(nearest) > 1:
+            candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))
         for rank, items in enumerate(nearest[:4]):
             candidates.append((-0.5 + 0.3 * rank if which else (-0.2 if near else 0.35) + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
@@ -26,7 +26,7 @@ def _told_apart(group: Group) -> bool:
     return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
 
 
-class References(Pronouns):
+class References(Contrast):
     """Resolves the phrases of one sentence."""
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
@@ -39,7 +39,7 @@ class References(Pronouns):
                 # "Tools: a hammer and a saw": the two are the tools.
                 return
             if (found := self._refer(at, phrase)) is not None:
-                self.known[at] = found
+                self.known[at] = self._the_one(found, phrase)
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
                 return
@@ -97,11 +97,12 @@ class References(Pronouns):
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
-                if self._told_by_noun(phrase, group.phrase):
+                if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
                     continue
                 if same(group, phrase) and (found := self._chosen(group, phrase)):
                     return found
-        alike = [item for group in world.groups if same_noun(group, phrase) and group not in besides and not group.replaced
+        groups = [group for group in world.groups if group not in besides and not group.replaced]
+        alike = [item for group in groups if same_noun(group, phrase)
                  for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
         if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
             # "Both burners" of which one was named after the other.
@@ -115,11 +116,6 @@ class References(Pronouns):
             ]
             return storage[-1:] or None
         return None
-
-    def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
-        """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
-        ours, theirs = ({word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other))
-        return bool(ours and theirs) and not ours & theirs
 
     def _note_adjectives(self, phrase: Phrase) -> None:
         """Name what describes `phrase` and makes no difference to it; "top" tells which one."""
@@ -180,7 +176,13 @@ class References(Pronouns):
         words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
-        if phrase.words.lower() in ("the one", "that one") and (subject := self._subject_before(at)):
+        if phrase.words.lower() == "that one":
+            single = [
+                items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
+            ]
+            return single[0] if single else []
+        counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
+        if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
             return self._one_like(subject, phrase)
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
@@ -213,6 +215,8 @@ class References(Pronouns):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
+        if (like := self._partner(at, phrase)) is not None:
+            return self._one_like(like, phrase)
         if words.colours or words.palette or words.size_word:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:
@@ -251,19 +255,6 @@ class References(Pronouns):
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
-    def _subject_before(self, at: int) -> list[Item]:
-        """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""
-        told = [head for one, _ in self.related for head in sorted(one)]
-        phrases = [self._chunks[head].phrase for head in told if head < at]
-        if at not in told or not phrases or phrases[0] is None or self._plural_before(at):
-            return []
-        items = self.ref(min(head for head in told if head < at))
-        return items if phrases[0].kind == "object" and len(items) == 1 == len(items[0].group.items) else []
-
-    def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
-        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False)
-        return list(self._maker.make(self._world, like).items)
-
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
@@ -273,6 +264,10 @@ class References(Pronouns):
                 if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
                     return [item]
             groups = [group for group in groups if len(group.items) > 1]
+            apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
+            if apart and len(apart) == len(groups):
+                # "The two smaller bowls inside the big one": another bowl.
+                return self._one_like(apart[0].items, phrase)
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
@@ -351,17 +346,6 @@ class References(Pronouns):
                 self.known[head] = self._pronoun(head, link, others, child=child)
             made += [item for item in self.ref(head) if item not in made]
         return [item for item in made if not item.group.replaced]
-
-    def _meant(self, head: int) -> tuple[int, ...]:
-        """What the grammar says that `head` means, itself where it says nothing."""
-        return (
-            tuple(inner for each in self.bound[head] for inner in self._meant(each)) if head in self.bound else (head,)
-        )
-
-    def speaks_of_each(self, heads: Sequence[int], *, carrying: bool = False) -> bool:
-        """Whether one of `heads` speaks of every one of a group; "both" does where they carry ("both with a lid")."""
-        told = self.each | self.all if carrying else self.each
-        return any(inner in told for head in heads for inner in self._meant(head))
 
     def is_open(self, at: int) -> bool:
         """Whether chunk `at` is a pronoun of which it is still to be found what it means."""

@@ -105,7 +105,7 @@ class Relating:
             and not world.is_a(owner, lexicon.HOLLOW)
         ):
             world.place(children, "on", owners, weak=True)
-        elif weak and world.on_floor(children[0]):
+        elif weak and world.on_floor(children[0]) and not world.is_a(children[0], lexicon.SEATS[-4:]):
             around = len(children) >= 3 and world.is_a(children[0], ("chair", "stool", "armchair"))
             world.beside(children, "around" if around else "next_to", owners, weak=True)
         elif (
@@ -181,6 +181,9 @@ class Relating:
         """`children` stand on both sides of `parents`."""
         world = self.world
         group = children[0].group
+        if world.is_a(parents[0], lexicon.LEVEL) and not world.on_floor(children[0]):
+            # "A tray with a teapot and a cup on either side of it"
+            world.note(f'"{group.words}": both sides are read as those of "{parents[0].group.words}".')
         if len(children) > 2 and not group.counted:
             recount(world, group, 2)
             children = list(group.items)
@@ -222,7 +225,7 @@ class Relating:
     def _on_half(self, children: list[Item], side: str, parents: list[Item]) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         world, parent = self.world, parents[0]
-        level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS)
+        level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         if side == "centre" or (level and not world.on_floor(children[0])):
             kind = world.containment(parent)

@@ -35,6 +35,7 @@ class RelationWords(Cursor):
             verb = self._word(size) in lexicon.VERBS | lexicon.COPULAS
             whole = (
                 key[-1] == "side"
+                or (self._last is not None and self._last.text.lower() in ("the one", "the ones"))
                 or verb
                 or self._tokens[self._at + size].mark
                 or not self._bounds.goes_on(self._at + size)

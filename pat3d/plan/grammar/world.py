@@ -208,6 +208,14 @@ class World:
         )
         return small and self.is_table(child) and self.on_floor(child)
 
+    def _has_inside(self, item: Item) -> bool:
+        noun = self.noun(item)
+        return (
+            self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED), lexicon.HOLDERS)
+            or self.likely.closet(noun)
+            or self.likely.level(noun)
+        )
+
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
         return "in" if self.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) else "on"
@@ -289,6 +297,7 @@ class World:
             if not weak and carries and free and parent is not below:
                 # "A lamp on a book" that is "on a table": the book is.
                 self._put(below, kind, parent, False)
+                self.note(f'"{below.group.words}" is {kind} "{parent.group.words}", with what it carries.')
             if weak or parent is below or parent in self.ancestors(child):
                 return
             if below not in self.ancestors(parent):
@@ -299,10 +308,8 @@ class World:
         if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
             self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
         hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
-        closed = self.likely.closet(self.noun(parent)) or self.likely.level(self.noun(parent))
-        if kind == "in" and not weak and not hollow and not closed and not self.is_a(parent, lexicon.HOLLOW):
-            if not self.is_a(parent, tuple(lexicon.OPENED), lexicon.HOLDERS):
-                self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
+        if kind == "in" and not weak and not self._has_inside(parent):
+            self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
         if hollow and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:
             self.note(f'"{child.group.words}" in "{parent.group.words}": it hardly fits there.')
         if not weak:

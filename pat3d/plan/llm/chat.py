@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pat3d.errors import AnswerError, ModelError
 from pat3d.plan.llm.settings import ModelSettings
@@ -25,12 +26,16 @@ if TYPE_CHECKING:
 Message = dict[str, Any]
 """As the protocol has it: {"role": "user", "content": "..."}."""
 
+Found = TypeVar("Found")
+
 FIRST_WAIT, LONGEST_WAIT = 1.0, 60.0
 """Between requests [s]; every wait is twice the one before unless the server says how long."""
 CORRECTIONS = 2
 """Times that an answer which does not validate goes back with the error."""
 MAX_ANSWER = 10**6
 """Characters."""
+TOP = 20
+"""Words whose probabilities are asked for; a word that is not among them counts as impossible."""
 MAX_SHOWN = 500
 """Characters of a fault that go back to the model, or of an error to the user."""
 
@@ -142,18 +147,59 @@ class Chat:
             max_retries=0,
         )
 
+    def probability(self, word: str, messages: Sequence[Message], *, vision: bool = False) -> float:
+        """How likely the model begins its answer with `word`, in lower case or capitals, from 0 to 1.
+
+        Raises:
+            ModelError: the server cannot be reached, refuses, or tells no probabilities.
+        """
+        inputs = [self.settings.base_url, self._model(vision), word, messages]
+        key = hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()
+        if (kept := self._kept(key)) is not None:
+            with suppress(ValueError):
+                self.usage.cached += 1
+                return float(kept)
+        found = self._patiently(vision, lambda: self._weighed(word, messages, vision))
+        with suppress(OSError):
+            write_text(self._cache / f"{key}.json", json.dumps({"answer": repr(found)}))
+        return found
+
+    def _weighed(self, word: str, messages: Sequence[Message], vision: bool) -> float:
+        self.usage.requests += 1
+        done: Any = self._client.chat.completions.create(
+            model=self._model(vision),
+            messages=list(messages),  # type: ignore[arg-type]
+            max_completion_tokens=1,
+            logprobs=True,
+            top_logprobs=TOP,
+        )
+        choice = self._choice(done, vision)
+        content = getattr(getattr(choice, "logprobs", None), "content", None)
+        if not content:
+            raise self._failed(vision, "it tells no probabilities of words (logprobs)")
+        top = content[0].top_logprobs or [content[0]]
+        return min(1.0, sum(math.exp(one.logprob) for one in top if one.token.strip().lower() == word))
+
     def _complete(self, talk: Sequence[Message], shape: Shape, vision: bool) -> str:
         """One answer, as text.
 
         Raises:
             ModelError: there is none.
         """
+        return self._patiently(vision, lambda: self._once(talk, shape, vision))
+
+    def _patiently(self, vision: bool, ask: Callable[[], Found]) -> Found:
+        """What `ask` gives; asked again after a wait where the server is busy or cannot be reached.
+
+        Raises:
+            ModelError: it fails for good.
+        """
         import openai
 
         wait, left = FIRST_WAIT, self.settings.retries
         while True:
             try:
-                return self._once(talk, shape, vision)
+                return ask()
             except openai.APIStatusError as error:
                 if error.status_code in (400, 404, 422) and not self._told_schema and _is_about_schema(error):
                     self._told_schema = True
@@ -193,15 +239,20 @@ class Chat:
         done: Any = self._client.chat.completions.create(model=self._model(vision), messages=list(talk), **more)  # type: ignore[arg-type]
         return self._text(done, vision)
 
-    def _text(self, done: Any, vision: bool) -> str:
-        """The text of a completion, whose tokens are counted."""
+    def _choice(self, done: Any, vision: bool) -> Any:
+        """The answer in a completion, whose tokens are counted."""
         choices = getattr(done, "choices", None)
         if not choices or getattr(choices[0], "message", None) is None:
             raise self._failed(vision, "its answer is no chat completion; does the base URL end in /v1?")
         usage = getattr(done, "usage", None)
         self.usage.prompt_tokens += getattr(usage, "prompt_tokens", None) or 0
         self.usage.completion_tokens += getattr(usage, "completion_tokens", None) or 0
-        message, ended = choices[0].message, choices[0].finish_reason
+        return choices[0]
+
+    def _text(self, done: Any, vision: bool) -> str:
+        """The text of a completion."""
+        choice = self._choice(done, vision)
+        message, ended = choice.message, choice.finish_reason
         if getattr(message, "refusal", None) or ended == "content_filter":
             raise self._failed(vision, f"it refused: {getattr(message, 'refusal', None) or 'filtered'}")
         text = message.content or ""

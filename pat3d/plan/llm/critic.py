@@ -68,6 +68,15 @@ class Picture:
     png: bytes
 
 
+def shown(pictures: Sequence[Picture]) -> list[dict[str, Any]]:
+    """Pictures as parts of a message, each with its caption."""
+    parts: list[dict[str, Any]] = []
+    for picture in pictures:
+        url = f"data:image/png;base64,{base64.b64encode(picture.png).decode('ascii')}"
+        parts += [{"type": "text", "text": picture.caption}, {"type": "image_url", "image_url": {"url": url}}]
+    return parts
+
+
 class Critic:
     """Asks about the sentence, looks at the pictures."""
 
@@ -110,13 +119,7 @@ class Critic:
             return tuple(answers)
 
         asked = "\n".join(f"{number}. {one.text}" for number, one in enumerate(questions, start=1))
-        parts: list[dict[str, Any]] = []
-        for picture in pictures:
-            url = f"data:image/png;base64,{base64.b64encode(picture.png).decode('ascii')}"
-            parts += [
-                {"type": "text", "text": picture.caption},
-                {"type": "image_url", "image_url": {"url": url}},
-            ]
+        parts = shown(pictures)
         parts.append({"type": "text", "text": f"<questions>\n{asked}\n</questions>"})
         messages = [{"role": "system", "content": _LOOKING}, {"role": "user", "content": parts}]
         return self._chat.ask(messages, shape, vision=True, made=made)

@@ -1,0 +1,79 @@
+"""What tells one object from another of its kind: another noun before it, another place behind it, "the one on ..."."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pat3d.plan.grammar.matching import line_up, position
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.pronouns import Pronouns
+from pat3d.plan.grammar.world import Group, Item
+from pat3d.scene.relations import SUPPORT_KINDS
+
+
+class Contrast(Pronouns):
+    """Whether phrases of one kind speak of different objects."""
+
+    def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
+        """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
+        ours, theirs = (
+            {word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other)
+        )
+        return bool(ours and theirs) and not ours & theirs
+
+    def _elsewhere(self, at: int, group: Group) -> bool:
+        """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""
+        told, item = self._place_of(at), group.items[0]
+        edge = self._world.supports.get(item)
+        if told is not None and told[0][0] in SUPPORT_KINDS and edge is not None and len(group.items) == 1:
+            # "The mug on the table is red. The mug on the shelf is blue."
+            above = self._world.ancestors(item)
+            carriers = {word for one in above for word in (self._world.noun(one), one.group.said)}
+            return not edge.weak and told[1] not in carriers and not self._is_pronoun(at + 2)
+        heads = [head for head, items in self.known.items() if items and items[0].group is group]
+        before = next((place for head in heads if (place := self._place_of(head)) is not None), None)
+        return told is not None and before is not None and told != before
+
+    def _place_of(self, at: int) -> tuple[tuple[str | None, str], str] | None:
+        """The relation word right behind chunk `at`, and what follows that, where no verb comes between."""
+        behind = self._chunks[at + 1 : at + 3]
+        if at + 1 in self.goals:
+            return None
+        if [piece.kind for piece in behind] != ["rel", "noun"] or behind[0].relation.manner in ("goal", "source"):
+            return None
+        link, phrase = behind[0].relation, behind[1].named
+        return (link.kind, link.manner), phrase.noun or phrase.head
+
+    def _subject_before(self, at: int) -> list[Item]:
+        """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""
+        told = [head for one, _ in self.related for head in sorted(one)]
+        phrases = [self._chunks[head].phrase for head in told if head < at]
+        held = {head for _, other in self.related for head in other}
+        first = min((head for head in told if head < at), default=at)
+        several = [
+            head for head, items in self.known.items() if first < head < at and head not in held and len(items) > 1
+        ]
+        if at not in told or not phrases or phrases[0] is None or several:
+            return []
+        items = self.ref(min(head for head in told if head < at))
+        wanted = self._chunks[at].named.count or 1
+        whole = bool(items) and len(items) == wanted == len(items[0].group.items)
+        return items if phrases[0].kind == "object" and whole else []
+
+    def _partner(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """The one object that "an empty one" at chunk `at` is related to, and so is of the kind of."""
+        if phrase.words.lower().split()[0] not in ("a", "an") or phrase.modifiers == NO_MODIFIERS:
+            return None
+        pairs = [one | other for one, other in self.related if at in one | other]
+        heads = sorted(head for pair in pairs for head in pair if head < at)
+        named = self.known.get(heads[0], []) if heads else []
+        return named if len(named) == 1 == len(named[0].group.items) else None
+
+    def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
+        like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False,
+                       count=phrase.count or 1)  # fmt: skip
+        items = list(self._maker.make(self._world, like).items)
+        items[0].place = position(phrase)
+        line_up(self._world, items[0])
+        return items

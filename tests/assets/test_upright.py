@@ -1,0 +1,72 @@
+"""Which axis of a bare mesh points up: by rest, proportions, hollows and origin; what is unsure is flagged."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from pat3d.assets.library.body import Body, of_mesh
+from pat3d.assets.library.guess import SURE, Typical
+from pat3d.assets.library.names import _axis
+from pat3d.assets.library.upright import guess_up
+from pat3d.assets.mesh.importing import TO_Z_UP
+from pat3d.assets.mesh.load import LoadedMesh
+from tests.assets.things_to_index import bowl
+
+CARTON = Typical(noun="carton", size=(0.16, 0.06, 0.21))
+
+
+def body_of(mesh: trimesh.Trimesh, up: str) -> Body:
+    """The mesh, which has z up, as a file that has `up` up and says nothing of it."""
+    vertices = np.asarray(mesh.vertices) @ np.array(TO_Z_UP[up], dtype=float)
+    faces = np.asarray(mesh.faces, dtype=np.int64)
+    blank = LoadedMesh(
+        vertices=vertices, faces=faces, uv=np.zeros((len(faces), 3, 2)), texture=np.zeros((1, 1, 3), dtype=np.uint8)
+    )
+    assert of_mesh(blank).vertices is vertices
+    return Body(mesh=blank)
+
+
+def carton(yaw: float = 0.0) -> trimesh.Trimesh:
+    """As tall as its kind, standing on its base 1 cm above the origin, turned by `yaw` about the upright."""
+    box = trimesh.creation.box((0.17, 0.065, 0.2))
+    box.apply_translation((0.01, 0.02, 0.11))
+    return box.apply_transform(trimesh.transformations.rotation_matrix(yaw, [0, 0, 1]))
+
+
+@pytest.mark.parametrize("up", ["z", "y"])
+@pytest.mark.parametrize("yaw", [0.0, 0.6])
+def test_proportions_of_its_kind_tell_however_it_is_turned(up, yaw):
+    guess = guess_up(body_of(carton(yaw), up), CARTON)
+    assert guess.value == up
+    assert guess.confidence >= SURE
+    assert "carton" in guess.reason
+
+
+@pytest.mark.parametrize("up", ["z", "y", "x"])
+def test_a_hollow_is_open_to_above(up):
+    guess = guess_up(body_of(bowl(), up), None)
+    assert guess.value == up
+    assert "hollow" in guess.reason
+
+
+@pytest.mark.parametrize("up", ["z", "y"])
+def test_what_would_topple_is_not_upright(up):
+    """A pyramid stands on its base alone: on its slanted sides it would have no axis upright."""
+    corners = [[x, y, 0.0] for x in (0.1, -0.1) for y in (0.1, -0.1)] + [[0.0, 0.0, 0.3]]
+    pyramid = trimesh.convex.convex_hull(np.array(corners))
+    assert guess_up(body_of(pyramid, up), None).value == up
+
+
+def test_a_cube_may_stand_on_any_side_and_is_flagged():
+    guess = guess_up(body_of(trimesh.creation.box((0.1, 0.1, 0.1)), "z"), None)
+    assert guess.value == "z"
+    assert guess.confidence < SURE
+
+
+@pytest.mark.parametrize(
+    ("said", "axis"),
+    [("y", "y"), ("Z_UP", "z"), ("+Y", "y"), ("-x", "-x"), ([0, 1, 0], "y"), ([0, 0, -1.0], "-z")]
+    + [(one, None) for one in ("upwards", "", None, [0.7, 0.7, 0], [1, 1, 1], [0, 1], 3)],
+)
+def test_axes_that_metadata_name(said, axis):
+    assert _axis(said) == axis

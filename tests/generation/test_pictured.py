@@ -1,0 +1,113 @@
+"""`pat3d generate --image`: from files of a photograph to a verified scene, and what is refused on the way."""
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from pat3d.assets import sources
+from pat3d.assets.variant import Variant
+from pat3d.cli.main import main
+from pat3d.generation.request import derived_seed
+from pat3d.geometry.pose import Pose
+from pat3d.scene.io import load_scene
+from tests.vision.seen import HEIGHT, WIDTH, camera_at, see
+
+CAMERA = camera_at((0.4, -0.8, 0.6), (0.0, 0.0, 0.05))
+
+
+def made(noun, name):
+    """The asset that a label of that name gets: of other seeds, proportions differ."""
+    return sources.make(noun, Variant(seed=derived_seed(0, name)))
+
+
+THINGS = {
+    "box": (made("storage box", "box"), Pose.from_yaw(0.3, (-0.1, 0.0, 0.0))),
+    "mug": (made("mug", "mug"), Pose.from_yaw(2.0, (0.22, -0.05, 0.0))),
+}
+
+
+@pytest.fixture
+def photographed(tmp_path):
+    """Files of a photograph: words of a command line, without --out."""
+    seen = see(THINGS, CAMERA)
+    Image.fromarray(np.full((HEIGHT, WIDTH, 3), 120, dtype=np.uint8)).save(tmp_path / "photo.jpg")
+    np.save(tmp_path / "depth.npy", seen.depth)
+    Image.fromarray(seen.instances.astype(np.uint8)).save(tmp_path / "masks.png")
+    labels = {"objects": [{"name": "box", "noun": "storage box"}, {"name": "mug", "noun": "chipped blue mug"}]}
+    (tmp_path / "labels.json").write_text(json.dumps(labels))
+    own = CAMERA.pinhole
+    camera = {key: getattr(own, key) for key in ("width", "height", "fx", "fy", "cx", "cy")}
+    (tmp_path / "camera.json").write_text(json.dumps(camera))
+    named = {"image": "photo.jpg", "depth": "depth.npy", "masks": "masks.png"}
+    named |= {"labels": "labels.json", "camera": "camera.json"}
+    return {f"--{key}": str(tmp_path / name) for key, name in named.items()}
+
+
+def words(files):
+    return [word for pair in files.items() for word in pair]
+
+
+@pytest.mark.slow
+def test_a_photograph_becomes_a_verified_scene_and_the_same_one_again(photographed, tmp_path, capsys):
+    out = tmp_path / "scene"
+    assert main(["generate", "a desk", *words(photographed), "--out", str(out), "--resume"]) == 0
+    scene = load_scene(out)
+    assert scene.prompt == "a desk"
+    assert [obj.name for obj in scene.objects] == ["box", "mug"]
+    apart = np.subtract(scene["mug"].pose.position, scene["box"].pose.position)
+    true = np.subtract(*(THINGS[name][1].position for name in ("mug", "box")))
+    assert np.linalg.norm(apart[:2]) == pytest.approx(np.linalg.norm(true[:2]), abs=0.01)
+    report = json.loads((out / "report.json").read_text())
+    assert report["passed"]
+    assert set(report["understood"]["picture"]) == {"picture", "depth", "masks", "labels", "camera"}
+    assert all(0.97 < one["scale"] < 1.03 for one in report["understood"]["fits"].values())
+    with Image.open(out / "picture.png") as row:
+        assert row.width > 5 * WIDTH
+    assert main(["generate", "a desk", *words(photographed), "--out", str(out), "--resume"]) == 0
+    again = json.loads((out / "report.json").read_text())
+    assert again["reused"] == ["layout 1", "settling 1"]
+
+
+def test_what_a_photograph_needs_is_said(photographed, tmp_path, capsys):
+    del photographed["--image"], photographed["--masks"]
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    assert "--image, --masks missing" in capsys.readouterr().err
+
+
+def test_without_depth_and_without_a_model_both_are_named(photographed, tmp_path, monkeypatch, capsys):
+    monkeypatch.delenv("PAT3D_DEPTH_MODEL", raising=False)
+    monkeypatch.delenv("PAT3D_CONFIG", raising=False)
+    monkeypatch.chdir(tmp_path)
+    del photographed["--depth"]
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    told = capsys.readouterr().err
+    assert "--depth is missing" in told
+    assert "PAT3D_DEPTH_MODEL" in told
+
+
+def test_a_label_that_nothing_is_known_for_is_said_and_nothing_written(photographed, tmp_path, capsys):
+    labels = {"objects": [{"name": "box", "noun": "storage box"}, {"name": "it", "noun": "flux capacitor"}]}
+    (tmp_path / "labels.json").write_text(json.dumps(labels))
+    before = sorted(tmp_path.iterdir())
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    assert 'nothing is known for "it"' in capsys.readouterr().err
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_a_mask_of_few_pixels_or_without_depth_is_said(photographed, tmp_path, capsys):
+    masks = np.array(Image.open(tmp_path / "masks.png"))
+    few = masks.copy()
+    few[few == 2] = 0
+    few[:5, :5] = 2
+    Image.fromarray(few).save(tmp_path / "masks.png")
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    assert 'the mask of "mug" has 25 pixels; at least 40' in capsys.readouterr().err
+    Image.fromarray(masks).save(tmp_path / "masks.png")
+    depth = np.load(tmp_path / "depth.npy")
+    depth[masks == 1] = np.nan
+    np.save(tmp_path / "depth.npy", depth)
+    assert main(["generate", *words(photographed), "--out", str(tmp_path / "scene")]) == 2
+    assert '0% of the pixels of "box" have a depth' in capsys.readouterr().err
+    assert not (tmp_path / "scene").exists()
