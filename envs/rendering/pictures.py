@@ -74,4 +74,6 @@ def backend() -> str:
     asked = wanted or os.environ.get("MUJOCO_GL", "").strip().lower()
     if asked in BACKENDS:
         return asked
-    return next((kind for kind in KINDS if gl_renderer(kind) is not None), "cpu")
+    # MuJoCo's contexts of one kind refuse a process whose PyOpenGL was set to the other.
+    bound = os.environ.get("PYOPENGL_PLATFORM", "").strip().lower()
+    return next((kind for kind in KINDS if bound in ("", kind) and gl_renderer(kind) is not None), "cpu")

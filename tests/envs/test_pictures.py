@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -72,7 +73,11 @@ def test_the_cpu_and_gl_draw_the_same_picture(tmp_path, kind):
         pytest.skip(f"no {kind} here")
     # What draws binds a process to EGL or to OSMesa.
     told = subprocess.run(
-        [sys.executable, "-c", DRAW, kind, own_arm_file(tmp_path)], capture_output=True, text=True, check=False
+        [sys.executable, "-c", DRAW, kind, own_arm_file(tmp_path)],
+        env={**os.environ, "PYOPENGL_PLATFORM": kind},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert told.returncode == 0, told.stderr
     for line in told.stdout.splitlines():
@@ -123,10 +128,11 @@ def own_arm_file(folder) -> str:
         (("egl",), {"PAT3D_RENDERER": "cpu"}, "cpu"),
         ((), {"MUJOCO_GL": "osmesa"}, "osmesa"),
         (("egl",), {"MUJOCO_GL": "glfw"}, "egl"),
+        (("egl", "osmesa"), {"PYOPENGL_PLATFORM": "osmesa"}, "osmesa"),
     ],
 )
 def test_what_works_draws_unless_another_is_named(monkeypatch, works, variables, used):
-    for name in ("PAT3D_RENDERER", "MUJOCO_GL"):
+    for name in ("PAT3D_RENDERER", "MUJOCO_GL", "PYOPENGL_PLATFORM"):
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
