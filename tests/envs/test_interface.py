@@ -63,7 +63,8 @@ def test_a_camera_s_intrinsics_and_pose_say_where_in_the_picture_a_point_is(env,
         # What is cut by the picture's edge has its middle elsewhere.
         if not len(rows) or {rows.min(), columns.min()} & {0} or {rows.max(), columns.max()} & {SIDE - 1}:
             continue
-        world = env.simulation.state.points(name)
+        obj = env.scene[name]
+        world = obj.pose.apply(np.asarray(obj.asset.visual.vertices).reshape(-1, 3))
         seen = pose.rotation.T @ (axes.T @ (world - origin).T - np.array(told["position"])[:, None])
         x, y, depth = np.array(told["intrinsics"]) @ seen
         assert (seen[2] > 0).all()
