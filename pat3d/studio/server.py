@@ -51,7 +51,7 @@ def opened(
 
     Args:
         shown: a folder with a scene or a suite, or one or two with evaluations; none to begin without.
-        root: folder that scenes are saved in; where None the one that the scene is in, else "scenes".
+        root: folder that scenes are saved in; where None the one that the scene is in, or "scenes".
         host: address to listen at. Other machines reach any but the loopback, and need the token of the address.
         port: 0 for any that is free.
 
@@ -66,7 +66,7 @@ def opened(
     with ExitStack() as stack:
         folders = [Path(one).expanduser().absolute() for one in shown]
         kind = kind_of(folders)
-        beside = "scenes" if kind != "scene" else folders[0].parent
+        beside = "scenes" if kind in ("nothing", "suite") else folders[0].parent
         store = Store(Root.at(root if root is not None else beside))
         stack.callback(store.close)
         bench = Workbench(store.opened(folders[0]) if kind == "scene" else None)
