@@ -50,6 +50,9 @@ FACTS = {
         "ReplayFacts",
         "DemonstrationFacts",
         "PartFacts",
+        "FoundFacts",
+        "SpecFacts",
+        "ConventionFacts",
     ),
 }
 """Documents of `--json`, by module."""

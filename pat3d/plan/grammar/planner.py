@@ -119,7 +119,7 @@ class GrammarPlanner:
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
-        return audited(plan, self._nouns.resolve)
+        return audited(plan, self._nouns.resolve, lexicon.FLOOR)
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
