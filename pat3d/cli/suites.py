@@ -80,7 +80,7 @@ def generate(options: argparse.Namespace) -> int:
         )
     finished = Suite.open(options.folder)
     if status.made and find_spec("gymnasium"):
-        from pat3d.policies_eval.run.interface import suite_interface, write_interface
+        from pat3d.policies_eval.interface.publish import suite_interface, write_interface
 
         write_interface(finished.folder.path, suite_interface(finished))
     if options.json:
@@ -149,7 +149,7 @@ def show(options: argparse.Namespace) -> int:
 def spec(options: argparse.Namespace) -> int:
     """`pat3d suite spec`."""
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.run.interface import suite_interface, with_statistics, write_interface
+    from pat3d.policies_eval.interface.publish import suite_interface, with_statistics, write_interface
 
     suite = Suite.open(options.folder)
     interface = suite_interface(suite)
@@ -185,9 +185,9 @@ def spec(options: argparse.Namespace) -> int:
 def check_policy(options: argparse.Namespace) -> int:
     """`pat3d suite check-policy`: exit code 1 where something looks wrong."""
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.analysis.conventions import EXPLAINED, examine, resemblance
+    from pat3d.policies_eval.interface.conventions import EXPLAINED, examine, resemblance
+    from pat3d.policies_eval.interface.probe import compare_actions
     from pat3d.policies_eval.policies.registry import make_policy
-    from pat3d.policies_eval.run.probe import compare_actions
 
     episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs)
     compared = compare_actions(make_policy(options.policy), episodes, settings, options.steps)

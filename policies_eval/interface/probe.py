@@ -14,7 +14,7 @@ import numpy as np
 from pat3d.envs.physics.world import CAMERAS
 from pat3d.envs.robots.controllers import LARGEST
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.analysis.conventions import Compared
+from pat3d.policies_eval.interface.conventions import Compared
 from pat3d.policies_eval.policies.policy import EpisodeStart, Policy, PolicyError
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Episode
