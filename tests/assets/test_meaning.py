@@ -86,8 +86,11 @@ def test_what_is_no_vector_is_an_error_that_keeps_the_key_to_itself(lab, reply, 
 
 def test_the_hosted_key_goes_to_its_own_server_alone():
     given = {"PAT3D_EMBEDDINGS": "m", "OPENAI_API_KEY": "sesame"}
-    assert embedding_settings(given).key == "sesame"
-    assert embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "http://localhost:1/v1"}).key == ""
+    hosted = embedding_settings(given)
+    own = embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "http://localhost:1/v1"})
+    assert hosted is not None
+    assert own is not None
+    assert (hosted.key, own.key) == ("sesame", "")
     with pytest.raises(ModelError, match="PAT3D_EMBEDDINGS_URL"):
         embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "localhost:1"})
 
