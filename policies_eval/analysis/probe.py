@@ -6,16 +6,16 @@ them. Robots start with their joints further from home than in evaluations, so t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from pat3d.envs.physics.world import CAMERAS
 from pat3d.envs.robots.controllers import LARGEST
-from pat3d.errors import EvaluationError
+from pat3d.errors import EvaluationError, Pat3dError
 from pat3d.policies_eval.analysis.conventions import Compared
-from pat3d.policies_eval.policies.policy import EpisodeStart, Policy, PolicyError
+from pat3d.policies_eval.policies.policy import EpisodeStart, Policy
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Episode
 from pat3d.policies_eval.run.settings import RolloutSettings
@@ -52,8 +52,6 @@ def compare_actions(
             if len(env.simulation.world.arms) > 1:
                 raise EvaluationError("actions are compared for robots of one arm.")
             _ask(env, policy, episode, settings, steps, given, right, frames)
-        except PolicyError as error:
-            raise EvaluationError(f"the policy failed: {error}") from error
         finally:
             env.close()
     return Compared(
@@ -82,7 +80,7 @@ def _ask(
         "control": settings.control, "action_size": SIZE, "control_freq": settings.control_freq,
     }  # fmt: skip
     scripted.reset(EpisodeStart(**told, env=env))
-    policy.reset(EpisodeStart(**told, env=env if getattr(policy, "privileged", False) else None))
+    _asked(policy.reset, EpisodeStart(**told, env=env if getattr(policy, "privileged", False) else None))
     data, arm = env.simulation.data, world.arms[0]
     base = env.simulation.model.site(arm.prefix + arm.robot.base_site).id
     hand = env.simulation.model.site(arm.prefix + arm.robot.grip_site).id
@@ -91,7 +89,7 @@ def _ask(
     success = broken = False
     for _ in range(steps or env.horizon):
         if not pending:
-            pending = list(_numbers(policy.act(observation)))[: settings.replan]
+            pending = list(_numbers(_asked(policy.act, observation)))[: settings.replan]
         given.append(pending.pop(0))
         action = scripted.act(observation)
         right.append(np.asarray(action, dtype=np.float64))
@@ -103,6 +101,16 @@ def _ask(
         observation, _, success, broken, _ = env.step(action)
         if success or broken:
             return
+
+
+def _asked(method: Callable[[Any], Any], value: Any) -> Any:
+    """What a method of the policy returns; whatever it raises is an EvaluationError."""
+    try:
+        return method(value)
+    except Pat3dError:
+        raise
+    except Exception as error:
+        raise EvaluationError(f"the policy failed: {type(error).__name__}: {error}") from error
 
 
 def _numbers(answer: Any) -> Any:

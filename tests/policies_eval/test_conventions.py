@@ -151,6 +151,13 @@ def test_what_cannot_be_compared_is_refused(settings):
     with pytest.raises(EvaluationError, match=r"shape \(6,\); valid are \(7,\)"):
         compare_actions(Short(), EPISODES, settings)
 
+    class Blind(Short):
+        def act(self, observation):
+            return observation["agentview_image"]
+
+    with pytest.raises(EvaluationError, match="the policy failed: KeyError: 'agentview_image'"):
+        compare_actions(Blind(), EPISODES, settings)
+
 
 def test_still_actions_say_nothing():
     still = Compared(given=np.zeros((20, 7)), right=np.zeros((20, 7)), frames={}, scale=(0.05, 0.5))
