@@ -38,7 +38,10 @@ BESIDE = 2e-3
 """Prisms reach this far beyond a board's shadow [m]."""
 
 LEVEL = 2.0
-"""A board lies, up to this tilt [degrees]."""
+"""What a board lies on is level up to this tilt [degrees]."""
+
+STEEPEST = 10.0
+"""A board lies on what is round, up to this tilt [degrees]; where it has to be steeper there is an edge."""
 
 UP = 1e-3
 """Cosine from which a triangle faces up."""
@@ -87,13 +90,13 @@ class Shadow:
         return [polygon for polygon in found if polygon[:, 2].max() > highest - DEPTH]
 
     def laid(self, polygons: list[NDArray]) -> Pose:
-        """Where a board rests on `polygons`, level if that is more than LEVEL degrees steep or nowhere.
+        """Where a board rests on `polygons`, level if that is more than STEEPEST degrees steep or nowhere.
 
         A flat thing with its weight over a point rests on the lowest plane there that is nowhere below a surface.
         """
         # In millimetres, for the solver's tolerance.
         points = 1e3 * np.concatenate(polygons)
-        steepest = math.tan(math.radians(LEVEL))
+        steepest = math.tan(math.radians(STEEPEST))
         over = np.column_stack([-points[:, :2], -np.ones(len(points))])
         done = linprog(
             [0.0, 0.0, 1.0], over, -points[:, 2], bounds=[(-steepest, steepest)] * 2 + [(None, None)], method="highs"
@@ -111,18 +114,20 @@ class Shadow:
         return Pose.from_matrix(rotation, np.array([*self.centre, 1e-3 * height]) + GAP * turn @ normal)
 
 
-Outcome = Literal["stands", "hardly", "falls"]
+Outcome = Literal["stands", "hardly", "falls", "slopes"]
 
 
-def outcome(mesh: Asset, board: Asset, shadow: Shadow) -> Outcome | None:
-    """What `board` does on the true surface of `mesh`; None where there is none."""
+def outcome(mesh: Asset, board: Asset, shadow: Shadow) -> Outcome:
+    """What `board` does on the true surface of `mesh`; it falls where there is none, and what is round has no edge."""
     polygons = shadow.over(mesh.visual.vertices, mesh.visual.faces)
     if not polygons:
-        return None
+        return "falls"
     pose = shadow.laid(polygons)
+    if pose.rotation[2, 2] < math.cos(math.radians(LEVEL)):
+        return "slopes"
     hulls = prisms(shadow, shadow.over(mesh.visual.vertices, mesh.visual.faces, BESIDE), polygons)
     if not hulls:
-        return None
+        return "falls"
     true = replace(mesh, visual=board.visual, parts=tuple(hulls))
     scene = scene_of(placed("mesh", true, fixed=True), placed("board", board, pose=pose))
     with tempfile.TemporaryDirectory() as folder:

@@ -240,11 +240,15 @@ def urdf_usd_converter(path: Path) -> dict[str, Any]:
 
 
 def _rigid(path: str) -> dict[str, Any]:
-    """Count and mass of the rigid bodies of a stage."""
+    """Count and mass of the rigid bodies of a stage that no fixed joint ties to the world."""
     from pxr import Usd, UsdPhysics  # pyright: ignore[reportMissingImports]
 
     stage = Usd.Stage.Open(path)
-    moving = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    joints = [UsdPhysics.FixedJoint(prim) for prim in stage.Traverse() if prim.IsA(UsdPhysics.FixedJoint)]
+    ends = [[*one.GetBody0Rel().GetTargets(), *one.GetBody1Rel().GetTargets()] for one in joints]
+    rigid = {prim.GetPath(): prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)}
+    tied = {path for pair in ends for path in pair if sum(end in rigid for end in pair) == 1}
+    moving = [prim for path, prim in rigid.items() if path not in tied]
     mass = sum(float(UsdPhysics.MassAPI(prim).GetMassAttr().Get()) for prim in moving)
     return {"bodies": len(moving), "mass": mass}
 

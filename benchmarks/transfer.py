@@ -24,7 +24,7 @@ from typing import Any
 
 import yaml
 
-from pat3d.check.engines.check import check_engines
+from pat3d.check.engines.check import TIMEOUT, check_engines
 from pat3d.check.engines.protocol import Absent, Engine
 from pat3d.check.engines.record import as_dict
 from pat3d.check.engines.registry import chosen
@@ -116,11 +116,13 @@ def orders(options: argparse.Namespace, work: Path) -> dict[str, list[str]]:
     return found
 
 
-def measure(scene: Scene, engine: Engine, exports: Path, path: Path, seconds: float) -> dict[str, Any] | None:
+def measure(
+    scene: Scene, engine: Engine, exports: Path, path: Path, seconds: float, timeout: float
+) -> dict[str, Any] | None:
     """One engine on one scene, from `path` where it was measured before; None where the engine is absent."""
     if path.is_file():
         return json.loads(path.read_text(encoding="utf-8"))
-    (verdict,) = check_engines(scene, (engine,), exports, seconds=seconds)
+    (verdict,) = check_engines(scene, (engine,), exports, seconds=seconds, timeout=timeout)
     if isinstance(verdict, Absent):
         return None
     document = as_dict(verdict)
@@ -242,6 +244,9 @@ def main() -> int:
     parser.add_argument("--scenes", type=Path, nargs="+", default=[], help="folders of scenes that are made already")
     parser.add_argument("--engines", nargs="+", default=["all"])
     parser.add_argument("--seconds", type=float, default=5.0)
+    parser.add_argument(
+        "--timeout", type=float, default=TIMEOUT, help="wall time of an engine; Drake takes 34 times a scene's time [s]"
+    )
     parser.add_argument("--work", type=Path, default=Path("work/transfer"), help="scenes, exports and results")
     parser.add_argument("--out", type=Path, help="Markdown file to write; printed otherwise")
     options = parser.parse_args()
@@ -271,7 +276,7 @@ def main() -> int:
         results[name] = {}
         for engine in engines:
             path = work / "results" / slug / f"{engine.name}.json"
-            document = measure(scene, engine, exports, path, options.seconds)
+            document = measure(scene, engine, exports, path, options.seconds, options.timeout)
             if document is not None:
                 results[name][engine.name] = document
         print(

@@ -43,12 +43,16 @@ FACTS = {
         "ForeignFacts",
         "SuiteFacts",
         "LibraryFacts",
+        "FoundFacts",
         "EvaluationFacts",
         "ComparisonFacts",
         "RankedFacts",
         "ReplayFacts",
         "DemonstrationFacts",
         "PartFacts",
+        "FoundFacts",
+        "SpecFacts",
+        "ConventionFacts",
     ),
 }
 """Documents of `--json`, by module."""

@@ -31,10 +31,16 @@ FRAMES = {
 
 ACTIONS = {
     "osc": (
-        {"name": "position", "means": "change of the hand's position", "unit": "m", "frame": "base", "size": 3},
+        {
+            "name": "position",
+            "means": "change of the hand's position, from where it is",
+            "unit": "m",
+            "frame": "base",
+            "size": 3,
+        },
         {
             "name": "rotation",
-            "means": "change of the hand's orientation, applied about the axes of the frame",
+            "means": "change of the hand's orientation, from how it is turned, about the axes of the frame",
             "convention": "rotation vector (axis-angle)",
             "unit": "rad",
             "frame": "base",

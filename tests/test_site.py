@@ -18,6 +18,7 @@ import pat3d.exporters
 from pat3d.cli.commands import COMMANDS, find
 from pat3d.cli.main import main, parser
 from pat3d.cli.options import Command
+from tests.test_readme import blocks_of, run_block
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -45,6 +46,12 @@ def test_errors_are_as_their_page_says(line, message, tmp_path, monkeypatch, cap
     assert main(shlex.split(line)[1:]) == getattr(pat3d.errors, message.split(":")[0]).exit_code
     assert capsys.readouterr().err.splitlines()[-1] == f"pat3d: {message}"
     assert sorted(path.name for path in here.rglob("*")) == ["letters", "one.txt"]
+
+
+def test_code_of_the_page_of_errors_runs(tmp_path):
+    for block in blocks_of(DOCS / "reference" / "errors.md"):
+        if block.language == "python":
+            run_block(block, tmp_path)
 
 
 def test_the_gallery_is_what_its_script_draws(monkeypatch):

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.standing import Placement, Stand
+from pat3d.envs.physics.lights import light_up
 from pat3d.envs.physics.views import ANGLES, aim
-from pat3d.envs.rendering.lights import light_up
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.assembly import take_options
 from pat3d.envs.robots.robot import Robot

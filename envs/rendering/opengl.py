@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
+import functools
+import weakref
 from typing import Any
 
 import numpy as np
@@ -30,6 +33,8 @@ class OpenGL:
             self._context = GLContext(model.vis.global_.offwidth, model.vis.global_.offheight)
             self._context.make_current()
             self._buffers = {False: self._buffer(fine=False)}
+            _open.add(self)
+            _close_at_exit()
         except (ImportError, AttributeError, RuntimeError, self._mujoco.FatalError) as error:
             raise EnvironmentSetupError(
                 f"no picture can be drawn through {kind.upper()} ({error}). Install its library (Debian: libegl1 or "
@@ -89,10 +94,12 @@ class OpenGL:
 
     def close(self) -> None:
         """Free the context."""
-        self._context.make_current()
-        for one in self._buffers.values():
-            one.free()
-        self._context.free()
+        if self in _open:
+            _open.discard(self)
+            self._context.make_current()
+            for one in self._buffers.values():
+                one.free()
+            self._context.free()
 
     def _metres(self, buffer: NDArray[np.float32]) -> NDArray[np.float32]:
         """Distances from a depth buffer that is 1 at the near plane and 0 at the far one."""
@@ -115,3 +122,12 @@ class OpenGL:
             if one.segid >= 0 and one.objtype == mujoco.mjtObj.mjOBJ_GEOM:
                 geoms[one.segid + 1] = one.objid
         return geoms[np.clip(number, 0, scene.ngeom)][::-1]
+
+
+_open: weakref.WeakSet[OpenGL] = weakref.WeakSet()
+
+
+@functools.cache
+def _close_at_exit() -> None:
+    """Free what a process leaves open; registered after MuJoCo's own function that ends EGL, so done before that."""
+    atexit.register(lambda: [one.close() for one in list(_open)])

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
-from pat3d.envs.rendering.lights import FADES, FLOOR, SKY, Lights
+from pat3d.envs.physics.lights import FADES, FLOOR, SKY, Lights
 from pat3d.envs.rendering.picture import Picture
 from pat3d.envs.rendering.surfaces import Body, Surfaces
 from pat3d.view.rays import pinhole_rays, unit

@@ -30,8 +30,8 @@ class OptimizedFacts(OutcomeFacts):
     skipped: bool
     kept: bool
     broken: list[str]
-    loss_before_m2: float
-    loss_after_m2: float
+    loss_before_m2: float | None
+    loss_after_m2: float | None
     epochs: int
     layouts_tried: int
 
@@ -123,6 +123,15 @@ class LibraryFacts:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FoundFacts:
+    """An object that a search found."""
+
+    noun: str
+    name: str
+    score: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class SuiteFacts:
     """A suite of scenes with tasks."""
 
@@ -136,6 +145,23 @@ class SuiteFacts:
     intersections: int
     drift_mm: float
     drift_degrees: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpecFacts:
+    """The description of a suite's actions and observations that was written."""
+
+    file: str
+    episodes: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConventionFacts:
+    """Whether the actions of a policy mean what the environment means by them."""
+
+    passed: bool
+    failures: list[str]
+    explained: dict[str, float | None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -383,8 +409,7 @@ def optimized_facts(outcome: OutcomeFacts, record: Mapping[str, Any], edited: Se
         skipped=record["skipped"],
         kept=record["kept"],
         broken=list(record["broken"]),
-        loss_before_m2=record["loss_before"],
-        loss_after_m2=record["loss_after"],
+        **finite({"loss_before_m2": record["loss_before"], "loss_after_m2": record["loss_after"]}),
         epochs=len(record["history"]),
         layouts_tried=len(record["trials"]),
     )

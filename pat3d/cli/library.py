@@ -8,7 +8,6 @@ from pat3d.assets.library.index import CPU_LIMIT, Library, add_library, library_
 from pat3d.assets.library.source import LibrarySource
 from pat3d.assets.library.store import Entry
 from pat3d.cli.console import console, watch
-from pat3d.cli.documents import library_facts, library_object_facts
 from pat3d.cli.gallery import write_gallery
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option, with_verbs
@@ -46,6 +45,8 @@ def add(options: argparse.Namespace) -> int:
         )
         page = write_gallery(library, pictures=not options.no_pictures, progress=progress)
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         print_facts(library_facts(library))
         return 0 if library.ready else 1
     _told(library)
@@ -58,6 +59,8 @@ def list_all(options: argparse.Namespace) -> int:
     """`pat3d library list`."""
     names = library_names()
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         print_facts([library_facts(open_library(name)) for name in names])
         return 0
     if not names:
@@ -85,6 +88,8 @@ def show(options: argparse.Namespace) -> int:
     name, _, said = options.name.partition("/")
     library = open_library(name)
     if options.json:
+        from pat3d.cli.documents import library_facts, library_object_facts
+
         print_facts(library_object_facts(_entry(library, said)) if said else library_facts(library))
         return 0
     if not said:
@@ -101,6 +106,7 @@ def show(options: argparse.Namespace) -> int:
 @command(
     option("words", "what is looked for: a name, or where an embeddings server is set up, a description"),
     option("--libraries", "libraries to look in", nargs="+", default=None, shown="all", metavar="NAME"),
+    JSON,
     examples="""
     pat3d library search "power drill"
     pat3d library search "to cut paper with" --libraries ycb lab
@@ -115,6 +121,11 @@ def search(options: argparse.Namespace) -> int:
 
     settings = meaning.embedding_settings()
     found = meaning.search(options.words, options.libraries or library_names(), settings=settings)
+    if options.json:
+        from pat3d.cli.documents import FoundFacts
+
+        print_facts([FoundFacts(noun=one.noun, name=one.name, score=float(one.score)) for one in found])
+        return 0 if found else 1
     for one in found:
         console().print(f"{one.noun:40s} {one.score:.2f}  {one.name}", markup=False, soft_wrap=True)
     if not found:
@@ -131,6 +142,8 @@ def search(options: argparse.Namespace) -> int:
 def remove(options: argparse.Namespace) -> int:
     """`pat3d library remove`."""
     if options.json:
+        from pat3d.cli.documents import library_facts
+
         facts = library_facts(open_library(options.name))
         remove_library(options.name)
         print_facts(facts)

@@ -16,6 +16,7 @@ from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, valu
 from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
 from pat3d.errors import SuiteError
+from pat3d.scene.folder import finite
 
 if TYPE_CHECKING:
     from pat3d.envs.suites.generate import Status, Watcher
@@ -79,7 +80,7 @@ def generate(options: argparse.Namespace) -> int:
         )
     finished = Suite.open(options.folder)
     if status.made and find_spec("gymnasium"):
-        from pat3d.policies_eval.run.interface import suite_interface, write_interface
+        from pat3d.policies_eval.datasets.interface import suite_interface, write_interface
 
         write_interface(finished.folder.path, suite_interface(finished))
     if options.json:
@@ -139,6 +140,7 @@ def show(options: argparse.Namespace) -> int:
     option("--split", "of the episodes", default="train"),
     option("--episodes", "scripted demonstrations for the statistics; 0 for none", type=int, default=10),
     option("--seed", "of the episodes", type=int, default=0),
+    JSON,
     summary="write spec.json: what actions and observations mean, cameras, and statistics to normalise with",
     examples="""
     pat3d suite spec suites/tabletop --episodes 50
@@ -147,14 +149,20 @@ def show(options: argparse.Namespace) -> int:
 def spec(options: argparse.Namespace) -> int:
     """`pat3d suite spec`."""
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.run.interface import suite_interface, with_statistics, write_interface
+    from pat3d.policies_eval.datasets.interface import suite_interface, with_statistics, write_interface
 
     suite = Suite.open(options.folder)
     interface = suite_interface(suite)
     if options.episodes:
         episodes, settings = _episodes(options, suite)
         interface = with_statistics(interface, episodes, settings, console(stderr=True))
-    console().print(str(write_interface(suite.folder.path, interface)), markup=False, soft_wrap=True)
+    written = write_interface(suite.folder.path, interface)
+    if options.json:
+        from pat3d.cli.documents import SpecFacts
+
+        print_facts(SpecFacts(file=str(written), episodes=options.episodes))
+    else:
+        console().print(str(written), markup=False, soft_wrap=True)
     return 0
 
 
@@ -166,6 +174,7 @@ def spec(options: argparse.Namespace) -> int:
     option("--seed", "of the episodes", type=int, default=0),
     option("--steps", "of an episode at most", type=int, metavar="N", shown="until the task is done"),
     option("--obs", "state, rgb or rgbd", default="state"),
+    JSON,
     summary="compare a policy's actions with right ones: flipped gripper, Euler angles, degrees, another frame",
     examples="""
     pat3d suite check-policy suites/tabletop --policy ws://127.0.0.1:8000 --obs rgb
@@ -177,18 +186,24 @@ def check_policy(options: argparse.Namespace) -> int:
     """`pat3d suite check-policy`: exit code 1 where something looks wrong."""
     from pat3d.envs.suites.suite import Suite
     from pat3d.policies_eval.analysis.conventions import EXPLAINED, examine, resemblance
+    from pat3d.policies_eval.analysis.probe import compare_actions
     from pat3d.policies_eval.policies.registry import make_policy
-    from pat3d.policies_eval.run.probe import compare_actions
 
     episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs)
     compared = compare_actions(make_policy(options.policy), episodes, settings, options.steps)
     found, alike = examine(compared), resemblance(compared)
+    failures = [one.text for one in found]
+    if options.json:
+        from pat3d.cli.documents import ConventionFacts
+
+        print_facts(ConventionFacts(passed=not failures, failures=failures, explained=finite(alike)))
+        return verdict(failures)
     faulty = {one.part for one in found}
     for part, share in alike.items():
         if part not in faulty:
             says = "as it should be" if share > EXPLAINED else "resembles nothing known, so nothing can be said"
             console().print(f"{part}: {says} (explains {100 * max(share, 0.0):.0f} %)", markup=False, highlight=False)
-    return verdict([one.text for one in found])
+    return verdict(failures)
 
 
 def _episodes(options: argparse.Namespace, suite: Any, **more: Any) -> tuple[Any, Any]:

@@ -21,13 +21,9 @@ from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, check_tree
 from pat3d.scene.naming import APART
-from pat3d.scene.physics import SETTLING_FRICTION
+from pat3d.scene.physics import HEAVIEST, LIGHTEST, SETTLING_FRICTION
 from pat3d.scene.relations import built_together, check_sides
 from pat3d.scene.yaml_source import Source, nearest, read_yaml, validate
-
-LIGHTEST, HEAVIEST = 1e-5, 1e5
-"""Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
-held to, heavier ones sink through what carries them."""
 
 SOURCES = ("noun", "mesh", "model")
 """Where an object comes from: one of them."""

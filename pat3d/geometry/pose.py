@@ -41,6 +41,13 @@ class Pose:
         return Pose(position=(x, y, z), quat_wxyz=quat_of(rotation))
 
     @staticmethod
+    def from_affine(linear: NDArray[np.float64], there: NDArray[np.float64], centre: NDArray[np.float64]) -> Pose:
+        """The pose with the rotation nearest to `linear`, shape (3, 3), that takes `centre` to `there` [m]."""
+        left, _, right = np.linalg.svd(linear)
+        rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+        return Pose.from_matrix(rotation, there - rotation @ centre)
+
+    @staticmethod
     def from_yaw(yaw: float, position: tuple[float, float, float]) -> Pose:
         """The pose turned by `yaw` [rad] about the vertical through its origin."""
         return Pose(position=position, quat_wxyz=yaw_quat(yaw))

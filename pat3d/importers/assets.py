@@ -13,27 +13,24 @@ from numpy.typing import NDArray
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.library.body import Body, Inertial
 from pat3d.assets.library.names import Metadata, known_names, synonyms_of, words_of
+from pat3d.assets.library.readers.collision import FROM_PICTURE
 from pat3d.assets.library.readers.inertials import fault
 from pat3d.assets.materials import material as find_material
 from pat3d.assets.mesh.cover import outside, surface_points
 from pat3d.assets.mesh.regions import find_regions
 from pat3d.assets.mesh.repair import repair
 from pat3d.assets.mesh.topology import signed_volume
+from pat3d.check.foreign.shapes import DENSITY
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.mass import MassProperties, mass_properties
 from pat3d.importers.colliders import Colliders, convex_parts
 from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset, VisualMesh
-
-LIGHTEST, HEAVIEST = 1e-5, 1e5
-"""[kg]; what is lighter or heavier cannot be settled."""
+from pat3d.scene.physics import HEAVIEST, LIGHTEST
 
 AT_BASE = 1e-6
 """An origin this far from the height of the base [m] is on it."""
-
-_UNSAID = 1000.0
-"""Density [kg/m^3] of what has no mass, as SDFormat and UsdPhysics prescribe and MuJoCo does."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,7 +68,8 @@ def asset_of(
     Raises:
         AssetError: nothing collides, or no matter can have its mass properties.
     """
-    notes = list(body.notes)
+    # Shapes that are not convex are cut themselves here, whatever the picture is.
+    notes = [note for note in body.notes if not note.endswith(FROM_PICTURE)]
     found: Colliders = convex_parts(body.touched, cache_dir=cache_dir, budget=budget)
     notes += found.notes
     low = np.min([part.bounds[0] for part in found.parts], axis=0)
@@ -85,7 +83,7 @@ def asset_of(
     made_of = find_material(like.material if like else "plastic")
     properties, source, wrong = _weighed(body, origin, visual, volume, parts)
     notes += [f"its inertia was replaced by that of a uniform body: {wrong}"] if wrong else []
-    notes += [] if source != "assumed" else [f"no mass is said: {_UNSAID:g} kg/m^3 was taken"]
+    notes += [] if source != "assumed" else [f"no mass is said: {DENSITY:g} kg/m^3 was taken"]
     if not LIGHTEST <= properties.mass <= HEAVIEST:
         raise AssetError(
             f"its mass is {properties.mass:.3g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be simulated and verified."
@@ -213,7 +211,7 @@ def _weighed(
         return _uniform(parts, volume, given.mass), body.declared, wrong
     if given is not None:
         return _uniform(parts, volume, given.mass), body.declared, "the file gives a mass alone"
-    return _uniform(parts, volume, _UNSAID * volume), "assumed", ""
+    return _uniform(parts, volume, DENSITY * volume), "assumed", ""
 
 
 def _uniform(parts: tuple[ConvexPart, ...], volume: float, mass: float) -> MassProperties:

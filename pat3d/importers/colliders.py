@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.library.body import Piece
-from pat3d.assets.library.readers.collision import CONVEX
+from pat3d.assets.library.readers.collision import CONVEX, meant_as_hull
 from pat3d.assets.mesh.parts import Decomposing, make_parts
 from pat3d.assets.mesh.repair import repair
 from pat3d.assets.mesh.split import allowed, fitted
@@ -60,14 +60,16 @@ def convex_parts(
     kept = cut = flat = 0
     for piece in pieces:
         whole = trimesh.Trimesh(piece.vertices, piece.faces, process=True)
-        for lump in whole.split(only_watertight=False) if not whole.is_convex else [whole]:
+        lumps = [whole] if whole.is_convex else list(whole.split(only_watertight=False, repair=False))
+        # Closed lumps are shapes of their own; open shells bound one only together.
+        for lump in lumps if all(lump.is_watertight for lump in lumps) else [whole]:
             points = np.asarray(lump.vertices, dtype=np.float64)
             try:
                 hull = convex_part(points)
             except AssetError:
                 flat += 1
                 continue
-            if not _convex(points, np.asarray(lump.faces), hull):
+            if not (meant_as_hull(piece) or (lump.is_watertight and _fills(points, np.asarray(lump.faces), hull))):
                 made, cut = _decomposed(points, np.asarray(lump.faces), cache_dir, budget), cut + 1
             elif len(hull.vertices) <= MOST_VERTICES and _sides(hull) <= MOST_FACES:
                 made, kept = [hull], kept + 1
@@ -86,8 +88,8 @@ def convex_parts(
     return Colliders(parts=tuple(parts), kept=kept, cut=cut, notes=tuple(notes))
 
 
-def _convex(points: NDArray[np.float64], faces: NDArray[np.int64], hull: ConvexPart) -> bool:
-    """Whether a mesh is meant as its convex hull: it fills nearly all of it, or is one but for its rounding."""
+def _fills(points: NDArray[np.float64], faces: NDArray[np.int64], hull: ConvexPart) -> bool:
+    """Whether a closed mesh fills nearly all of its convex hull."""
     volume = signed_volume(points, faces)
     return abs(volume) >= CONVEX * signed_volume(hull.vertices, hull.faces)
 

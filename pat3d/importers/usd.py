@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from pat3d.assets.library.body import Body, Inertial, Piece, merged
 from pat3d.assets.library.readers.usd import inertial_of, piece_of
+from pat3d.check.foreign.usd import Y_UP
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.pose import Pose
 from pat3d.importers.model import GROUND_NAMES, ImportedObject, ImportedScene, is_ground
-
-Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 MAX_OBJECTS = 2000
 

@@ -13,6 +13,10 @@ SETTLING_FRICTION = 0.2
 GROUND_FRICTION = 0.4
 """Coulomb coefficient [-] of the ground in exports, at least; with MuJoCo's rule, the least of anything on it."""
 
+LIGHTEST, HEAVIEST = 1e-5, 1e5
+"""Masses [kg] that can be settled and verified: lighter things never come to rest to the tolerances that a scene is
+held to, heavier ones sink through what carries them."""
+
 LEAST_PUSH = 0.01
 """Sideways push on every object, as a share of its weight, that a verified scene stands unless it is asked for more:
 ten times what may be unbalanced. Tilting the ground by 0.57 degrees is such a push."""

@@ -360,12 +360,7 @@ class ModelBuilder:
 
 def poses_from_states(model: Model, q: NDArray[np.float64]) -> list[Pose]:
     """Rigid poses of the bodies' frames nearest to affine states q, shape (bodies, 4, 3)."""
-    poses = []
-    for state, centre in zip(q, model.centres, strict=True):
-        left, _, right = np.linalg.svd(state[1:].T)
-        rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
-        poses.append(Pose.from_matrix(rotation, state[0] - rotation @ centre))
-    return poses
+    return [Pose.from_affine(state[1:].T, state[0], centre) for state, centre in zip(q, model.centres, strict=True)]
 
 
 def _part_pairs(owner: NDArray[np.int32], world: NDArray[np.int32], dof: NDArray[np.int32]) -> NDArray[np.int32]:

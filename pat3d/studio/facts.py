@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pat3d.scene.model import SceneObject
 from pat3d.studio.session import Session
+from pat3d.studio.workbench import Order
+
+LATEST = 20
+"""Orders that are listed."""
 
 _SPECIAL = str.maketrans({one: f"\\{one}" for one in "\\`*_{}[]()<>#+-!|"})
 
@@ -65,6 +69,14 @@ def changed(session: Session) -> str:
     rows = [f"| {plain(name)} | {one.mm:.2f} | {one.degrees:.2f} |" for name, one in moved]
     return "\n".join(
         [*(f"- {line}" for line in lines), "", "| moved by | mm | degrees |", "| --- | --- | --- |", *rows]
+    )
+
+
+def orders(found: Sequence[Order]) -> str:
+    """What was ordered, the latest first."""
+    return "\n".join(
+        f"- {plain(one.title)}: **{one.state}**{f', {plain(one.said)}' if one.said else ''}"
+        for one in found[: -LATEST - 1 : -1]
     )
 
 

@@ -56,6 +56,8 @@ class Panel:
             self._filling = True
             try:
                 self._status.show()
+                self._orders.content = facts.orders(self._bench.orders)
+                self._forget.visible = any(one.state == "waiting" for one in self._bench.orders)
                 if status.working and session is self._looked:
                     return
                 self._show_session(session)
@@ -107,6 +109,7 @@ class Panel:
                 "forces": gui.add_checkbox("Contact forces", False),
                 "ghost": gui.add_checkbox("Initial layout", False),
                 "before": gui.add_checkbox("Before the edits", False),
+                "shadows": gui.add_checkbox("Shadows", False),
             }
             for box in self._boxes.values():
                 box.on_update(lambda _: self._toggle())
@@ -141,6 +144,9 @@ class Panel:
             self._seed = gui.add_number("Seed", 0, min=0, max=2**31 - 1, step=1)
             gui.add_button("Plan", hint="say how it is read, and make nothing").on_click(lambda _: self._plan())
             gui.add_button("Make", color="green").on_click(lambda _: self._make())
+            self._orders = gui.add_markdown("")
+            self._forget = gui.add_button("Drop what waits", visible=False)
+            self._forget.on_click(lambda _: self._bench.forget())
 
     def _click(self, name: str) -> None:
         self._bench.do(lambda now: needed(now).select(name))
@@ -209,7 +215,9 @@ class Panel:
             self._name.value = self._store.name_for(sentence)
             return session, said
 
-        self._bench.start("Making", work)
+        if self._bench.order("Making", sentence, work):
+            return
+        self._bench.do(lambda now: now, "too many sentences wait already.")
 
     def _settled(self, now: Session | None, progress: Watch) -> tuple[Session, str]:
         session = needed(now).settled(progress, run=self._run)

@@ -13,7 +13,7 @@ class Player:
     def __init__(self, gui: Any, label: str, show: Callable[[int], None], *, rate: float) -> None:
         """`show` is called with a frame, from whichever thread; playing takes `rate` frames a second."""
         self._show, self._period = show, 1.0 / rate
-        self._frames, self._loading = 0, False
+        self._frames = 0
         self._playing = threading.Event()
         self._slider = gui.add_slider(label, min=0, max=1, step=1, initial_value=0, disabled=True)
         self._slider.on_update(lambda _: self._moved())
@@ -28,12 +28,9 @@ class Player:
     def load(self, frames: int, *, at: int = -1) -> None:
         """A recording of `frames` frames, beginning at one of them; none to play where there are less than two."""
         self.stop()
-        self._frames, self._loading = frames, True
-        try:
-            self._slider.max = max(1, frames - 1)
-            self._slider.value = at % frames if frames else 0
-        finally:
-            self._loading = False
+        self._frames = frames
+        self._slider.max = max(1, frames - 1)
+        self._slider.value = at % frames if frames else 0
         self._slider.disabled = self._button.disabled = frames < 2
 
     def stop(self) -> None:
@@ -42,7 +39,7 @@ class Player:
         self._button.label = "Play"
 
     def _moved(self) -> None:
-        if not self._loading and self._frames >= 2:
+        if self._frames >= 2:
             self._show(self.frame)
 
     def _toggle(self) -> None:

@@ -5,18 +5,19 @@ from __future__ import annotations
 import io
 import secrets
 import socket
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from pat3d.errors import SpecError
+from pat3d.errors import EvaluationError, SpecError
 from pat3d.mcp_server.root import Root
 from pat3d.progress import Event
-from pat3d.studio.episodes import MOST, Episodes
+from pat3d.studio.episodes import MOST, Episodes, listed
 from pat3d.studio.gallery import Gallery
 from pat3d.studio.gate import Gate, is_loopback
+from pat3d.studio.jobs import warmed
 from pat3d.studio.panel import Panel
 from pat3d.studio.session import Session
 from pat3d.studio.status import StatusLine
@@ -50,7 +51,7 @@ def opened(
 
     Args:
         shown: a folder with a scene or a suite, or one or two with evaluations; none to begin without.
-        root: folder that scenes are saved in; where None the one that the scene is in, else "scenes".
+        root: folder that scenes are saved in; where None the one that the scene is in, or "scenes".
         host: address to listen at. Other machines reach any but the loopback, and need the token of the address.
         port: 0 for any that is free.
 
@@ -65,7 +66,7 @@ def opened(
     with ExitStack() as stack:
         folders = [Path(one).expanduser().absolute() for one in shown]
         kind = kind_of(folders)
-        beside = "scenes" if kind != "scene" else folders[0].parent
+        beside = "scenes" if kind in ("nothing", "suite") else folders[0].parent
         store = Store(Root.at(root if root is not None else beside))
         stack.callback(store.close)
         bench = Workbench(store.opened(folders[0]) if kind == "scene" else None)
@@ -77,7 +78,10 @@ def opened(
         stack.callback(server.stop)
         stack.callback(bench.wait, 60.0)
         stack.callback(bench.cancel)
+        stack.callback(bench.forget)
         server.gui.configure_theme(control_width="large", show_logo=False)
+        if kind != "evaluations":
+            server.on_client_connect(_once(lambda: worker.warm(warmed)))
         page = _page(kind, server, folders, bench, store, worker.run)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         gate = Gate(host, port, inner=server.get_port(), token=token)
@@ -86,6 +90,17 @@ def opened(
         where = f"http://{f'[{named}]' if ':' in named else named}:{gate.port}/"
         address = where if token is None else f"{where}?token={token}"
         yield Studio(address=address, bench=bench, store=store, page=page)
+
+
+def _once(act: Callable[[], None]) -> Callable[[Any], None]:
+    """What does `act` when it is first called."""
+    left = [act]
+
+    def hear(_: Any) -> None:
+        if left:
+            left.pop()()
+
+    return hear
 
 
 Kind = Literal["nothing", "scene", "suite", "evaluations"]
@@ -115,7 +130,12 @@ def _page(kind: Kind, server: Any, folders: Sequence[Path], bench: Workbench, st
     if kind == "evaluations":
         from pat3d.policies_eval.run.records import read_evaluation
 
-        return Episodes(server, bench, status, run, [read_evaluation(folder) for folder in folders])
+        evaluations = [read_evaluation(folder) for folder in folders]
+        if not listed(evaluations):
+            raise EvaluationError(
+                f"{' and '.join(map(str, folders))} share no episode; evaluate both with the same options."
+            )
+        return Episodes(server, bench, status, run, evaluations)
     if kind == "suite":
         from pat3d.envs.suites.suite import Suite
 

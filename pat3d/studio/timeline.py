@@ -32,13 +32,11 @@ class Timeline:
 
     def poses(self, frame: int) -> dict[str, Pose]:
         """Of every object in a frame, by name."""
-        found = {}
-        for name, state, centre in zip(self.names, self.states[frame].astype(np.float64), self.centres, strict=True):
-            # The rotation nearest to the linear map, which is stiff but not rigid.
-            left, _, right = np.linalg.svd(state[1:].T)
-            rotation = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
-            found[name] = Pose.from_matrix(rotation, state[0] - rotation @ centre)
-        return found
+        states = self.states[frame].astype(np.float64)
+        return {
+            name: Pose.from_affine(state[1:].T, state[0], centre)
+            for name, state, centre in zip(self.names, states, self.centres, strict=True)
+        }
 
     def farthest(self) -> NDArray[np.float64]:
         """Largest distance of any centre of mass from where it is at rest, of every frame [mm], shape (frames,)."""

@@ -34,6 +34,8 @@ class Shown:
     forces: bool = False
     ghost: bool = False
     before: bool = False
+    shadows: bool = False
+    """Without a graphics card they make a frame take three times as long."""
 
 
 class View:
@@ -50,7 +52,7 @@ class View:
         self._extras: dict[str, tuple[Any, list[Any]]] = {}
         """What was drawn of hulls, names and so on, and what it was drawn for."""
         self._gizmo: Any = None
-        self._made = 0
+        self._made, self._shadows = 0, False
         ground(server)
 
     def look_at(self, scene: Scene) -> None:
@@ -70,6 +72,9 @@ class View:
         starts = tuple((obj.name, obj.initial_pose, id(obj.asset)) for obj in objects.values())
         scene = None if session is None else session.scene
         at_rest = session is not None and session.at_rest
+        if shown.shadows != self._shadows:
+            self._shadows = shown.shadows
+            self._scene.configure_default_lights(cast_shadow=shown.shadows)
         self._extra("names", shown.names and scene, poses, self._names)
         self._extra("hulls", shown.hulls and scene, poses, self._hulls)
         self._extra("ghost", shown.ghost and scene, starts, self._ghost)
@@ -212,7 +217,7 @@ class View:
 def ground(server: viser.ViserServer) -> None:
     """Light, and a grid at height 0 with a line every 0.1 m."""
     server.scene.set_up_direction("+z")
-    server.scene.configure_default_lights()
+    server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_grid(
         "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
     )

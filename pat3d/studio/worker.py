@@ -47,13 +47,14 @@ class Worker:
         self._scratch, self._lock = scratch, threading.Lock()
         self._process: Any = None
         self._pipe: Any = None
+        self._closed = False
 
     def run(self, job: Job, *arguments: Any, progress: Progress = silent) -> Any:
         """What `job` returns for `arguments`; where `progress` raises, the process is ended.
 
         Raises:
             Pat3dError: the job raised it.
-            SimulationError: the process ended by itself.
+            SimulationError: the process ended by itself, or the studio has ended.
         """
         check = getattr(progress, "check", lambda: None)
         with self._lock:
@@ -79,12 +80,25 @@ class Worker:
             raise RuntimeError(said[0])
         return said[0]
 
+    def warm(self, job: Job) -> None:
+        """Do `job` in the background, so that the next one does not wait for the process to start."""
+
+        def work() -> None:
+            # Whoever needs what it loads is told of the fault.
+            with suppress(Pat3dError, RuntimeError):
+                self.run(job)
+
+        threading.Thread(target=work, daemon=True, name="pat3d studio warming").start()
+
     def close(self) -> None:
-        """End the process, which has nothing to do."""
+        """End the process for good, as soon as it has nothing to do."""
         with self._lock:
+            self._closed = True
             self._stop(idle=True)
 
     def _start(self) -> None:
+        if self._closed:
+            raise SimulationError("the studio has ended.")
         if self._process is not None and self._process.is_alive():
             return
         # A server has threads, so the process does not begin as a copy of this one.

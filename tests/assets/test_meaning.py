@@ -7,9 +7,11 @@ import pytest
 
 from pat3d.assets.library.index import add_library
 from pat3d.assets.library.meaning import EmbeddingSettings, embedding_settings, search
+from pat3d.cli.documents import FoundFacts
 from pat3d.cli.main import main
 from pat3d.errors import ModelError
 from tests.assets.things_to_index import MJCF, URDF
+from tests.documents import document_of
 from tests.plan.llm_server import Reply, fault, serving
 
 pytest.importorskip("openai")
@@ -84,8 +86,11 @@ def test_what_is_no_vector_is_an_error_that_keeps_the_key_to_itself(lab, reply, 
 
 def test_the_hosted_key_goes_to_its_own_server_alone():
     given = {"PAT3D_EMBEDDINGS": "m", "OPENAI_API_KEY": "sesame"}
-    assert embedding_settings(given).key == "sesame"
-    assert embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "http://localhost:1/v1"}).key == ""
+    hosted = embedding_settings(given)
+    own = embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "http://localhost:1/v1"})
+    assert hosted is not None
+    assert own is not None
+    assert (hosted.key, own.key) == ("sesame", "")
     with pytest.raises(ModelError, match="PAT3D_EMBEDDINGS_URL"):
         embedding_settings({**given, "PAT3D_EMBEDDINGS_URL": "localhost:1"})
 
@@ -93,6 +98,7 @@ def test_the_hosted_key_goes_to_its_own_server_alone():
 def test_the_command_says_what_would_search_by_meaning(lab, capsys, monkeypatch):
     assert main(["library", "search", "sponge"]) == 0
     assert "lab/sponge" in capsys.readouterr().out
+    assert document_of(capsys, ["library", "search", "sponge"], list[FoundFacts])[0]["noun"] == "lab/sponge"
     assert main(["library", "search", "something to lift"]) == 1
     assert "PAT3D_EMBEDDINGS" in capsys.readouterr().out
     with serving(vectors_of([0.0, 1.0, 0.0]), vectors_of(*(MEANINGS[key] for key in lab))) as server:

@@ -96,6 +96,16 @@ def test_what_stays_only_on_level_ground_hardly_stands():
     assert outcome(asset_of(box(0.1, 0.1, 0.05)), block, shadow) == "hardly"
 
 
+def test_what_is_round_has_no_edge():
+    """A plank beside the highest line of a log lies there tilted, by as much as its share of the radius."""
+    log = asset_of(cylinder(0.1, 0.3, sides=32).turned("y", 90))
+    slopes = Shadow(centre=(0.15, 0.012), yaw=math.pi / 2, size=(0.1, 0.02))
+    assert outcome(log, PLANK, slopes) == "slopes"
+    pose = slopes.laid(slopes.over(log.visual.vertices, log.visual.faces))
+    # Flat sides of 48 are 7.5 degrees apart.
+    assert math.degrees(math.acos(pose.rotation[2, 2])) == pytest.approx(math.degrees(math.asin(0.12)), abs=3.75)
+
+
 def test_boards_are_laid_inside_and_outside_of_every_side():
     found = list(shadows(asset_of(box(0.1, 0.06, 0.03))))
     assert len(found) == 2 * 4 * 6

@@ -11,8 +11,8 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
+from pat3d.envs.physics.lights import light_up
 from pat3d.envs.rendering import pictures
-from pat3d.envs.rendering.lights import light_up
 from pat3d.envs.rendering.pictures import TOLERANCE
 from pat3d.envs.rendering.raytrace import RayTracer
 from pat3d.errors import EnvironmentSetupError

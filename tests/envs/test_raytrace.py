@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
-from pat3d.envs.rendering.lights import FLOOR, SKY, SUN, light_up
+from pat3d.envs.physics.lights import FLOOR, SKY, SUN, light_up
 from pat3d.envs.rendering.raytrace import TILE, RayTracer
 
 SIZE = 11

@@ -20,7 +20,7 @@ pytest.importorskip("robosuite")
 gymnasium = pytest.importorskip("gymnasium")
 
 import pat3d  # noqa: E402, F401
-from pat3d.cli.documents import SuiteFacts  # noqa: E402
+from pat3d.cli.documents import ConventionFacts, SpecFacts, SuiteFacts  # noqa: E402
 from pat3d.cli.main import main  # noqa: E402
 from pat3d.envs.lerobot import make_env  # noqa: E402
 from pat3d.envs.suites.check import check_suite  # noqa: E402
@@ -31,6 +31,7 @@ from pat3d.envs.suites.request import Request  # noqa: E402
 from pat3d.envs.suites.suite import Suite  # noqa: E402
 from pat3d.envs.suites.worker_pool import WorkerPool  # noqa: E402
 from pat3d.errors import EnvironmentSetupError, ExportError, SuiteError, UnsettledSceneError  # noqa: E402
+from pat3d.policies_eval.policies.scripted import ScriptedPolicy  # noqa: E402
 from tests.documents import document_of  # noqa: E402
 from tests.envs.suites import SMALL, alive, files_of, wait, workers_of  # noqa: E402
 
@@ -398,6 +399,38 @@ def test_a_suite_s_robot_is_the_one_it_was_made_for(made, monkeypatch):
     assert TabletopConfig(suite=made).arms == Suite.open(made).request.robot == "Panda"
     assert TabletopConfig(suite=made, robot="so101").arms == "so101"
     assert TabletopConfig().arms == "ur5e"
+
+
+def test_a_suite_tells_its_interface_and_checks_a_policy_against_it(made, copy, capsys):
+    folder = copy
+    assert main(["suite", "spec", str(folder), "--episodes", "1"]) == 0
+    told = json.loads((folder / "spec.json").read_text())
+    assert told["robot"] == "Panda"
+    assert told["suite"]["checksum"] == Suite.open(made).document["checksum"]
+    assert len(told["statistics"]["action"]["std"]) == told["action"]["size"] == 7
+    assert main(["suite", "check", str(folder), "--quick"]) == 0
+    capsys.readouterr()
+    asked = ["suite", "check-policy", str(folder), "--episodes", "1", "--policy"]
+    assert main([*asked, "scripted"]) == 0
+    assert capsys.readouterr().out.count("as it should be") == 3
+    assert main([*asked, f"{__name__}:Flipped"]) == 1
+    assert "gripper: flipped; positive closes" in "".join(capsys.readouterr())
+
+
+class Flipped(ScriptedPolicy):
+    """Opens where it should close."""
+
+    def act(self, observation):
+        return super().act(observation) * [1, 1, 1, 1, 1, 1, -1]
+
+
+def test_the_description_and_a_policy_s_conventions_are_documents(copy, capsys):
+    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0"], SpecFacts)
+    assert Path(written["file"]).is_file()
+    asked = ["suite", "check-policy", str(copy), "--policy", "scripted", "--episodes", "1", "--steps", "8"]
+    found = document_of(capsys, asked, ConventionFacts)
+    assert found["passed"]
+    assert found["explained"]["position"] == pytest.approx(1.0)
 
 
 def test_the_page_shows_every_scene_and_escapes_what_it_is_told(made, capsys):

@@ -33,7 +33,7 @@ def test_a_model_keeps_what_it_says_unless_the_specification_says_otherwise(tmp_
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        ("a, model: brick.xml, noun: cup", "needs one of"),
+        ("a, model: brick.xml, noun: cup", "needs either a noun"),
         ("a, model: brick.xml, size: 0.1", '"size" is for what is no model only'),
         ("a, model: none.xml", 'no model file "none.xml"'),
         ("a, model: brick.xml, units: mm", '"units" is for meshes only'),

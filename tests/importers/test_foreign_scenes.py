@@ -162,7 +162,7 @@ def test_urdf_links_that_float_are_objects_and_doors_are_refused(tmp_path):
 
 
 def test_usd_units_and_axes_are_the_stage_s(tmp_path):
-    """A ball of 10 cm, 20 cm up, on a stage in centimetres with y up, in grams."""
+    """A box of 10 by 20 by 40 cm, 20 cm up, on a stage in centimetres with y up, in grams."""
     pytest.importorskip("pxr")
     path = tmp_path / "scene.usda"
     path.write_text(
@@ -176,6 +176,8 @@ def test_usd_units_and_axes_are_the_stage_s(tmp_path):
 def Xform "World" {
   def Xform "box" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]) {
     float physics:mass = 500
+    point3f physics:centerOfMass = (0, 0, 0)
+    float3 physics:diagonalInertia = (83333.333, 70833.333, 20833.333)
     double3 xformOp:translate = (5, 20, 30)
     uniform token[] xformOpOrder = ["xformOp:translate"]
     def Cube "shape" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {
@@ -189,6 +191,9 @@ def Xform "World" {
     )
     (box,) = import_scene(path).scene.objects
     assert box.asset.mass_properties.mass == pytest.approx(0.5)
+    # m (a^2 + b^2) / 12 of the sides across each axis; the stage's z is our -y.
+    moments = 0.5 / 12 * np.array([0.2**2 + 0.4**2, 0.1**2 + 0.2**2, 0.1**2 + 0.4**2])
+    np.testing.assert_allclose(box.asset.mass_properties.inertia, np.diag(moments), rtol=1e-6, atol=1e-12)
     corners = box.pose.apply(np.concatenate([part.vertices for part in box.parts]))
     # x stays, the stage's y is up, its z points towards the viewer, who stands at -y.
     assert corners.min(axis=0) == pytest.approx((0.0, -0.5, 0.1))
@@ -239,3 +244,28 @@ def test_what_floats_and_overlaps_settles_and_is_verified(tmp_path, capsys):
     for name in ("floats", "sinks"):
         assert scene[name].pose.position[2] == pytest.approx(0.4, abs=2e-5)
         assert scene.parent(name) == "table"
+
+
+def test_an_open_shell_is_cut_as_a_whole_and_closed_lumps_one_by_one(tmp_path):
+    """A collision mesh of two boxes is two parts; a box without its lid, whose sides share no corner, stays open."""
+    boxes = [np.array([[x, y, z] for x in (a, a + 0.04) for y in (0, 0.04) for z in (0, 0.04)]) for a in (0.0, 0.1)]
+    faces = np.array(
+        [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
+         [1, 5, 7], [1, 7, 3]]
+    )  # fmt: skip
+    (tmp_path / "two.obj").write_text(hull_obj(np.concatenate(boxes), np.concatenate([faces, faces + 8])))
+    (tmp_path / "scene.urdf").write_text(
+        '<robot name="pair"><link name="l"><collision><geometry><mesh filename="two.obj"/></geometry></collision>'
+        "</link></robot>"
+    )
+    read = import_scene(tmp_path / "scene.urdf")
+    assert (read.kept, read.cut) == (2, 0)
+    assert all(part.box is not None for part in read.scene["pair"].parts)
+    apart = boxes[0][faces[:10]].reshape(-1, 3)
+    (tmp_path / "two.obj").write_text(hull_obj(apart, np.arange(30).reshape(10, 3)))
+    tub = import_scene(tmp_path / "scene.urdf", cache_dir=tmp_path / "cache")
+    assert tub.cut == 1
+    inside = np.array([0.02, 0.02, 0.03]) - tub.scene["pair"].pose.position
+    assert not any(
+        (np.all(inside > part.bounds[0]) and np.all(inside < part.bounds[1])) for part in tub.scene["pair"].parts
+    )

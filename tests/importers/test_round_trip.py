@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pat3d.exporters import export
-from pat3d.importers.scene import import_scene
+from pat3d.importers.scene import Imported, import_scene
 from pat3d.scene.model import Scene, SceneObject
 from pat3d.scene.naming import slug
 from tests.exporters.things import hung_bar, mixed_scene
@@ -28,6 +28,11 @@ def exports(scene, tmp_path_factory) -> dict[str, Path]:
     return export(scene, tuple(LIMITS), tmp_path_factory.mktemp("exports"))
 
 
+@pytest.fixture(scope="module")
+def imports(exports) -> dict[str, Imported]:
+    return {name: import_scene(path.parent) for name, path in exports.items()}
+
+
 def in_the_world(obj: SceneObject) -> dict[str, np.ndarray]:
     """What an engine sees of an object, whatever its own frame is."""
     turn, properties = obj.pose.rotation, obj.asset.mass_properties
@@ -44,8 +49,8 @@ def in_the_world(obj: SceneObject) -> dict[str, np.ndarray]:
 
 
 @pytest.mark.parametrize("name", LIMITS)
-def test_an_export_comes_back_as_the_scene_that_it_was(scene, exports, name):
-    read = import_scene(exports[name].parent)
+def test_an_export_comes_back_as_the_scene_that_it_was(scene, imports, name):
+    read = imports[name]
     assert (read.format, read.cut, read.lifted) == (name, 0, 0.0)
     back = {slug(obj.name): obj for obj in read.scene.objects}
     assert set(back) == {slug(obj.name) for obj in scene.objects}
@@ -63,14 +68,13 @@ def test_an_export_comes_back_as_the_scene_that_it_was(scene, exports, name):
 
 
 @pytest.mark.parametrize("name", ["mjcf", "urdf", "usd"])
-def test_names_as_people_write_them_come_back(scene, exports, name):
-    read = import_scene(exports[name].parent)
-    assert [obj.name for obj in read.scene.objects] == [obj.name for obj in scene.objects]
+def test_names_as_people_write_them_come_back(scene, imports, name):
+    assert [obj.name for obj in imports[name].scene.objects] == [obj.name for obj in scene.objects]
 
 
 @pytest.mark.parametrize("name", LIMITS)
-def test_equal_objects_share_one_asset(scene, exports, name):
-    mugs = [obj for obj in import_scene(exports[name].parent).scene.objects if "mug" in obj.name]
+def test_equal_objects_share_one_asset(imports, name):
+    mugs = [obj for obj in imports[name].scene.objects if "mug" in obj.name]
     assert len(mugs) == 2
     assert mugs[0].asset is mugs[1].asset
 

@@ -152,3 +152,12 @@ def test_what_is_over_something_upside_down_does_not_stand_on_it():
 )
 def test_what_a_person_would_read_otherwise_is_named(sentence: str, named: str):
     assert any(named in note for note in GrammarPlanner().plan(sentence).notes)
+
+
+def test_a_small_thing_of_which_nothing_says_where_it_is_while_others_are_on_a_table_is_said():
+    prompt = "A red mug is on a table, and a pen."
+    objects = (thing("red mug", "A red mug", "red"), thing("table", "a table"), thing("pen", "a pen"))
+    told = ScenePlan(prompt=prompt, objects=objects, relations=(Relation(child="red mug", kind="on", parent="table"),))
+    assert audited(told, find, ("table",)).notes == ('"a pen": where is not said; on the ground',)
+    carried = replace(told, relations=(*told.relations, Relation(child="pen", kind="on", parent="table")))
+    assert audited(carried, find, ("table",)).notes == ()

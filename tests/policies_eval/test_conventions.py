@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.analysis.conventions import Compared, examine, resemblance
+from pat3d.policies_eval.analysis.probe import compare_actions
 from pat3d.policies_eval.policies.registry import RandomPolicy
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.policies_eval.run.episodes import Episode
-from pat3d.policies_eval.run.probe import compare_actions
 from pat3d.policies_eval.run.settings import RolloutSettings
 from tests.envs.own_arm import own_arm
 

@@ -29,7 +29,7 @@ def every_third_succeeds(monkeypatch):
 
     class Runner:
         def __init__(self, settings):
-            pass
+            self.env = None
 
         def run(self, episode, policy):
             done.append(episode.index)
@@ -47,6 +47,7 @@ def every_third_succeeds(monkeypatch):
             pass
 
     monkeypatch.setattr(module, "Runner", Runner)
+    monkeypatch.setattr("pat3d.envs.interface.describe", lambda env: {"cameras": {}})
     monkeypatch.setattr(
         "pat3d.policies_eval.run.episodes.settings_of", lambda *_: (Setting(scene="", task="pick:red mug"),)
     )

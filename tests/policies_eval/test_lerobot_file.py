@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -51,6 +52,14 @@ def demonstration(number, *, pictures=False, joints=7):
 @pytest.fixture
 def shown():
     return [demonstration(number) for number in range(len(LENGTHS))]
+
+
+def test_the_interface_is_written_with_the_cameras_of_every_episode(tmp_path, shown):
+    told = [replace(one, interface={"robot": "x", "cameras": {"wrist": k}}) for k, one in enumerate(shown)]
+    write_lerobot(told, tmp_path / "set")
+    written = json.loads((tmp_path / "set/meta/interface.json").read_text())
+    assert written["robot"] == "x"
+    assert written["cameras_of_episodes"] == [{"wrist": k} for k in range(len(shown))]
 
 
 def read(folder, pattern="data/*/*.parquet"):

@@ -64,7 +64,7 @@ def server(studio):
 def test_a_sentence_becomes_a_scene(studio, browser, shot):
     field(browser, "Sentence").fill(SENTENCE)
     browser.get_by_role("button", name="Make").click()
-    browser.get_by_text("made and verified").wait_for()
+    browser.get_by_text("made and verified").first.wait_for()
     browser.get_by_text("it does not move").wait_for()
     assert {"red mug", "cutting board"} <= {obj.name for obj in needed(studio.bench.session).scene.objects}
 
@@ -134,5 +134,5 @@ def test_work_goes_on_while_the_page_is_loaded_again_and_can_be_cancelled_there(
     browser.get_by_role("button", name="Cancel").wait_for()
     browser.reload()
     browser.get_by_role("button", name="Cancel").click()
-    browser.get_by_text("was cancelled").wait_for()
+    browser.get_by_text("was cancelled").first.wait_for()
     assert studio.bench.session is before

@@ -6,6 +6,7 @@ import pytest
 
 from pat3d.errors import EditError
 from pat3d.progress import Event
+from pat3d.studio.facts import orders
 from pat3d.studio.session import Session
 from pat3d.studio.workbench import Workbench, needed
 from tests.studio.bricks import bricks_in
@@ -109,3 +110,64 @@ def test_work_that_fails_says_why(session):
     assert bench.status.failed
     assert bench.status.said == "it topples."
     assert bench.session is session
+
+
+def saying(name):
+    return lambda now, progress: (needed(now).edited("set", f"brick: mass={name}"), f"made {name}")
+
+
+def test_orders_are_done_one_after_the_other_and_told_of(session):
+    bench, work = Workbench(session), Held()
+
+    def refused(now, progress):
+        raise EditError("no room.")
+
+    assert bench.order("Making", "one", work)
+    assert work.begun.wait(60)
+    for title, order in (("two", saying(2)), ("three", refused), ("four", saying(4))):
+        assert bench.order("Making", title, order)
+    assert [one.state for one in bench.orders] == ["working", "waiting", "waiting", "waiting"]
+    assert not bench.start("Settling", work)
+    work.go.set()
+    assert bench.wait(60)
+    assert [one.state for one in bench.orders] == ["done", "done", "refused", "done"]
+    assert [one.said for one in bench.orders] == ["done", "made 2", "no room.", "made 4"]
+    assert len(needed(bench.session).past) == 2
+
+
+def test_cancelling_ends_one_order_and_the_next_begins(session):
+    bench, work = Workbench(session), Held()
+    bench.order("Making", "one", work)
+    bench.order("Making", "two", saying(2))
+    assert work.begun.wait(60)
+    bench.cancel()
+    work.go.set()
+    assert bench.wait(60)
+    assert [one.state for one in bench.orders] == ["cancelled", "done"]
+
+
+def test_what_waits_can_be_dropped_and_is_not_without_end(session, monkeypatch):
+    monkeypatch.setattr("pat3d.studio.workbench.MAX_WAITING", 2)
+    bench, work = Workbench(session), Held()
+    bench.order("Making", "one", work)
+    assert work.begun.wait(60)
+    assert bench.order("Making", "two", saying(2))
+    assert bench.order("Making", "three", saying(3))
+    assert not bench.order("Making", "four", saying(4))
+    bench.forget()
+    work.go.set()
+    assert bench.wait(60)
+    assert [one.state for one in bench.orders] == ["done", "cancelled", "cancelled"]
+    assert bench.session is not None
+    assert needed(bench.session).past == ()
+
+
+def test_orders_are_listed_the_latest_first():
+    bench = Workbench(None)
+    bench.order("Making", "a *red* mug", lambda now, progress: (now, "made"))
+    assert bench.wait(60)
+    bench.order("Making", "a book", lambda now, progress: needed(now))
+    assert bench.wait(60)
+    first, second = orders(bench.orders).splitlines()
+    assert first.startswith("- a book: **refused**, there is no scene yet")
+    assert second == "- a \\*red\\* mug: **done**, made"

@@ -80,6 +80,7 @@ def test_cancelled_work_that_tells_nothing_ends_and_another_can_begin(worker, tm
     assert bench.start("Counting", lambda now, progress: (worker.run(endless, tmp_path, progress=progress), "done"))
     file = tmp_path / "pid"
     while not (file.is_file() and file.read_text()):
+        assert bench.status.working, bench.status.said
         time.sleep(0.02)
     assert lives(int(file.read_text()))
     bench.cancel()
@@ -127,3 +128,16 @@ def test_a_watch_raises_where_it_is_asked_to():
     cancelled = True
     with pytest.raises(CancelledError):
         watch.check()
+
+
+def test_a_process_that_was_warmed_is_the_one_that_works(tmp_path):
+    made = Worker(tmp_path)
+    try:
+        made.warm(number)
+        first = made.run(number)
+        assert made.run(number) == first
+        made.warm(faulty)
+        assert made.run(number) == first
+    finally:
+        made.close()
+    assert not lives(first)

@@ -105,8 +105,7 @@ def _metadata(raw: Mapping[str, Any]) -> Metadata | None:
     licence = raw.get("license") or raw.get("licence") or ""
     mass = raw.get("mass")
     names = [name for name in names if 0 < len(name) <= 100][:20]
-    said = (_axis(raw.get(key)) for key in ("up", "up_axis", "upAxis", "upaxis"))
-    up = cast("UpAxis | None", next((axis for axis in said if axis is not None), None))
+    up = _up(raw)
     if not names and not licence and mass is None and up is None:
         return None
     return Metadata(
@@ -116,6 +115,14 @@ def _metadata(raw: Mapping[str, Any]) -> Metadata | None:
         up=up,
         raw=raw,
     )
+
+
+def _up(raw: Mapping[str, Any]) -> UpAxis | None:
+    """The axis that points up, where one of the usual keys names it."""
+    for key in ("up", "up_axis", "upAxis", "upaxis"):
+        if (axis := _axis(raw.get(key))) is not None:
+            return axis
+    return None
 
 
 def _axis(said: object) -> UpAxis | None:

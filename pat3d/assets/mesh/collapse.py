@@ -2,7 +2,7 @@
 
 A point that lies outside every face around an edge takes the place of both its ends: the hull of what is left
 contains the hull before (progressive hulls, Sander et al. 2000). It is placed where the volume that it adds is
-least, and of the edges that share no face the cheapest go together, so that the hull is made anew some fifteen times,
+least, and of the edges that share no face the cheapest go together, so that the hull is made anew some twenty times,
 not once an edge. Everything is of unit size.
 """
 

@@ -110,7 +110,7 @@ def import_mesh(
         friction: Coulomb coefficient [-]; the material's where None.
         parts: how to make convex parts: decomposition, one convex hull, or the bounding box.
         threshold: concavity that a decomposition may leave [-], from 0.01 (fine) to 1; where None 0.05, and for an
-            object with a cavity 0.03 or finer until the cavity stays open.
+            object with a cavity 0.065 or finer until the cavity stays open.
         max_hulls: most convex parts of a decomposition; where a finer one would have more, the coarser one is kept.
         decomposition_limit: processor time for the decomposition [s], however busy the machine is.
         thickness: wall thickness [m] for open shells; see `repair`.

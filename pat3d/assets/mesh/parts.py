@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from pat3d.assets.mesh.cavity import cavity_loss
+from pat3d.assets.mesh.cavity import cavity_loss, probe
 from pat3d.assets.mesh.cover import Cover, cover, surface_patches, surface_points
 from pat3d.assets.mesh.decompose import DEFAULT_OPTIONS, decompose
+from pat3d.assets.mesh.hollow import opened
 from pat3d.assets.mesh.inflation import inflation
 from pat3d.assets.mesh.regions import cavity, mesh_height_map
 from pat3d.assets.mesh.repair import Repaired, Solid, manifold_of, solid_of
@@ -31,7 +32,7 @@ PartsMethod = Literal["coacd", "hull", "box"]
 THRESHOLD = 0.05
 """CoACD's concavity threshold for objects without a cavity."""
 
-CAVITY_THRESHOLDS = (0.03, 0.02, 0.012)
+CAVITY_THRESHOLDS = (0.065, 0.04, 0.025, 0.015)
 """Thresholds for objects with a cavity, tried in turn until the parts leave it open."""
 
 MAX_CAVITY_LOSS = 0.02
@@ -80,7 +81,7 @@ class Decomposing:
 
     method: PartsMethod = "coacd"
     threshold: float | None = None
-    """CoACD's concavity [-]; None for 0.05, and 0.03 or finer until a cavity stays open."""
+    """CoACD's concavity [-]; None for 0.05, and for an object with a cavity 0.065 or finer until it stays open."""
     max_hulls: int = MAX_HULLS
     seconds: float = DECOMPOSITION_SECONDS
     """Processor time [s]."""
@@ -148,10 +149,13 @@ def make_parts(fixed: Repaired, how: Decomposing, cache_dir: str | os.PathLike[s
     # A budget for all pieces at all thresholds: a soup of triangles has dozens, and each could take all of it.
     own = CpuBudget(how.seconds)
     best: Parts | None = None
+    seen = None if pit is None else probe(fixed.solid.vertices, fixed.solid.faces, pit)
     for threshold in thresholds:
         pieces, options = _decomposed(fixed, threshold, pit is not None, cache_dir, (own, budget), how)
         if best is not None and len(pieces) > how.max_hulls:
             break
+        if seen is not None:
+            pieces = opened(pieces, fixed.solid, seen, int(ROOM * how.max_hulls))
         made = _contained(pieces, points, triangles, limit, how.max_hulls)
         record = {"options": options, "stuck_out": made.before, **_record(made, limit, start)}
         if pit is None:

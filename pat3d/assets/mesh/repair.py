@@ -347,8 +347,9 @@ def manifold_of(vertices: Points, faces: Indices) -> manifold3d.Manifold | None:
     """The mesh as a manifold3d solid, or None where it is none."""
     solid = manifold3d.Manifold(
         manifold3d.Mesh64(
-            vert_properties=np.ascontiguousarray(vertices, dtype=np.float64),
-            tri_verts=np.ascontiguousarray(faces, dtype=np.uint64),
+            # Copies: it takes no array that is read-only, as its own are.
+            vert_properties=np.array(vertices, dtype=np.float64, order="C"),
+            tri_verts=np.array(faces, dtype=np.uint64, order="C"),
         )
     )
     return None if solid.status() != manifold3d.Error.NoError or solid.is_empty() else solid

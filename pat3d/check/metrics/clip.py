@@ -20,7 +20,7 @@ def clip_judge(model: str) -> tuple[str, Judge]:
     try:
         import transformers  # pyright: ignore[reportMissingImports]
     except ImportError:
-        raise CheckError("needs transformers: pip install 'pat3d[scores]'") from None
+        raise CheckError("needs transformers: pip install 'pat3d[vision]'") from None
     try:
         loaded: Any = transformers.CLIPModel.from_pretrained(model)
         tokenizer: Any = transformers.AutoTokenizer.from_pretrained(model)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
@@ -43,14 +43,15 @@ _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left
 """Notes on a word of a phrase, which say nothing of the rest of it."""
 
 
-def audited(plan: ScenePlan, find: Find) -> ScenePlan:
+def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> ScenePlan:
     """`plan` with a note on everything that its prompt says on its face and the plan does not have.
 
     Args:
         plan: to be compared with its own prompt.
         find: the catalogue noun that a name means, or None.
+        furniture: nouns of what stands on the floor by nature, of which nobody says where it is.
     """
-    auditor = _Auditor(plan, read(plan.prompt, find))
+    auditor = _Auditor(plan, read(plan.prompt, find), furniture)
     return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *auditor.differences()))))
 
 
@@ -61,7 +62,8 @@ def _covered(note: str) -> str:
 
 
 class _Auditor:
-    def __init__(self, plan: ScenePlan, said: Said) -> None:
+    def __init__(self, plan: ScenePlan, said: Said, furniture: Collection[str]) -> None:
+        self._furniture = frozenset(furniture)
         self._plan = plan
         self._said = said
         told = [note for note in plan.notes if not _ASSUMED.search(note) and "no task does" not in note]
@@ -98,7 +100,7 @@ class _Auditor:
             if not any(self._has(obj, word) for obj in self._plan.objects) and not self._named(word):
                 made.append((self._said.words.index(word), f'not in the scene: "{word}"'))
         made += self._unheard()
-        made += [(0, note) for note in self._made_as()]
+        made += [(0, note) for note in (*self._made_as(), *self._astray())]
         for claim in self._said.claims:
             if (note := self._broken(claim)) is not None:
                 made.append((claim.at, note))
@@ -151,6 +153,25 @@ class _Auditor:
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _astray(self) -> list[str]:
+        """Small things of which nothing says where they are, while others of their sentence are carried."""
+        tables = {obj.name for obj in self._plan.objects if obj.noun in self._furniture or obj.noun == "tray"}
+        carried = {a for a, kind, b in self._edges if kind in ("on", "in") and b in tables}
+        if not carried or self._tasks.strip() or self._undone:
+            return []
+        related = {name for edge in self._edges for name in (edge[0], edge[2])}
+        parts = {mention.part for mention in self._said.mentions for obj in self._of(mention) if obj.name in carried}
+        told = {obj.noun for obj in self._plan.objects if obj.name in related}
+        astray = [obj for obj in self._plan.objects if obj.noun not in told and obj.noun not in self._furniture]
+        astray = [obj for obj in astray if any(
+            mention.part in parts for mention in self._said.mentions if obj in self._of(mention)
+        )]  # fmt: skip
+        return [
+            f'"{phrase}": where is not said; on the ground'
+            for phrase in dict.fromkeys(obj.phrase for obj in astray)
+            if phrase.lower() not in self._told
+        ]
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar.matching import line_up, position
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
+from pat3d.scene.relations import SUPPORT_KINDS
 
 
 class Contrast(Pronouns):
@@ -22,14 +24,22 @@ class Contrast(Pronouns):
 
     def _elsewhere(self, at: int, group: Group) -> bool:
         """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""
-        told = self._place_of(at)
+        told, item = self._place_of(at), group.items[0]
+        edge = self._world.supports.get(item)
+        if told is not None and told[0][0] in SUPPORT_KINDS and edge is not None and len(group.items) == 1:
+            # "The mug on the table is red. The mug on the shelf is blue."
+            above = self._world.ancestors(item)
+            carriers = {word for one in above for word in (self._world.noun(one), one.group.said)}
+            return not edge.weak and told[1] not in carriers and not self._is_pronoun(at + 2)
         heads = [head for head, items in self.known.items() if items and items[0].group is group]
         before = next((place for head in heads if (place := self._place_of(head)) is not None), None)
         return told is not None and before is not None and told != before
 
-    def _place_of(self, at: int) -> tuple[object, str] | None:
+    def _place_of(self, at: int) -> tuple[tuple[str | None, str], str] | None:
         """The relation word right behind chunk `at`, and what follows that, where no verb comes between."""
         behind = self._chunks[at + 1 : at + 3]
+        if at + 1 in self.goals:
+            return None
         if [piece.kind for piece in behind] != ["rel", "noun"] or behind[0].relation.manner in ("goal", "source"):
             return None
         link, phrase = behind[0].relation, behind[1].named
@@ -50,6 +60,15 @@ class Contrast(Pronouns):
         wanted = self._chunks[at].named.count or 1
         whole = bool(items) and len(items) == wanted == len(items[0].group.items)
         return items if phrases[0].kind == "object" and whole else []
+
+    def _partner(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """The one object that "an empty one" at chunk `at` is related to, and so is of the kind of."""
+        if phrase.words.lower().split()[0] not in ("a", "an") or phrase.modifiers == NO_MODIFIERS:
+            return None
+        pairs = [one | other for one, other in self.related if at in one | other]
+        heads = sorted(head for pair in pairs for head in pair if head < at)
+        named = self.known.get(heads[0], []) if heads else []
+        return named if len(named) == 1 == len(named[0].group.items) else None
 
     def _one_like(self, items: list[Item], phrase: Phrase) -> list[Item]:
         like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False,

@@ -17,7 +17,19 @@ _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(chunks))), nouns)))
+    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(_full(chunks)))), nouns)))
+
+
+def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` with "one bowl is full of figs and another of nuts" as "..., and another is full of nuts"."""
+    made = list(chunks)
+    for at in range(1, len(chunks) - 1):
+        phrase, filled = chunks[at].phrase, next((one for one in chunks[:at] if one.link and one.link.filling), None)
+        other = phrase is not None and phrase.head in ("another", "other")
+        if filled is not None and other and chunks[at + 1].text == "of":
+            verb = Chunk(kind="verb", text="is", words=("is",))
+            made = [*chunks[: at + 1], verb, filled, *chunks[at + 2 :]]
+    return made
 
 
 def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:

@@ -54,6 +54,7 @@ class Interpreter(Placing):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
         self._said.related = [
             (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
         ]

@@ -12,6 +12,8 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.scene.relations import SUPPORT_KINDS
 
+_OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "leans", "has", "holds", "contains"})
+_OF_SEVERAL = frozenset({"are", "were", "sit", "stand", "lie", "rest", "hang", "lean", "have", "hold", "contain"})
 HEADLESS = ("pieces", "part")
 
 
@@ -98,6 +100,16 @@ class Judging:
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
         return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
+
+    def _disagrees(self, heads: tuple[int, ...], verb: int) -> bool:
+        """Whether the verb at chunk `verb` is of one thing and `heads` are several, or the other way round."""
+        word = self._chunks[verb].words[:1]
+        named = [self._phrase(head) for head in heads]
+        if not word or any(phrase.kind != "object" or phrase.cycle for phrase in named):
+            return False
+        several = len(named) > 1 or named[0].plural or (named[0].count or 1) > 1
+        stacked = named[0].height is not None or named[0].one_of
+        return not stacked and ((word[0] in _OF_ONE and several) or (word[0] in _OF_SEVERAL and not several))
 
     def _kind_named(self, start: int, end: int) -> int | None:
         """The last phrase from chunk `start` to `end` that names a kind of things, of which a list may follow."""

@@ -97,6 +97,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     for side, kind, names in depths:
         where = [f"{word} the {name} of" for word in ("at", "near", "towards", "toward", "on") for name in names]
         add(Link(manner="half", side=side, kind=kind), *where)
+    add(Link(kind="next_to"), "holding up", "propping up")
+    add(Link(kind="next_to", finite=True), "holds up", "hold up", "props up")
     add(Link(kind="left_of"), *(f"{word} one side of" for word in ("on", "to", "at")))
     centre = Link(manner="half", side="centre", kind="on", says="in_middle")
     add(centre, *(f"{word} the {where} of" for word in ("in", "at", "on") for where in ("middle", "center", "centre")))

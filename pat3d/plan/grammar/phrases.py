@@ -113,7 +113,7 @@ class PhraseReader:
                 single = flags.get("one", False) and not flags.get("each", False)
                 count = None if flags.get("each", False) else count
                 phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
-                if single and (phrase.count or 1) > 1:
+                if single and ((phrase.count or 1) > 1 or (phrase.plural and phrase.definite)):
                     phrase, count = replace(phrase, one_of=True), phrase.count
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined

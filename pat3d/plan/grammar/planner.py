@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pat3d.errors import PromptError
+from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
@@ -111,12 +111,15 @@ class GrammarPlanner:
         return tuple(plans)
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
-        plan, names = finish(prompt, world, self._nouns)
+        try:
+            plan, names = finish(prompt, world, self._nouns)
+        except SpecError as error:
+            raise PromptError(str(error)) from error
         if self._orders is not None:
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
-        return audited(plan, self._nouns.resolve)
+        return audited(plan, self._nouns.resolve, lexicon.FLOOR)
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""

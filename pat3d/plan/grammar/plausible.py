@@ -130,7 +130,7 @@ class Plausible:
         if link.kind == "on":
             return self.on(child, parent)
         if link.kind == "hangs_from":
-            return 0.2
+            return 2.0 if self.floor(child) else 0.2
         return self.beside(child, parent)
 
     def having(self, link: Link, parent: str, child: str) -> float:

@@ -40,6 +40,8 @@ class Pronouns:
         """What the clauses are about, by where they begin."""
         self.fronts: set[int] = set()
         """Phrases of the modifier that a clause opens with: "behind it there is"."""
+        self.goals: set[int] = set()
+        """Relation words that say where something is to go."""
         self.related: list[tuple[set[int], set[int]]] = []
         """Phrases that a relation joins, so that they are different objects."""
 
@@ -107,6 +109,8 @@ class Pronouns:
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
+        if plural and len(nearest) > 1:
+            candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))
         for rank, items in enumerate(nearest[:4]):
             candidates.append((-0.5 + 0.3 * rank if which else (-0.2 if near else 0.35) + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):

@@ -39,7 +39,7 @@ class References(Contrast):
                 # "Tools: a hammer and a saw": the two are the tools.
                 return
             if (found := self._refer(at, phrase)) is not None:
-                self.known[at] = found
+                self.known[at] = self._the_one(found, phrase)
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
                 return
@@ -215,6 +215,8 @@ class References(Contrast):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
+        if (like := self._partner(at, phrase)) is not None:
+            return self._one_like(like, phrase)
         if words.colours or words.palette or words.size_word:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:
@@ -262,6 +264,10 @@ class References(Contrast):
                 if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
                     return [item]
             groups = [group for group in groups if len(group.items) > 1]
+            apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
+            if apart and len(apart) == len(groups):
+                # "The two smaller bowls inside the big one": another bowl.
+                return self._one_like(apart[0].items, phrase)
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:

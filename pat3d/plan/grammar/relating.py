@@ -225,7 +225,7 @@ class Relating:
     def _on_half(self, children: list[Item], side: str, parents: list[Item]) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         world, parent = self.world, parents[0]
-        level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS)
+        level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         if side == "centre" or (level and not world.on_floor(children[0])):
             kind = world.containment(parent)

@@ -138,9 +138,11 @@ class Grammar(Goals):
         if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
             # "a candle, a rose in a vase and a cup": the list goes on behind what is said of the rose.
             cost += 0.4
-        if "finite" in named.flags & modifier.flags and len(named.heads) > 1:
+        if "finite" in named.flags & modifier.flags and (len(named.heads) > 1 or modifier.cat == "M"):
             # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
             cost += 0.5
+        if "finite" in modifier.flags:
+            cost += 0.5 * self._disagrees(named.heads, modifier.start)
         if "colon" in named.flags:
             cost += 0.3
         if "mute" in named.flags and "finite" in modifier.flags:

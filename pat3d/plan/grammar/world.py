@@ -297,6 +297,7 @@ class World:
             if not weak and carries and free and parent is not below:
                 # "A lamp on a book" that is "on a table": the book is.
                 self._put(below, kind, parent, False)
+                self.note(f'"{below.group.words}" is {kind} "{parent.group.words}", with what it carries.')
             if weak or parent is below or parent in self.ancestors(child):
                 return
             if below not in self.ancestors(parent):

@@ -17,8 +17,16 @@ to decomposition."""
 
 MAX_HULLS = 256
 
+FROM_PICTURE = "so the convex parts were made from the picture's mesh"
+"""End of the notes about shapes that are not taken."""
+
 _MADE_CONVEX = re.compile(r"vhacd|v-hacd|coacd|convex|decomp|hull", re.IGNORECASE)
 """Names of files whose every piece is meant as its hull, whatever rounding has done to it."""
+
+
+def meant_as_hull(piece: Piece) -> bool:
+    """Whether the name of its file says that a shape stands for its convex hull."""
+    return any(_MADE_CONVEX.search(path.stem) for path in piece.files)
 
 
 def hulls_of(pieces: list[Piece]) -> tuple[tuple[Points, ...], str]:
@@ -27,7 +35,7 @@ def hulls_of(pieces: list[Piece]) -> tuple[tuple[Points, ...], str]:
 
     found: list[Points] = []
     for piece in pieces:
-        meant = any(_MADE_CONVEX.search(path.stem) for path in piece.files)
+        meant = meant_as_hull(piece)
         whole = trimesh.Trimesh(piece.vertices, piece.faces, process=True)
         for part in whole.split(only_watertight=False):
             points = np.asarray(part.vertices, dtype=np.float64)
@@ -37,8 +45,8 @@ def hulls_of(pieces: list[Piece]) -> tuple[tuple[Points, ...], str]:
                 continue
             filled = abs(signed_volume(points, np.asarray(part.faces))) / signed_volume(hull.vertices, hull.faces)
             if not meant and (filled < CONVEX or not part.is_watertight):
-                return (), "a collision mesh is not convex, so the convex parts were made from the picture's mesh"
+                return (), f"a collision mesh is not convex, {FROM_PICTURE}"
             found.append(hull.vertices)
         if len(found) > MAX_HULLS:
-            return (), f"more than {MAX_HULLS} collision shapes, so the convex parts were made from the picture's mesh"
+            return (), f"more than {MAX_HULLS} collision shapes, {FROM_PICTURE}"
     return tuple(found), ""
