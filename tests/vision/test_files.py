@@ -158,7 +158,7 @@ def test_the_notes_of_a_photograph_tell_its_angle_and_which_side_is_up(tmp_path)
 
 def test_thinning_keeps_what_pixels_look_at():
     """The ray of a thinned pixel is that of the whole picture's pixel that it was taken from."""
-    width, height = 2 * files.WORKING_SIDE + 6, 900
+    width, height = 2 * files.WORKING_SIDE, 900
     columns = np.broadcast_to(np.arange(width, dtype=np.float32), (height, width))
     camera = Pinhole.of_angle(width, height, 60.0)
     one = files.Labels(objects=(files.Label(name="it", noun="it", value=1),))
