@@ -1,6 +1,6 @@
 """Does support end at the true edge of a mesh? Boards laid with their weight just inside and just outside of it.
 
-python benchmarks/edges.py FOLDER_OR_MESH [...] [--size 0.1] [--jobs 16] --work work/edges
+python -m benchmarks.edges FOLDER_OR_MESH [...] [--size 0.1] [--jobs 16] --work work/edges
 
 Every mesh is imported, stood on its base and fixed. The highest level of its surface is its top; towards four sides a
 plank of 10 cm and a board that covers the whole top are laid on it with their weight 1, 3 and 5 mm inside and outside

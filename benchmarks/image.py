@@ -169,11 +169,12 @@ def see(
 
 
 def equivalent_turns(
-    obj: SceneObject, camera: PlacedCamera, seen: Observation, clean: np.ndarray
+    obj: SceneObject, camera: PlacedCamera, seen: Observation, clean: np.ndarray, found: Placement
 ) -> list[float] | None:
     """Turns about the vertical [rad] after which the camera sees the same of `obj`; None where any will do.
 
-    `clean` is the depth without noise, of what hides parts of the object too.
+    `clean` is the depth without noise, of what hides parts of the object too. The turn of `found` is among them where
+    that placement itself looks the same: a mug whose handle is hidden turns about its own axis, not its box's.
     """
     caster = Caster(obj.asset.visual)
     rows, columns = np.nonzero(seen.mask(obj.name))
@@ -187,9 +188,11 @@ def equivalent_turns(
     nearest = np.nan_to_num(clean[row, column] * reach, nan=np.inf)
     middle = obj.pose.apply(caster.centre[None])[0]
 
-    def drawn(turn: float) -> np.ndarray:
+    def turned(turn: float) -> Placement:
         rotation = yaw_matrix(turn) @ obj.pose.rotation
-        placed = Placement(scale=1.0, rotation=rotation, position=middle - rotation @ caster.centre)
+        return Placement(scale=1.0, rotation=rotation, position=middle - rotation @ caster.centre)
+
+    def drawn(placed: Placement) -> np.ndarray:
         ranges = caster.ranges(camera.position, rays, placed)
         # Something nearer hides what is there, whether it is turned or not.
         return np.where(others & (ranges > 1.003 * nearest), np.inf, ranges)
@@ -200,10 +203,14 @@ def equivalent_turns(
         apart = np.abs(np.where(hit, one, 0.0) - np.where(hit, other, 0.0)) > 0.04 * caster.radius
         return float(np.count_nonzero(alone | apart)) / max(np.count_nonzero(np.isfinite(one)), 1)
 
-    true = drawn(0.0)
+    true = drawn(turned(0.0))
     turns = np.radians(np.arange(0.0, 360.0, 5.0))
-    same = [float(turn) for turn in turns if far(true, drawn(turn)) <= SAME]
-    return None if len(same) >= 0.8 * len(turns) else same
+    same = [float(turn) for turn in turns if far(true, drawn(turned(turn))) <= SAME]
+    if len(same) >= 0.8 * len(turns):
+        return None
+    if far(true, drawn(found)) <= SAME / 4:
+        same.append(yaw_of(found.rotation) - yaw_of(obj.pose.rotation))
+    return same
 
 
 def compare(
@@ -227,15 +234,20 @@ def compare(
     points = [obj.pose.apply(obj.asset.visual.vertices) for obj in scene.objects]
     every = np.concatenate(points)
     diagonal = float(np.linalg.norm(every.max(axis=0) - every.min(axis=0)))
-    for obj, there in zip(scene.objects, points, strict=True):
+    for obj, truth in zip(scene.objects, points, strict=True):
         placed, asset = found.fits[obj.name].placed, found.assets[obj.name]
         here = placed.apply(asset.visual.vertices) @ back.T + shift
-        middles = [(one.min(axis=0) + one.max(axis=0)) / 2 for one in (here, there)]
+        middles = [(one.min(axis=0) + one.max(axis=0)) / 2 for one in (here, truth)]
         centre = float(np.linalg.norm(middles[0] - middles[1])) / diagonal
         scale = abs(placed.scale * factors[obj.name] - 1.0)
         yaw = math.nan
         if obj.pose.rotation[2, 2] > UPRIGHT and not found.fits[obj.name].tilted:
-            same = equivalent_turns(obj, camera, seen, clean)
+            there = Placement(
+                scale=placed.scale * factors[obj.name],
+                rotation=back @ placed.rotation,
+                position=back @ placed.position + shift,
+            )
+            same = equivalent_turns(obj, camera, seen, clean, there)
             if same is not None:
                 off = yaw_of(placed.rotation) + turn - yaw_of(obj.pose.rotation)
                 yaw = min(abs(math.remainder(off - each, 2 * math.pi)) for each in same)

@@ -1,6 +1,6 @@
 """How far do the convex parts of the catalogue reach beyond what is seen? Every noun, or those named.
 
-python benchmarks/inflation.py [NOUN ...]
+python -m benchmarks.inflation [NOUN ...]
 
 For each noun the corner of a part that is furthest outside of the picture, and how many of its parts reach further than
 those of an imported mesh may (a millimetre, and a hundredth of the size), those that reach furthest first.

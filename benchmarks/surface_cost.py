@@ -1,6 +1,6 @@
 """What does it cost to look at true surfaces? Processor time of that part of the check, over that of all the rest.
 
-python benchmarks/surface_cost.py [--prompts benchmarks/prompts.txt] [--only 1 2 3] [--seed 0]
+python -m benchmarks.surface_cost [--prompts benchmarks/prompts.txt] [--only 1 2 3] [--seed 0]
 
 Every prompt is generated in this process. Counted is what `certify` does with the visual meshes: finding where they are
 near the contacts, balancing forces there, and the tilt that they stand. Processor time, so that a busy machine changes

@@ -1,10 +1,10 @@
 """Is the tilt margin of a certificate what a scene stands? Gravity leans slowly in MuJoCo until something goes.
 
-python benchmarks/tilt.py forms [NAME ...]      closed forms: boxes, pencil, overhang, domino, balls
-python benchmarks/tilt.py scenes FOLDER [...]   scene folders, as `pat3d generate` writes them
-python benchmarks/tilt.py random --count 100 --jobs 16 --work work/tilt
+python -m benchmarks.tilt forms [NAME ...]      closed forms: boxes, pencil, overhang, domino, balls
+python -m benchmarks.tilt scenes FOLDER [...]   scene folders, as `pat3d generate` writes them
+python -m benchmarks.tilt random --count 100 --jobs 16 --work work/tilt
                                                 catalogue objects on a table and on one another, made first
-python benchmarks/tilt.py forms --engines mujoco,newton,drake
+python -m benchmarks.tilt forms --engines mujoco,newton,drake
 
 A row for each: the tilt that the certificate claims (whichever way), the least of what was stood towards eight sides,
 their ratio, and where a form has one the closed form of the ideal shapes. A scene goes when an object's centre has

@@ -184,20 +184,19 @@ def _model(table: Table) -> None:
 
 def _photographs(table: Table) -> None:
     """Report what `pat3d generate --image` can do without files; nobody is asked, and no weights are loaded."""
-    from pat3d.vision.depth import EXAMPLE, INSTALL, VARIABLE, depth_model_named
+    from pat3d.vision.depth import INSTALL, VARIABLE, can_load, depth_model_named
 
-    files = "with --depth, --masks and --labels, generate --image needs no model"
     try:
         name = depth_model_named()
     except ModelError as error:
         table.add("FAULT", "photographs", str(error))
         return
-    if find_spec("transformers") is None:
-        table.add("no", "photographs", f"{files}; depth by a model: {INSTALL}, and {VARIABLE}={EXAMPLE}")
+    if not can_load():
+        table.add("no", "photographs", f"depth is read from files; {INSTALL} lets a model measure it")
     elif name is None:
-        table.add("no", "photographs", f"{files}; depth by a model: {VARIABLE}={EXAMPLE}, or pat3d.toml")
+        table.add("no", "photographs", f"depth is read from files; a model measures it where {VARIABLE} names one")
     else:
-        table.add("ok", "photographs", f"{files}; depth by {name}; labels by the language model, if it sees")
+        table.add("ok", "photographs", f"depth is read from files, or measured by {name}")
 
 
 def _embeddings(table: Table) -> None:

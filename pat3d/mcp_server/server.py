@@ -45,9 +45,11 @@ digits, "-" and "_"."""
 
 SceneName = Annotated[str, Field(description="name of a scene in the folder", max_length=64)]
 Formats = Annotated[
-    list[Literal["mjcf", "usd", "urdf", "sdf", "html", "glb"]],
+    list[Literal["mjcf", "usd", "urdf", "sdf", "html", "glb", "simready"]],
     Field(
-        description="mjcf for MuJoCo, usd for Isaac Sim, urdf, sdf for Gazebo; html and glb to look at", min_length=1
+        description="mjcf for MuJoCo, usd for Isaac Sim, urdf, sdf for Gazebo, simready for Omniverse's catalogues; html "
+        "and glb to look at",
+        min_length=1,
     ),
 ]
 _READS = ToolAnnotations(read_only_hint=True, open_world_hint=False)

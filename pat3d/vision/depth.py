@@ -10,6 +10,7 @@ import os
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -60,7 +61,10 @@ class TransformersDepth:
             ModelError: it cannot be loaded, or does not say metres.
         """
         try:
-            from transformers import AutoImageProcessor, AutoModelForDepthEstimation
+            from transformers import (  # pyright: ignore[reportMissingImports]
+                AutoImageProcessor,
+                AutoModelForDepthEstimation,
+            )
         except ImportError as error:
             raise ModelError(f"depth from a picture needs transformers and torch: {INSTALL}.") from error
         self.name, self._device = name, device
@@ -103,6 +107,11 @@ class TransformersDepth:
         # Depth Pro tells the angle across the width.
         half = np.tan(np.radians(float(across)) / 2.0) * max(width, height) / width
         return MeasuredDepth(depth=depth, angle=float(np.degrees(2.0 * np.arctan(half))))
+
+
+def can_load() -> bool:
+    """Whether what loads depth models is installed."""
+    return find_spec("transformers") is not None and find_spec("torch") is not None
 
 
 def depth_model_named(environment: Mapping[str, str] | None = None, folder: Path | None = None) -> str | None:

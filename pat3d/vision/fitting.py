@@ -21,12 +21,16 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from pat3d.geometry.rotations import yaw_of
 from pat3d.vision.camera import Array, PlacedCamera
 from pat3d.vision.caster import Caster, Placement, orientation
 from pat3d.vision.observation import Observation
+
+Ranges = NDArray[np.float32]
+"""What is drawn: how far it is along the rays of a window [m], infinite where there is nothing; shape (pixels,)."""
 
 CAP = 4.0
 """Cost of a pixel that contradicts the candidate: 2.8 standard deviations."""
@@ -114,7 +118,7 @@ class Window:
         calm = self.sigma * (1.0 if seen.noise < 0.01 else 0.35)
         self.calm = 2.0 * calm
         crop = tuple(slice(max(int(one) - 8, 0), int(other) + 8) for one, other in zip(low, high, strict=True))
-        away = distance_transform_edt(~mask[crop])[row - crop[0].start, column - crop[1].start]
+        away = np.asarray(distance_transform_edt(~mask[crop]))[row - crop[0].start, column - crop[1].start]
         self.beside = np.where(away <= BORDER, 0.5, 1.0)
         self.count = max(int(self.own.sum()), 1)
         self.middle = camera.rays([columns.mean() + 0.5], [rows.mean() + 0.5])[0][0]
@@ -125,7 +129,7 @@ class Window:
         self.angle = math.sqrt(len(rows)) / seen.camera.fx
         """About how wide the mask is [rad]."""
 
-    def cost(self, drawn: Array, blur: float = 1.0) -> float:
+    def cost(self, drawn: Ranges, blur: float = 1.0) -> float:
         """Mean cost of what is drawn: ranges [m] of the window's pixels, infinite where there is nothing."""
         hit = np.isfinite(drawn)
         inside = self.own & hit
@@ -138,14 +142,14 @@ class Window:
         total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
         return total / self.count
 
-    def contradicted(self, drawn: Array) -> Array:
+    def contradicted(self, drawn: Ranges) -> Array:
         """How surely something would be seen at the range that is drawn [-], by pixel."""
         with np.errstate(invalid="ignore"):
             nearer = drawn - self.smooth
             free = np.where(nearer > self.calm, 0.0, np.where(nearer > -self.calm, UNSURE, 1.0))
         return np.where(np.isfinite(self.smooth), free, UNSURE)
 
-    def overlap(self, drawn: Array) -> float:
+    def overlap(self, drawn: Ranges) -> float:
         """Intersection over union with the mask, of pixels in which nothing nearer hides what is drawn."""
         hit = np.isfinite(drawn)
         both = np.count_nonzero(self.own & hit)

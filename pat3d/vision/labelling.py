@@ -65,6 +65,10 @@ class Labeller(Protocol):
         """
         ...
 
+    def record(self) -> Mapping[str, Any]:
+        """What the report says: who told, and what it has cost."""
+        ...
+
 
 class ChatLabeller:
     """Asks a vision-language model behind chat completions; every answer is checked against its schema."""

@@ -162,7 +162,7 @@ def test_urdf_links_that_float_are_objects_and_doors_are_refused(tmp_path):
 
 
 def test_usd_units_and_axes_are_the_stage_s(tmp_path):
-    """A ball of 10 cm, 20 cm up, on a stage in centimetres with y up, in grams."""
+    """A box of 10 by 20 by 40 cm, 20 cm up, on a stage in centimetres with y up, in grams."""
     pytest.importorskip("pxr")
     path = tmp_path / "scene.usda"
     path.write_text(
@@ -176,6 +176,8 @@ def test_usd_units_and_axes_are_the_stage_s(tmp_path):
 def Xform "World" {
   def Xform "box" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]) {
     float physics:mass = 500
+    point3f physics:centerOfMass = (0, 0, 0)
+    float3 physics:diagonalInertia = (83333.333, 70833.333, 20833.333)
     double3 xformOp:translate = (5, 20, 30)
     uniform token[] xformOpOrder = ["xformOp:translate"]
     def Cube "shape" (prepend apiSchemas = ["PhysicsCollisionAPI"]) {
@@ -189,6 +191,9 @@ def Xform "World" {
     )
     (box,) = import_scene(path).scene.objects
     assert box.asset.mass_properties.mass == pytest.approx(0.5)
+    # m (a^2 + b^2) / 12 of the sides across each axis; the stage's z is our -y.
+    moments = 0.5 / 12 * np.array([0.2**2 + 0.4**2, 0.1**2 + 0.2**2, 0.1**2 + 0.4**2])
+    np.testing.assert_allclose(box.asset.mass_properties.inertia, np.diag(moments), rtol=1e-6, atol=1e-12)
     corners = box.pose.apply(np.concatenate([part.vertices for part in box.parts]))
     # x stays, the stage's y is up, its z points towards the viewer, who stands at -y.
     assert corners.min(axis=0) == pytest.approx((0.0, -0.5, 0.1))

@@ -47,7 +47,7 @@ def every_third_succeeds(monkeypatch):
             pass
 
     monkeypatch.setattr(module, "Runner", Runner)
-    monkeypatch.setattr("pat3d.envs.interface.describe", lambda env: {})
+    monkeypatch.setattr("pat3d.envs.interface.describe", lambda env: {"cameras": {}})
     monkeypatch.setattr(
         "pat3d.policies_eval.run.episodes.settings_of", lambda *_: (Setting(scene="", task="pick:red mug"),)
     )
