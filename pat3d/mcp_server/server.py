@@ -47,7 +47,7 @@ SceneName = Annotated[str, Field(description="name of a scene in the folder", ma
 Formats = Annotated[
     list[Literal["mjcf", "usd", "urdf", "sdf", "html", "glb", "simready"]],
     Field(
-        description="mjcf for MuJoCo, usd for Isaac Sim, urdf, sdf for Gazebo, simready for catalogues of Omniverse; html "
+        description="mjcf for MuJoCo, usd for Isaac Sim, urdf, sdf for Gazebo, simready for Omniverse; html "
         "and glb to look at",
         min_length=1,
     ),
