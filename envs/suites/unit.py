@@ -146,11 +146,15 @@ def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
     Raises:
         TaskError: it cannot do it.
     """
+    from pat3d.envs.tasks.naming import called
     from pat3d.envs.tasks.registry import parse_task
     from pat3d.envs.tasks.rehearsal import rehearse
 
     parsed = parse_task(task)
     parsed.check(scene)
+    for name in task.split(":")[1:]:
+        if called(scene, name) is None:
+            raise TaskError(f'no words tell "{name}" from what is like it.')
     return rehearse(scene, mjcf / "scene.xml", parsed, robot).describe()
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from pat3d.assets.colours import COLOURS
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.manipulate import above, check_move
+from pat3d.envs.tasks.naming import spoken
 from pat3d.envs.tasks.task import Goal, Judge, Task, children, movable, origin, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
@@ -34,7 +35,7 @@ class Sort(Task):
 
     def instruction(self, scene: Scene) -> str:
         homes = sorted(set(self.pairs(scene).values()))
-        return f"sort the objects by colour into {' and '.join(f'the {home}' for home in homes)}"
+        return f"sort the objects by colour into {' and '.join(f'the {spoken(scene, home)}' for home in homes)}"
 
     def pairs(self, scene: Scene) -> dict[str, str]:
         """Container of every object that has one: the only container of the same colour.
@@ -97,7 +98,7 @@ class Unload(Task):
 
     def instruction(self, scene: Scene) -> str:
         inner = any(rel.parent == self.container and rel.kind == "in" for rel in scene.relations)
-        return f"take everything {'out of' if inner else 'off'} the {self.container}"
+        return f"take everything {'out of' if inner else 'off'} the {spoken(scene, self.container)}"
 
     def check(self, scene: Scene) -> None:
         present(scene, self.container)
@@ -134,8 +135,8 @@ class Retrieve(Task):
 
     def instruction(self, scene: Scene) -> str:
         on = standing_on(scene, self.target)
-        where = f" from under the {on[0]}" if on else origin(scene, self.target)
-        return f"take out the {self.target}{where} without knocking anything over"
+        where = f" from under the {spoken(scene, on[0])}" if on else origin(scene, self.target)
+        return f"take out the {spoken(scene, self.target)}{where} without knocking anything over"
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)

@@ -11,6 +11,7 @@ import numpy as np
 from pat3d.envs.grasping.free_space import edge_margin, has_free_space
 from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
+from pat3d.envs.tasks.naming import spoken
 from pat3d.envs.tasks.task import Goal, Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import GROUND, Scene
@@ -33,7 +34,7 @@ class Pick(Task):
     target: str
 
     def instruction(self, scene: Scene) -> str:
-        return f"pick up the {self.target}{origin(scene, self.target)}"
+        return f"pick up the {spoken(scene, self.target)}{origin(scene, self.target)}"
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)
@@ -61,7 +62,8 @@ class Place(Task):
     where: str
 
     def instruction(self, scene: Scene) -> str:
-        return f"put the {self.target} {_preposition(scene, self.where)} the {self.where}"
+        where = f"{_preposition(scene, self.where)} the {spoken(scene, self.where)}"
+        return f"put the {spoken(scene, self.target)} {where}"
 
     def check(self, scene: Scene) -> None:
         check_move(scene, self.target, self.where)
@@ -92,7 +94,7 @@ class Stack(Task):
     base: str
 
     def instruction(self, scene: Scene) -> str:
-        return f"stack the {self.target} on the {self.base}"
+        return f"stack the {spoken(scene, self.target)} on the {spoken(scene, self.base)}"
 
     def check(self, scene: Scene) -> None:
         check_move(scene, self.target, self.base)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Mask, Numbers
+from pat3d.envs.tasks.naming import called, spoken
 from pat3d.errors import TaskError
 from pat3d.scene.model import GROUND, Scene
 
@@ -188,9 +189,10 @@ def standing_on(scene: Scene, parent: str) -> tuple[str, ...]:
 
 
 def origin(scene: Scene, name: str) -> str:
-    """Where an object stands, as " from the tray"; nothing for one on the ground."""
+    """Where an object stands, as " from the tray"; nothing for one on the ground, or where its name tells already."""
     parent = scene.parent(name)
-    return "" if parent == GROUND else f" from the {parent}"
+    words = None if parent == GROUND else called(scene, parent)
+    return "" if words is None or words in spoken(scene, name) else f" from the {words}"
 
 
 def centre_of_mass(scene: Scene, name: str) -> Array:
