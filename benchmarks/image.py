@@ -2,7 +2,7 @@
 
 python -m benchmarks.image --views 50                      # true depth and masks: what comes back, by object
 python -m benchmarks.image --views 50 --disturbed          # 5 % noise of the depth, eroded masks, 20 % occlusion
-python -m benchmarks.image --views 50 --proven 10          # and ten recovered scenes settled and verified in MuJoCo
+python -m benchmarks.image --views 50 --verified 10          # and ten recovered scenes settled and verified in MuJoCo
 
 The scenes are made once from PROMPTS into --scenes. The assets are the true ones, each larger or smaller by a factor
 that the image path is not told; neither is it told where the camera stands, what stands on what, or how high the
@@ -88,7 +88,7 @@ class Tally:
     gravity: list[float] = field(default_factory=list)
     """Errors [deg], a value for every view."""
     worst: list[dict[str, Any]] = field(default_factory=list)
-    proven: list[bool] = field(default_factory=list)
+    verified: list[bool] = field(default_factory=list)
 
 
 def random_camera(scene: Scene, rng: np.random.Generator) -> PlacedCamera:
@@ -310,7 +310,7 @@ def main() -> int:
     parser.add_argument("--scenes", type=Path, default=Path("image-scenes"), help="folder of the true scenes")
     parser.add_argument("--seed", type=int, default=20261122)
     parser.add_argument("--disturbed", action="store_true")
-    parser.add_argument("--proven", type=int, default=0, metavar="N", help="settle and verify the first N views too")
+    parser.add_argument("--verified", type=int, default=0, metavar="N", help="settle and verify the first N views too")
     parser.add_argument("--seconds", type=float, default=math.inf, help="stop after this time, with fewer views")
     parser.add_argument("--report", type=Path, help="write every object's errors here, as JSON")
     options = parser.parse_args()
@@ -323,10 +323,10 @@ def main() -> int:
         seen, clean, camera, assets, factors = see(scene, rng, how)
         found = recover(seen, assets)
         compare(scene, seen, clean, camera, found, factors, tally)
-        if number < options.proven:
+        if number < options.verified:
             with tempfile.TemporaryDirectory() as place:
                 passed, failures = prove(found, Path(place) / "scene")
-            tally.proven.append(passed)
+            tally.verified.append(passed)
             for line in failures:
                 print(f"view {number}, {scene.prompt}: {line}", file=sys.stderr, flush=True)
         print(f"view {number}: {scene.prompt}", file=sys.stderr, flush=True)
@@ -341,14 +341,14 @@ def main() -> int:
     print(told("yaw", tally.yaw, goals[2], " deg"))
     print(told("gravity", tally.gravity, 2.0, " deg"))
     print(f"support  {sum(tally.supports)} of {len(tally.supports)}")
-    if tally.proven:
-        print(f"proven   {sum(tally.proven)} of {len(tally.proven)}")
+    if tally.verified:
+        print(f"verified {sum(tally.verified)} of {len(tally.verified)}")
     if options.report:
         options.report.write_text(json.dumps(tally.worst, indent=1))
     met = max(tally.centre) < goals[0] / 100 and max(tally.scale) < goals[1] / 100
     met = met and max(tally.yaw, default=0.0) < goals[2]
     share = 0.95 if options.disturbed else 1.0
-    return 0 if met and np.mean(tally.supports) >= share and all(tally.proven) else 1
+    return 0 if met and np.mean(tally.supports) >= share and all(tally.verified) else 1
 
 
 if __name__ == "__main__":

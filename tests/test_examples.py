@@ -72,6 +72,7 @@ def test_settle_bodies(tmp_path):
     assert 0.0 <= plank - 0.07 < 4e-5
 
 
+@pytest.mark.slow
 def test_gradient_of_a_rollout(tmp_path):
     output = printed("gradient_of_a_rollout", tmp_path)
     gradient, difference = numbers(r"(?:d\(friction\) =|difference:) (-[\d.]+) m", output)
@@ -85,6 +86,7 @@ def test_random_actions(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_read_certificate(tmp_path):
     output = printed("read_certificate", tmp_path)
     assert "passed: True" in output

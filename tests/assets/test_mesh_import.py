@@ -207,6 +207,7 @@ def test_inner_wall_between_two_solids_is_closed_on_both_sides():
     assert fixed.volume_source == "hole filled"
 
 
+@pytest.mark.slow
 def test_a_soup_of_triangles_is_wrapped_and_says_so():
     ball = trimesh.creation.icosphere(2, radius=0.1)
     rng = np.random.default_rng(0)

@@ -120,6 +120,7 @@ def test_a_scene_that_holds_is_left_as_it_is(mended, tmp_path, capfd):
     assert files(tmp_path / "copy") == before
 
 
+@pytest.mark.slow
 def test_a_scene_is_mended_in_place_and_foreign_files_stay(broken, tmp_path):
     folder = tmp_path / "scene"
     shutil.copytree(broken, folder)
@@ -204,6 +205,7 @@ def made(request: SceneRequest, folder, **settings):
     return make(request, folder=folder, settings=Settings(**settings), clock=Clock(), progress=silent).report.as_dict()
 
 
+@pytest.mark.slow
 def test_generate_optimises_what_no_attempt_solves_and_resumes_without_doing_it_again(falling_layouts, tmp_path):
     folder = tmp_path / "scene"
     report = made(falling_layouts, folder, resume=True)

@@ -121,6 +121,7 @@ def test_an_unknown_robot_is_answered_before_anything_is_written(tmp_path):
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.slow
 def test_a_worker_that_cannot_write_stops_the_run_and_nothing_is_lost(copy):
     """What a full disk does, by a file where the scene's folder has to go."""
     folder = SuiteFolder(copy)
@@ -292,7 +293,10 @@ def evaluated(envs, episodes: int, *, seed: int | None, films: int = 0):
     return successes[:episodes], told[:episodes], pictures
 
 
-@pytest.mark.parametrize(("count", "seed"), [(1, 1000), (2, 1000), (1, None)])
+@pytest.mark.parametrize(
+    ("count", "seed"),
+    [pytest.param(1, 1000, marks=pytest.mark.slow), (2, 1000), pytest.param(1, None, marks=pytest.mark.slow)],
+)
 def test_lerobot_s_evaluator_sees_successes_instructions_films_and_every_scene_once(made, monkeypatch, count, seed):
     """The pick of the first scene succeeds by itself after three steps; nothing else is ever done."""
     from pat3d.envs.tasks import judges, task

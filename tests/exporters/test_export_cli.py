@@ -110,6 +110,7 @@ def test_one_mesh_becomes_an_asset_folder_with_a_summary_and_a_picture(tmp_path,
     assert "0.3" in capfd.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_folder_of_meshes_goes_on_after_one_that_cannot_be_used(tmp_path, capfd):
     (tmp_path / "meshes").mkdir()
     _glb(tmp_path / "meshes" / "one.glb")

@@ -186,6 +186,7 @@ def test_what_is_moved_away_fails_the_verification(name, made):
         assert not found[str(one)].holds, found[str(one)]
 
 
+@pytest.mark.slow
 def test_a_carrier_that_only_seems_to_carry_is_found_out(made, tmp_path):
     """One block 0.9 mm lower: the plank still touches it, by the predicate, and MuJoCo has no force there."""
     scene, folder = made("pyramid")

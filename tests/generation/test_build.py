@@ -208,6 +208,7 @@ def test_a_side_that_was_asked_for_and_is_not_there_fails_build_and_check(workpl
     assert "pat3d: not met: cup left_of box" in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_playing_cards_lie_on_one_another(workplace):
     trimesh.creation.box((0.0635, 0.0889, 0.0003)).export(workplace / "meshes" / "card.obj")
     cards = "".join(f"  - {{name: card {k}, mesh: meshes/card.obj, parts: hull, material: paper}}\n" for k in range(3))

@@ -50,6 +50,7 @@ def clear(scene):
     return all(pair.distance > 0.0 for pair in pairs)
 
 
+@pytest.mark.slow
 def test_an_edit_is_seen_where_the_trajectory_ends_elsewhere(folder):
     scene = pat3d.load_scene(folder)
     assert edited(scene, folder) == frozenset()
@@ -115,6 +116,7 @@ def test_an_object_that_was_put_beside_its_support_fails_with_what_is_broken(fol
     assert pat3d.load_scene(folder)["red mug"].pose.position[2] == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_optimize_settles_from_the_edited_poses_and_does_not_say_that_all_is_well(folder, capfd):
     before = pat3d.load_scene(folder)
     move(folder, "red mug", (0.005, 0.0, 0.03))

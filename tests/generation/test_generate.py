@@ -238,6 +238,7 @@ def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_any_planner_will_do(tmp_path):
     class Fixed:
         def plan(self, prompt):

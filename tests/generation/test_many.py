@@ -61,6 +61,7 @@ def test_the_same_command_again_keeps_what_is_done_and_makes_what_is_missing(run
     assert [row["folder"] for row in rows(root)] == ["a_wooden_block", "a_ball", "a_book"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change",
     [

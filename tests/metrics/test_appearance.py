@@ -31,6 +31,7 @@ SCENE = scene_of(placed("cube", CUBE, (-0.3, 0, 1e-5)), placed("tower", TOWER, (
 
 @pytest.fixture(autouse=True)
 def plain_environment(monkeypatch):
+    monkeypatch.setattr("pat3d.check.metrics.appearance.SIDE", 24)
     for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "PAT3D_MODEL", "PAT3D_CONFIG"):
         monkeypatch.delenv(name, raising=False)
         monkeypatch.delenv(name.lower(), raising=False)

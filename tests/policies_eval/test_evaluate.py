@@ -119,6 +119,7 @@ def test_a_worker_stays_with_its_scene_while_there_are_episodes_of_it():
     assert taken == [0, 3, 6, 1, 4, 2, 5]
 
 
+@pytest.mark.slow
 def test_a_worker_that_hangs_or_dies_is_a_policy_error_and_the_run_goes_on(tmp_path, monkeypatch):
     """The policy says when it hangs, and only then has the parent's clock passed the hour that an action may take."""
     frozen = tmp_path / "frozen"
@@ -155,6 +156,7 @@ def test_comparison_pairs_episodes_and_refuses_what_cannot_be_compared(done, tmp
         compare_evaluations(done, read_evaluation(tmp_path / "b"))
 
 
+@pytest.mark.slow
 def test_two_runs_with_the_same_options_compare_and_others_say_which_differ(tmp_path, capsys):
     def run(policy, name, *more):
         episodes = ["--episodes", "2", "--max-steps", "4", "--no-pictures", *more]

@@ -158,6 +158,7 @@ class Killed(RandomPolicy):
         return np.zeros(7)
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_outside_of_the_policy_is_tried_again_once(tmp_path, monkeypatch):
     pytest.importorskip("robosuite")
     monkeypatch.setenv("PAT3D_TEST_KILLED", str(tmp_path / "once"))

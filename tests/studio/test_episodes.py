@@ -26,6 +26,7 @@ def folder(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 def test_every_step_is_there_and_the_states_are_the_recorded_ones(folder):
     events = []
     found = recorded(folder, 1, progress=events.append)

@@ -20,6 +20,7 @@ def store(tmp_path):
     made.close()
 
 
+@pytest.mark.slow
 def test_what_was_opened_is_saved_over_it_and_under_other_names(store, tmp_path):
     session = store.opened(tmp_path / "bricks")
     settled = session.select("block").removed().settled()

@@ -55,7 +55,7 @@ class Appearance:
         return asdict(self)
 
 
-def views(subject: Subject, *, side: int = SIDE) -> tuple[Picture, ...]:
+def views(subject: Subject, *, side: int) -> tuple[Picture, ...]:
     """18 pictures of the delivered surfaces on the ground, each of which shows everything."""
     from PIL import Image
 
@@ -95,7 +95,7 @@ def appearance(
             by, score = judge()
             if not pictures:
                 progress(Event(stage="drawing", detail=f"{subject.name}: {len(DEPRESSIONS) * len(AZIMUTHS)} views"))
-                pictures = views(subject)
+                pictures = views(subject, side=SIDE)
             progress(Event(stage="judging", detail=f"{subject.name}: {measure}"))
             found[measure] = Score(value=score(subject.prompt, pictures), by=by)
         except (CheckError, ModelError) as error:

@@ -224,6 +224,7 @@ def test_what_is_edited_twice_begins_with_what_was_settled(desk, lowered):
     assert at_rest(done).changes.removed == ("book 2",)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_folder_that_verifies_with_its_history(desk_folder, tmp_path, capfd):
     before = files(desk_folder)
     out = tmp_path / "desk2"
