@@ -79,10 +79,11 @@ def main() -> None:
     parser.add_argument("--out", default=str(Path(__file__).parent / "pictures" / "cases.png"))
     parser.add_argument("--work", help="folder of scene and records (a temporary one)")
     parser.add_argument("--camera", default="agentview")
+    parser.add_argument("--seed", type=int, default=1, help="of the scene")
     options = parser.parse_args()
     work = Path(options.work or tempfile.mkdtemp(prefix="pat3d-cases-"))
     if not (work / "scene" / "scene.json").is_file():
-        generate(PROMPT, out=work / "scene")
+        generate(PROMPT, out=work / "scene", seed=options.seed)
     episodes = episodes_of([Setting(scene=str(work / "scene"), task=TASK)], 1)
     rows = []
     for policy in (ScriptedPolicy(), Heedless()):
@@ -100,7 +101,7 @@ def main() -> None:
         drawn = replayer.moments(result, moments, options.camera, (FINER * SIZE[0], FINER * SIZE[1]))
         frames = [smaller(frame) for frame in drawn]
         replayer.close()
-        said = "successful grasp" if clean else f"attempted grasp that topples {len(events.toppled)} neighbours"
+        said = "a grasp that leaves the others alone" if clean else f"a grasp that topples: {', '.join(events.toppled)}"
         rows.append((said, frames))
     print(write_strip(rows, options.out, colours=COLOURS), Path(options.out).stat().st_size, "bytes")
 
