@@ -20,7 +20,7 @@ from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
 from pat3d.scene.cache import cache_root
 from pat3d.scene.model import Scene
 from pat3d.scene.physics import STILL_SECONDS
-from pat3d.scene.replacement import write_text
+from pat3d.scene.replacement import scratch_folder, write_text
 from pat3d.scene.versions import version_of
 
 DEFAULT_TASK = "pick:red mug"
@@ -112,9 +112,9 @@ def _export(scene: Scene, folder: Path | None) -> Path:
     target = cache_root() / "mjcf" / key[:32]
     if not (target / "scene.xml").is_file():
         target.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=target.parent) as temporary:
-            write_mjcf(scene, Path(temporary) / "mjcf")
-            _adopt(Path(temporary) / "mjcf", target)
+        with scratch_folder(target.parent, f".{target.name}-") as scratch:
+            write_mjcf(scene, scratch / "mjcf")
+            _adopt(scratch / "mjcf", target)
     return target / "scene.xml"
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +17,7 @@ from pat3d.plan.scene_plan import Decided, Planner, ScenePlan
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.folder import replacing, write_json
 from pat3d.scene.model import Scene
+from pat3d.scene.replacement import scratch_folder
 
 if TYPE_CHECKING:
     from pat3d.view.camera import Camera
@@ -75,11 +75,11 @@ def run_criticised(
     faults = [f"{one['question']} No: {one['seen']}" for one in rounds[0]["answers"] if one["answer"] == "no"]
     if faults and hasattr(planner, "revise"):
         folder = kept.folder
-        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name[:40]}-revised-") as scratch:
+        with scratch_folder(folder.parent, f".{folder.name[:40]}-revised-") as scratch:
             try:
                 progress(Event(stage="planning again"))
                 revising: Any = planner
-                second = make(revising.revise(prompt, first_plan, faults), Path(scratch) / "scene")
+                second = make(revising.revise(prompt, first_plan, faults), scratch / "scene")
                 rounds.append(look(second))
             except (PromptError, ModelError, LayoutError, SimulationError) as error:
                 rounds.append({"error": str(error), "kept": False})

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import math
-import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -31,7 +30,7 @@ from pat3d.scene.model import Attachment, Relation, Scene, SceneObject
 from pat3d.scene.naming import unique_slugs
 from pat3d.scene.obj_files import hull_obj, map_file, read_obj, read_texture, write_visual
 from pat3d.scene.physics import LEAST_TILT
-from pat3d.scene.replacement import replace_entries
+from pat3d.scene.replacement import replace_entries, scratch_folder
 from pat3d.scene.schema import SCENE_SCHEMA
 
 FORMAT = "pat3d-scene"
@@ -55,13 +54,13 @@ def save_scene(scene: Scene, folder: str | Path) -> Path:
         raise ExportError(f"{folder} is a file; give a folder.")
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".scene-") as temporary:
-            fresh = Path(temporary) / "new"
+        with scratch_folder(folder.parent, f".{folder.name[:40]}-") as scratch:
+            fresh = scratch / "new"
             fresh.mkdir()
             _write(scene, fresh)
             record_checksums(fresh)
             # scene.json last: until it is there the folder still describes the old scene or none.
-            replace_entries(fresh, folder, ("assets", "scene.json"), Path(temporary) / "old")
+            replace_entries(fresh, folder, ("assets", "scene.json"), scratch / "old")
     except OSError as error:
         raise ExportError(f"{folder}: cannot be written ({error.strerror or error}).") from error
     return folder / "scene.json"

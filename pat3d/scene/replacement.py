@@ -6,8 +6,8 @@ A reader sees the old contents or the new, never half of either; what fails leav
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
-import tempfile
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -42,6 +42,21 @@ def write_bytes(path: Path, data: bytes) -> None:
 
 
 @contextmanager
+def scratch_folder(parent: Path, prefix: str) -> Iterator[Path]:
+    """A new folder in `parent` that is gone when the block ends.
+
+    Its name is known before it is made, so that a signal between the two leaves nothing; `tempfile` makes a folder
+    first and learns its name after.
+    """
+    scratch = parent / f"{prefix}{secrets.token_hex(8)}"
+    try:
+        scratch.mkdir(mode=0o700)
+        yield scratch
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+@contextmanager
 def replaced_folder(folder: Path, *, keep: Callable[[str], bool] = lambda name: False) -> Iterator[Path]:
     """A new folder that takes the place of `folder` when the block ends, and vanishes if it fails.
 
@@ -56,9 +71,8 @@ def replaced_folder(folder: Path, *, keep: Callable[[str], bool] = lambda name: 
     done = False
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        prefix = f".{folder.name[:40]}-"
-        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=prefix, ignore_cleanup_errors=True) as scratch:
-            fresh, old = Path(scratch) / "new", Path(scratch) / "old"
+        with scratch_folder(folder.parent, f".{folder.name[:40]}-") as scratch:
+            fresh, old = scratch / "new", scratch / "old"
             fresh.mkdir()
             yield fresh
             _swap(fresh, folder, old, keep)

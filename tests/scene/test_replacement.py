@@ -1,9 +1,10 @@
+import os
 from pathlib import Path
 
 import pytest
 
 from pat3d.errors import ExportError
-from pat3d.scene.replacement import replaced_file, replaced_folder, write_bytes, write_text
+from pat3d.scene.replacement import replaced_file, replaced_folder, scratch_folder, write_bytes, write_text
 
 
 def halfway(path):
@@ -60,3 +61,18 @@ def test_of_the_earlier_folder_only_what_is_kept_and_not_written_again_moves_on(
     with replaced_folder(folder, keep=lambda name: name != "theirs") as fresh:
         (fresh / "both").write_text("new")
     assert {entry.name: entry.read_text() for entry in folder.iterdir()} == {"mine": "old", "both": "new"}
+
+
+def test_a_signal_as_soon_as_the_folder_is_there_leaves_nothing(tmp_path, monkeypatch):
+    mkdir = os.mkdir
+
+    def interrupted(path, *rest, **named):
+        mkdir(path, *rest, **named)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "mkdir", interrupted)
+    with pytest.raises(KeyboardInterrupt), scratch_folder(tmp_path, ".scene-"):
+        pass
+    with pytest.raises(KeyboardInterrupt), replaced_folder(tmp_path / "scene"):
+        pass
+    assert list(tmp_path.iterdir()) == []
