@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ EPISODES = (
     option("--seed", "the same seed gives the same episodes", type=int, default=0),
     option(
         "--perturb",
-        "pose [m], friction, mass, camera, light, words; all 0 by default",
+        "pose [m], friction, mass, camera, light, words, start [rad], background, noise; all 0 by default",
         nargs="+",
         default=[],
         metavar="AXIS=STRENGTH",
@@ -53,11 +54,20 @@ def settings_of(options: argparse.Namespace) -> RolloutSettings:
     return RolloutSettings(**settings)
 
 
-def episodes_from(options: argparse.Namespace, count: int | None = None) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """The episodes that a command line asks for, or `count` of them, and their source for the manifest."""
+def episodes_from(
+    options: argparse.Namespace, count: int | None = None, axes: Sequence[str] = ()
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """The episodes that a command line asks for, or `count` of them, and their source for the manifest.
+
+    With `axes`, so many without a perturbation and at every strength of each of them.
+    """
     from pat3d.policies_eval.run import episodes as listed
+    from pat3d.policies_eval.run.axes import episodes_along, levels
     from pat3d.policies_eval.run.perturb import parse
 
+    if axes and options.perturb:
+        raise EvaluationError("--axes perturbs in turn what --perturb does together; leave out one of them.")
+    along = levels(axes) if axes else ()
     perturbation = parse(options.perturb)
     source: dict[str, Any] = {"seed": options.seed, "perturbation": perturbation.to_json()}
     if options.suite:
@@ -73,4 +83,8 @@ def episodes_from(options: argparse.Namespace, count: int | None = None) -> tupl
             "scenes": sorted({Path(one.scene).name or "shipped scene" for one in settings}),
             "tasks": [s.task for s in settings],
         }
-    return listed.episodes_of(settings, count or options.episodes, seed=options.seed, perturbation=perturbation), source
+    wanted = count or options.episodes
+    if along:
+        source |= {"axes": list(axes), "levels": len(along)}
+        return episodes_along(settings, wanted, along, seed=options.seed), source
+    return listed.episodes_of(settings, wanted, seed=options.seed, perturbation=perturbation), source
