@@ -122,7 +122,7 @@ def _attempts(options: argparse.Namespace) -> tuple[Any, ...]:
 
 def _document(options: argparse.Namespace, count: int, attempts: int) -> int:
     """Print what was written as JSON; returns the exit code."""
-    from pat3d.cli.documents import file_facts
+    from pat3d.cli.evaluation_documents import file_facts
 
     failures = _lacking(options, count, attempts)
     print_facts(file_facts(options.out, demonstrations=count, attempts=attempts, failures=failures))

@@ -84,7 +84,7 @@ def evaluate(options: argparse.Namespace) -> int:
     summary = summarise(done, options.interval)
     write_report(done, summary, videos=options.videos, pictures=not options.no_pictures)
     if options.json:
-        from pat3d.cli.documents import evaluation_facts
+        from pat3d.cli.evaluation_documents import evaluation_facts
 
         print_facts(evaluation_facts(done, summary))
         return _scored(done)
@@ -124,7 +124,7 @@ def compare(options: argparse.Namespace) -> int:
 
     found = compare_evaluations(read_evaluation(options.first), read_evaluation(options.second))
     if options.json:
-        from pat3d.cli.documents import comparison_facts
+        from pat3d.cli.evaluation_documents import comparison_facts
 
         print_facts(comparison_facts(found))
     else:
@@ -146,7 +146,7 @@ def leaderboard(options: argparse.Namespace) -> int:
 
     evaluations = [read_evaluation(folder) for folder in options.folders]
     if options.json:
-        from pat3d.cli.documents import ranked_facts
+        from pat3d.cli.evaluation_documents import ranked_facts
 
         print_facts(ranked_facts(evaluations))
     else:
@@ -184,7 +184,7 @@ def replay(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        from pat3d.cli.documents import ReplayFacts
+        from pat3d.cli.evaluation_documents import ReplayFacts
 
         print_facts(
             ReplayFacts(
