@@ -130,7 +130,7 @@ def test_accents_and_remarks_are_no_words():
 
 
 def test_a_declared_size_that_is_unlike_its_kind_is_a_doubt(tmp_path):
-    """glTF says metres, yet a bowl of two metres is more likely a picture's than a dish."""
+    """The format says metres, yet a bowl of two metres is more likely a picture's than a dish."""
     trimesh.creation.box((2.0, 2.0, 0.8)).export(tmp_path / "bowl.glb")
     body = Body(mesh=load_mesh(tmp_path / "bowl.glb"), metres=1.0, declared="the glTF standard")
     small = Typical(noun="bowl", size=(0.16, 0.16, 0.06))

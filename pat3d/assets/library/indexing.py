@@ -28,6 +28,7 @@ from pat3d.assets.library.guess import (
 )
 from pat3d.assets.library.metadata import Metadata
 from pat3d.assets.library.readers.inertials import fault
+from pat3d.assets.library.readers.xml import FOLLOWED
 from pat3d.assets.library.resting import resting_poses, standing
 from pat3d.assets.library.store import Entry, weighed
 from pat3d.assets.library.upright import guess_up
@@ -155,6 +156,8 @@ def hashes(paths: Iterable[Path], root: Path) -> dict[str, str]:
 
 
 def _read(found: Found, root: Path) -> Body:
+    if not found.path.resolve().is_relative_to(root.resolve()):
+        raise AssetError(f"it is a link to a file outside the library; {FOLLOWED}")
     if found.kind == "mesh":
         from pat3d.assets.library.readers.meshes import read_mesh as read
     elif found.kind == "mjcf":

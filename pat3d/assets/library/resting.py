@@ -52,7 +52,8 @@ def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
     """Stable poses of a body of uniform density that fills the hull of `points` [m], shape (n, 3), likeliest first.
 
     Poses within TOGETHER of a likelier one count as that one, the base of a scan being many faces, nearly level; where
-    it is not steady, the steadiest of them stands for all. What is left out is less likely than `least` and more than that far from the frame's own up axis.
+    it is not steady, the steadiest of them stands for all. What is left out is less likely than `least` and more than
+    that far from the frame's own up axis.
 
     Raises:
         AssetError: the points are flat.
@@ -115,9 +116,8 @@ def standing(turn: Points, rests: Sequence[Rest]) -> tuple[Points, str]:
     turned = np.array(chosen.rotation) @ turn
     if chosen.tilt < TOGETHER:
         return turned, ""
-    return turned, (
-        f"pose: it does not rest as its file has it, or not steadily; turned by {chosen.tilt:.0f} degrees to where it does"
-    )
+    why = f"it does not rest as its file has it, or not steadily; turned by {chosen.tilt:.0f} degrees to where it does"
+    return turned, f"pose: {why}"
 
 
 def _margin(points: Points, centre: Points, up: Points) -> float:
