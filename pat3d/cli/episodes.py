@@ -35,6 +35,7 @@ SETTINGS = fields(
     robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
+    cameras="of rgb and rgbd: agentview, closeview, frontview, wrist",
     control_freq="actions a second",
     max_steps="of an episode",
     image_size="of observations [pixel]",
@@ -47,11 +48,16 @@ SETTINGS = fields(
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
     """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
     settings = values(RolloutSettings, options)
-    if options.suite and not settings["robot"]:
-        from pat3d.envs.suites.suite import Suite
+    return RolloutSettings(**settings | {"robot": settings["robot"] or suite_robot(options)})
 
-        settings["robot"] = Suite.open(options.suite).request.robot
-    return RolloutSettings(**settings)
+
+def suite_robot(options: argparse.Namespace) -> str:
+    """The robot that the suite was made for; "" without a suite."""
+    if not options.suite:
+        return ""
+    from pat3d.envs.suites.suite import Suite
+
+    return Suite.open(options.suite).request.robot
 
 
 def episodes_from(

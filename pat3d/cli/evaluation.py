@@ -159,7 +159,7 @@ def leaderboard(options: argparse.Namespace) -> int:
     option("--episode", "which one; all by default", type=int, action="append", metavar="N"),
     option("--video", ".mp4, .gif, or a folder for PNG files", metavar="FILE"),
     option("--picture", "moments of the episode side by side", metavar="FILE.png"),
-    option("--camera", "agentview, frontview or wrist", default="agentview"),
+    option("--camera", "agentview, frontview, closeview or wrist", default="agentview"),
     option("--size", "of video and moments [pixel]", default="320x240", metavar="WxH"),
     JSON,
     examples="""
