@@ -43,16 +43,17 @@ FACTS = {
         "ForeignFacts",
         "SuiteFacts",
         "LibraryFacts",
+        "PartFacts",
         "FoundFacts",
+        "SpecFacts",
+        "ConventionFacts",
+    ),
+    "pat3d.cli.evaluation_documents": (
         "EvaluationFacts",
         "ComparisonFacts",
         "RankedFacts",
         "ReplayFacts",
         "DemonstrationFacts",
-        "PartFacts",
-        "FoundFacts",
-        "SpecFacts",
-        "ConventionFacts",
     ),
 }
 """Documents of `--json`, by module."""

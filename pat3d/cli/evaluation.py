@@ -26,6 +26,14 @@ if TYPE_CHECKING:
         metavar="POLICY",
     ),
     *EPISODES,
+    option(
+        "--axes",
+        "so many episodes at every strength of each axis of --perturb, one axis at a time, and without any; all, or "
+        "as in pose camera=0.02,0.1",
+        nargs="+",
+        default=[],
+        metavar="AXIS",
+    ),
     option("--out", "records; an unfinished run goes on there", required=True, metavar="FOLDER"),
     option("--workers", "processes, or auto: one a core", default="1", metavar="N"),
     option("--overwrite", "throw away what FOLDER holds", action="store_true"),
@@ -38,6 +46,7 @@ if TYPE_CHECKING:
     pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
     pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
     pat3d evaluate --suite suites/tabletop --split test --policy my_policies:make --workers auto --out eval/mine
+    pat3d evaluate --suite suites/tabletop --policy FILE.pt --episodes 50 --axes all --out eval/axes
     """,
 )
 def evaluate(options: argparse.Namespace) -> int:
@@ -46,7 +55,7 @@ def evaluate(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.evaluate import evaluate as run
 
     settings = settings_of(options)
-    episodes, source = episodes_from(options)
+    episodes, source = episodes_from(options, axes=options.axes)
     workers = worker_count(options.workers)
     begun = time.perf_counter()
     errors = console(stderr=True)
@@ -68,17 +77,20 @@ def evaluate(options: argparse.Namespace) -> int:
         overwrite=options.overwrite,
         report=report,
     )
+    from pat3d.policies_eval.analysis.curves import curves, lines_of
     from pat3d.policies_eval.analysis.report import write_report
     from pat3d.policies_eval.analysis.summary import show_summary, summarise
 
     summary = summarise(done, options.interval)
     write_report(done, summary, videos=options.videos, pictures=not options.no_pictures)
     if options.json:
-        from pat3d.cli.documents import evaluation_facts
+        from pat3d.cli.evaluation_documents import evaluation_facts
 
         print_facts(evaluation_facts(done, summary))
         return _scored(done)
     show_summary(console(), summary)
+    for line in lines_of(curves(done, options.interval)):
+        console().print(line, markup=False, highlight=False)
     clipped = sum(one.clipped for one in done.results)
     if clipped:
         values = sum(one.actions.size for one in done.results)
@@ -112,7 +124,7 @@ def compare(options: argparse.Namespace) -> int:
 
     found = compare_evaluations(read_evaluation(options.first), read_evaluation(options.second))
     if options.json:
-        from pat3d.cli.documents import comparison_facts
+        from pat3d.cli.evaluation_documents import comparison_facts
 
         print_facts(comparison_facts(found))
     else:
@@ -134,7 +146,7 @@ def leaderboard(options: argparse.Namespace) -> int:
 
     evaluations = [read_evaluation(folder) for folder in options.folders]
     if options.json:
-        from pat3d.cli.documents import ranked_facts
+        from pat3d.cli.evaluation_documents import ranked_facts
 
         print_facts(ranked_facts(evaluations))
     else:
@@ -147,7 +159,7 @@ def leaderboard(options: argparse.Namespace) -> int:
     option("--episode", "which one; all by default", type=int, action="append", metavar="N"),
     option("--video", ".mp4, .gif, or a folder for PNG files", metavar="FILE"),
     option("--picture", "moments of the episode side by side", metavar="FILE.png"),
-    option("--camera", "agentview, frontview or wrist", default="agentview"),
+    option("--camera", "agentview, frontview, closeview or wrist", default="agentview"),
     option("--size", "of video and moments [pixel]", default="320x240", metavar="WxH"),
     JSON,
     examples="""
@@ -172,7 +184,7 @@ def replay(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        from pat3d.cli.documents import ReplayFacts
+        from pat3d.cli.evaluation_documents import ReplayFacts
 
         print_facts(
             ReplayFacts(

@@ -101,13 +101,14 @@ def depth_model_of(options: argparse.Namespace) -> DepthModel | None:
     """
     if options.depth is not None:
         return None
-    from pat3d.vision.depth import EXAMPLE, VARIABLE, TransformersDepth, depth_model_named
+    from pat3d.vision.depth import TransformersDepth
+    from pat3d.vision.models import EXAMPLES, VARIABLES, vision_models
 
-    name = depth_model_named()
+    name = vision_models().depth
     if name is None:
         raise ModelError(
-            f"--depth is missing, and no model can measure it: set {VARIABLE}, or [vision] depth in pat3d.toml, to the "
-            f"name or the folder of one, such as {EXAMPLE}."
+            f"--depth is missing, and no model can measure it: set {VARIABLES['depth']}, or [vision] depth in "
+            f"pat3d.toml, to the name or the folder of one, such as {EXAMPLES['depth']}."
         )
     return TransformersDepth(name)
 

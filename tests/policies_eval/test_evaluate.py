@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip("pyarrow")
 pytest.importorskip("robosuite")
 
-from pat3d.cli.documents import ComparisonFacts, EvaluationFacts, RankedFacts, ReplayFacts
+from pat3d.cli.evaluation_documents import ComparisonFacts, EvaluationFacts, RankedFacts, ReplayFacts
 from pat3d.cli.main import main
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.analysis.charts import axis, interval_bar
