@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ EPISODES = (
     option("--seed", "the same seed gives the same episodes", type=int, default=0),
     option(
         "--perturb",
-        "pose [m], friction, mass, camera, light, words; all 0 by default",
+        "pose [m], friction, mass, camera, light, words, start [rad], background, noise; all 0 by default",
         nargs="+",
         default=[],
         metavar="AXIS=STRENGTH",
@@ -34,6 +35,7 @@ SETTINGS = fields(
     robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
+    cameras="of rgb and rgbd: agentview, closeview, frontview, wrist",
     control_freq="actions a second",
     max_steps="of an episode",
     image_size="of observations [pixel]",
@@ -46,18 +48,32 @@ SETTINGS = fields(
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
     """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
     settings = values(RolloutSettings, options)
-    if options.suite and not settings["robot"]:
-        from pat3d.envs.suites.suite import Suite
-
-        settings["robot"] = Suite.open(options.suite).request.robot
-    return RolloutSettings(**settings)
+    return RolloutSettings(**settings | {"robot": settings["robot"] or suite_robot(options)})
 
 
-def episodes_from(options: argparse.Namespace, count: int | None = None) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """The episodes that a command line asks for, or `count` of them, and their source for the manifest."""
+def suite_robot(options: argparse.Namespace) -> str:
+    """The robot that the suite was made for; "" without a suite."""
+    if not options.suite:
+        return ""
+    from pat3d.envs.suites.suite import Suite
+
+    return Suite.open(options.suite).request.robot
+
+
+def episodes_from(
+    options: argparse.Namespace, count: int | None = None, axes: Sequence[str] = ()
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """The episodes that a command line asks for, or `count` of them, and their source for the manifest.
+
+    With `axes`, so many without a perturbation and at every strength of each of them.
+    """
     from pat3d.policies_eval.run import episodes as listed
+    from pat3d.policies_eval.run.axes import episodes_along, levels
     from pat3d.policies_eval.run.perturb import parse
 
+    if axes and options.perturb:
+        raise EvaluationError("--axes perturbs in turn what --perturb does together; leave out one of them.")
+    along = levels(axes) if axes else ()
     perturbation = parse(options.perturb)
     source: dict[str, Any] = {"seed": options.seed, "perturbation": perturbation.to_json()}
     if options.suite:
@@ -73,4 +89,8 @@ def episodes_from(options: argparse.Namespace, count: int | None = None) -> tupl
             "scenes": sorted({Path(one.scene).name or "shipped scene" for one in settings}),
             "tasks": [s.task for s in settings],
         }
-    return listed.episodes_of(settings, count or options.episodes, seed=options.seed, perturbation=perturbation), source
+    wanted = count or options.episodes
+    if along:
+        source |= {"axes": list(axes), "levels": len(along)}
+        return episodes_along(settings, wanted, along, seed=options.seed), source
+    return listed.episodes_of(settings, wanted, seed=options.seed, perturbation=perturbation), source

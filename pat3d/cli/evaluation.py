@@ -26,6 +26,14 @@ if TYPE_CHECKING:
         metavar="POLICY",
     ),
     *EPISODES,
+    option(
+        "--axes",
+        "so many episodes at every strength of each axis of --perturb, one axis at a time, and without any; all, or "
+        "as in pose camera=0.02,0.1",
+        nargs="+",
+        default=[],
+        metavar="AXIS",
+    ),
     option("--out", "records; an unfinished run goes on there", required=True, metavar="FOLDER"),
     option("--workers", "processes, or auto: one a core", default="1", metavar="N"),
     option("--overwrite", "throw away what FOLDER holds", action="store_true"),
@@ -38,6 +46,7 @@ if TYPE_CHECKING:
     pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
     pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
     pat3d evaluate --suite suites/tabletop --split test --policy my_policies:make --workers auto --out eval/mine
+    pat3d evaluate --suite suites/tabletop --policy FILE.pt --episodes 50 --axes all --out eval/axes
     """,
 )
 def evaluate(options: argparse.Namespace) -> int:
@@ -46,7 +55,7 @@ def evaluate(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.evaluate import evaluate as run
 
     settings = settings_of(options)
-    episodes, source = episodes_from(options)
+    episodes, source = episodes_from(options, axes=options.axes)
     workers = worker_count(options.workers)
     begun = time.perf_counter()
     errors = console(stderr=True)
@@ -68,6 +77,7 @@ def evaluate(options: argparse.Namespace) -> int:
         overwrite=options.overwrite,
         report=report,
     )
+    from pat3d.policies_eval.analysis.curves import curves, lines_of
     from pat3d.policies_eval.analysis.report import write_report
     from pat3d.policies_eval.analysis.summary import show_summary, summarise
 
@@ -79,6 +89,8 @@ def evaluate(options: argparse.Namespace) -> int:
         print_facts(evaluation_facts(done, summary))
         return _scored(done)
     show_summary(console(), summary)
+    for line in lines_of(curves(done, options.interval)):
+        console().print(line, markup=False, highlight=False)
     clipped = sum(one.clipped for one in done.results)
     if clipped:
         values = sum(one.actions.size for one in done.results)
@@ -147,7 +159,7 @@ def leaderboard(options: argparse.Namespace) -> int:
     option("--episode", "which one; all by default", type=int, action="append", metavar="N"),
     option("--video", ".mp4, .gif, or a folder for PNG files", metavar="FILE"),
     option("--picture", "moments of the episode side by side", metavar="FILE.png"),
-    option("--camera", "agentview, frontview or wrist", default="agentview"),
+    option("--camera", "agentview, frontview, closeview or wrist", default="agentview"),
     option("--size", "of video and moments [pixel]", default="320x240", metavar="WxH"),
     JSON,
     examples="""

@@ -11,6 +11,8 @@ from pat3d.scene.folder import finite
 
 if TYPE_CHECKING:
     from pat3d.policies_eval.analysis.compare import PairedResult
+    from pat3d.policies_eval.analysis.curves import Level
+    from pat3d.policies_eval.analysis.diagnosis import Diagnosis
     from pat3d.policies_eval.analysis.statistics import Rate
     from pat3d.policies_eval.analysis.summary import Summary
     from pat3d.policies_eval.run.records import Evaluation
@@ -27,6 +29,16 @@ class RateFacts:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LevelFacts:
+    """One strength of one axis of perturbation, against the same episodes without it."""
+
+    strength: float
+    rate: RateFacts
+    change: float | None
+    p_value: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class EvaluationFacts:
     """What an evaluation of a policy found."""
 
@@ -39,6 +51,7 @@ class EvaluationFacts:
     events: dict[str, int]
     reasons: dict[str, int]
     rates: dict[str, dict[str, RateFacts]]
+    curves: dict[str, list[LevelFacts]]
     clipped: int
     seconds: dict[str, float]
     engine: dict[str, str]
@@ -97,13 +110,65 @@ class DemonstrationFacts:
     attempts: int
 
 
+@dataclass(frozen=True, kw_only=True)
+class DiagnosisFacts:
+    """Whether a suite is any good as a benchmark."""
+
+    folder: str
+    suite: str
+    passed: bool
+    findings: list[str]
+    looked_at: int
+    rates: dict[str, dict[str, RateFacts]]
+    decisions: dict[str, dict[str, int]]
+    coverage: dict[str, dict[str, int]]
+    least_seen: dict[str, float]
+    ambiguous: list[int]
+    too_easy: list[int]
+    impossible: list[int]
+
+
+def diagnosis_facts(found: Diagnosis, folder: str | Path) -> DiagnosisFacts:
+    """Of a diagnosis that was written to a folder."""
+    from pat3d.policies_eval.analysis.survey import VIEWS, coverage
+
+    surveyed = found.surveyed
+    return DiagnosisFacts(
+        folder=str(folder),
+        suite=found.suite,
+        passed=not found.findings,
+        findings=list(found.findings),
+        looked_at=len(surveyed),
+        rates={name: {part: rate_facts(one) for part, one in rates.items()} for name, rates in found.rates.items()},
+        decisions={name: dict(one) for name, one in found.decisions.items()},
+        coverage=coverage(surveyed),
+        least_seen={camera: min(one.least_seen(camera) for one in surveyed) for camera in VIEWS},
+        ambiguous=[one.place for one in surveyed if one.ambiguous],
+        too_easy=list(found.too_easy),
+        impossible=list(found.impossible),
+    )
+
+
 def rate_facts(rate: Rate) -> RateFacts:
     """Of a rate; its interval is null without episodes."""
     return RateFacts(successes=rate.successes, episodes=rate.episodes, **finite({"low": rate.low, "high": rate.high}))
 
 
+def level_facts(level: Level) -> LevelFacts:
+    """Of one level of a curve; the plain one has nothing that it is compared with."""
+    paired = level.paired
+    return LevelFacts(
+        strength=level.strength,
+        rate=rate_facts(level.rate),
+        change=None if paired is None or not paired.episodes else -paired.difference,
+        p_value=None if paired is None or not paired.episodes else paired.p_value,
+    )
+
+
 def evaluation_facts(evaluation: Evaluation, summary: Summary) -> EvaluationFacts:
     """Of a finished evaluation."""
+    from pat3d.policies_eval.analysis.curves import curves
+
     return EvaluationFacts(
         folder=str(evaluation.folder),
         policy=summary.policy,
@@ -114,6 +179,9 @@ def evaluation_facts(evaluation: Evaluation, summary: Summary) -> EvaluationFact
         events=dict(summary.events),
         reasons=dict(summary.reasons),
         rates={name: {key: rate_facts(one) for key, one in table.items()} for name, table in summary.tables.items()},
+        curves={
+            axis: [level_facts(one) for one in levels] for axis, levels in curves(evaluation, summary.interval).items()
+        },
         clipped=sum(one.clipped for one in evaluation.results),
         seconds=dict(summary.seconds),
         engine=dict(summary.engine),

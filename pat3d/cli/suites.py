@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from pat3d.cli.console import QUIET_SECONDS, console, verdict
+from pat3d.cli.diagnosis import diagnose
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.envs.suites.generate import LIMIT
@@ -230,7 +231,9 @@ suite = with_verbs(
     pat3d suite show suites/tabletop
     pat3d suite spec suites/tabletop
     pat3d suite check-policy suites/tabletop --policy ws://127.0.0.1:8000 --obs rgb
+    pat3d suite diagnose suites/tabletop --out diagnosis
     """,
+    diagnose=diagnose,
     **{"check-policy": check_policy},
 )
 
