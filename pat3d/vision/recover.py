@@ -95,7 +95,7 @@ def recover(
     seen = bordered(seen, lost)
     camera, notes = _camera(seen, assets)
     if lost:
-        notes.append(f"the masks end {lost} pixels before the objects do, as the depth shows; they are grown.")
+        notes.append(f"the masks end early, by {lost} px, as the depth beside them shows; they are grown.")
     casters = {name: Caster(assets[name].visual) for name in seen.names}
     fits: dict[str, Fit] = {}
     for number, name in enumerate(seen.names):
