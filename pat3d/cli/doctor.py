@@ -185,33 +185,24 @@ def _model(table: Table) -> None:
 def _photographs(table: Table) -> None:
     """Report what `pat3d generate --image` can do without files; nobody is asked, and no weights are loaded."""
     from pat3d.vision.models import EXAMPLES, INSTALL, VARIABLES, can_load, vision_models
-    from pat3d.vision.painting import MODEL, image_settings
+    from pat3d.vision.painting import MODEL, URL, image_settings
 
     try:
         named, painter = vision_models(), image_settings()
     except ModelError as error:
         table.add("FAULT", "photographs", str(error))
         return
-    for what, (key, does) in _LOOKS.items():
-        name = getattr(named, key)
-        if not can_load():
-            table.add("no", what, f"from files; {INSTALL} lets a model {does}")
-        elif name is None:
-            table.add("no", what, f"from files; {VARIABLES[key]} names a model that can {does}, as {EXAMPLES[key]}")
-        else:
-            table.add("ok", what, f"from files, or by {name}")
-    if painter is None:
-        table.add("no", "painting", f"for --paint: {MODEL} names a model behind /v1/images, PAT3D_IMAGE_URL its server")
+    if not can_load():
+        table.add("no", "photographs", f"depth and masks come from files; {INSTALL} lets models find them")
     else:
-        table.add("ok", "painting", f"{painter.name} on {painter.server}")
-
-
-_LOOKS = {
-    "depth of photographs": ("depth", "measure it"),
-    "objects of photographs": ("detection", "find them"),
-    "masks of photographs": ("segmentation", "draw them"),
-}
-"""Rows of the table: the key of the model, and what it does."""
+        for key, variable in VARIABLES.items():
+            name = getattr(named, key)
+            advice = f"{variable} names a model, such as {EXAMPLES[key]}"
+            table.add("no" if name is None else "ok", f"photographs, {key}", advice if name is None else str(name))
+    if painter is None:
+        table.add("no", "photographs, painting", f"for --paint: {MODEL} names a model, {URL} its server")
+    else:
+        table.add("ok", "photographs, painting", f"{painter.name} on {painter.server}")
 
 
 def _embeddings(table: Table) -> None:

@@ -172,7 +172,7 @@ class ServedPainter:
         except (OSError, ValueError):
             made = self._asked(ask)
             try:
-                write_bytes(path, _encoded(made))
+                write_bytes(path, encoded(made))
             except OSError:
                 # A cache that cannot be written costs the next run its pictures, and this one nothing.
                 return made
@@ -270,7 +270,8 @@ def _png(image: Any) -> bytes:
     return stream.getvalue()
 
 
-def _encoded(picture: NDArray[np.uint8]) -> bytes:
+def encoded(picture: NDArray[np.uint8]) -> bytes:
+    """An RGB picture as PNG."""
     from PIL import Image
 
     return _png(Image.fromarray(picture))
