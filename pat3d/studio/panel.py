@@ -109,7 +109,7 @@ class Panel:
                 "forces": gui.add_checkbox("Contact forces", False),
                 "ghost": gui.add_checkbox("Initial layout", False),
                 "before": gui.add_checkbox("Before the edits", False),
-                "shadows": gui.add_checkbox("Shadows", False),
+                "shadows": gui.add_checkbox("Shadows, reflections", False),
             }
             for box in self._boxes.values():
                 box.on_update(lambda _: self._toggle())

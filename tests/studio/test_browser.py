@@ -69,6 +69,14 @@ def test_a_sentence_becomes_a_scene(studio, browser, shot):
     assert {"red mug", "cutting board"} <= {obj.name for obj in needed(studio.bench.session).scene.objects}
 
 
+def test_where_the_processor_draws_edges_are_not_smoothed(browser):
+    wishes = browser.evaluate(
+        "document.querySelector('canvas[data-engine]').getContext('webgl2').getContextAttributes()"
+    )
+    assert wishes["antialias"] is False
+    assert wishes["preserveDrawingBuffer"] is True
+
+
 def test_a_click_selects_what_is_under_it(studio, browser, shot):
     scene = needed(studio.bench.session).scene
     # The camera is told of in its own time.
