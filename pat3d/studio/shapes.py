@@ -29,8 +29,7 @@ def glb(asset: Asset) -> bytes:
     mesh = textured_mesh(asset, asset.noun)
     material = mesh.visual.material
     material.metallicFactor = min(METALLIC, material.metallicFactor)
-    found = mesh.export(file_type="glb", include_normals=True)
-    return found if isinstance(found, bytes) else bytes(found)
+    return mesh.export(file_type="glb", include_normals=True)
 
 
 def levels(asset: Asset) -> tuple[tuple[float, float], ...]:

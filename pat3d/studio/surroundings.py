@@ -93,7 +93,8 @@ def lines(left: tuple[float, float], right: tuple[float, float], cell: float) ->
     """A GLB with lines at height 0."""
     import trimesh
 
-    scene, per_metre = trimesh.Scene(), max(1, round(1.0 / cell))
+    scene: Any = trimesh.Scene()
+    per_metre = max(1, round(1.0 / cell))
     first, last = (np.round(np.array(corner) / cell).astype(int) for corner in (left, right))
     segments: dict[bool, list[list[tuple[float, float, float]]]] = {False: [], True: []}
     for x in range(first[0], last[0] + 1):
@@ -105,5 +106,4 @@ def lines(left: tuple[float, float], right: tuple[float, float], cell: float) ->
             path = trimesh.load_path(np.array(segments[whole]))
             path.colors = np.tile(colour, (len(path.entities), 1))
             scene.add_geometry(path)
-    found = scene.export(file_type="glb")
-    return found if isinstance(found, bytes) else bytes(found)
+    return scene.export(file_type="glb")

@@ -2,6 +2,7 @@
 
 import io
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ def visual_of(mesh):
     return VisualMesh.from_face_colours(mesh.vertices, mesh.faces, np.full((len(mesh.faces), 3), 99, dtype=np.uint8))
 
 
-def loaded(data):
+def loaded(data) -> Any:
     return trimesh.load(io.BytesIO(data), file_type="glb")
 
 
