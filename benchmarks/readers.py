@@ -206,8 +206,9 @@ def _wrong(found: dict, scene: Scene) -> Iterator[str]:
         yield f"{found['mass']:.6g} kg for {mass:.6g} kg"
     if found.get("objects", assets) != assets:
         yield f"{found['objects']} objects for {assets}"
-    if found.get("pictures", assets) < assets:
-        yield f"{found['pictures']} pictures for {assets} assets"
+    textures = len({obj.asset.visual.texture.tobytes() for obj in scene.objects})
+    if found.get("pictures", textures) < textures:
+        yield f"{found['pictures']} pictures for {textures}"
 
 
 def main() -> int:

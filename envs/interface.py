@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.observations import ObservationSpec
+from pat3d.envs.physics.views import ANGLES
 from pat3d.envs.physics.world import Mounted
 from pat3d.envs.robots.controllers import LARGEST
 from pat3d.geometry.pose import Pose
@@ -157,7 +158,7 @@ def _names(env: TabletopEnv) -> list[str]:
 
 def _is_ours(name: str) -> bool:
     """The scene's own camera is for viewers."""
-    return name in ("agentview", "frontview") or name.endswith("wrist")
+    return name in ANGLES or name.endswith("wrist")
 
 
 def _camera(env: TabletopEnv, name: str) -> dict[str, Any]:

@@ -60,6 +60,29 @@ def light_up(spec: Any) -> None:
             texture.rgb1, texture.rgb2 = FLOOR
 
 
+def sky_of(model: Any) -> Array:
+    """Colour of the sky in a world that was lit so, as it is now, shape (3,)."""
+    return np.array(model.vis.rgba.fog[:3], dtype=np.float32)
+
+
+def tint_of(model: Any, geom: int) -> Array:
+    """What the tiles of a plane are multiplied by, as it is now, shape (3,)."""
+    material = int(model.geom_matid[geom])
+    return np.ones(3, dtype=np.float32) if material < 0 else model.mat_rgba[material][:3].astype(np.float32)
+
+
+def paint_sky(model: Any, colour: NDArray[Any]) -> None:
+    """Give the sky of a world another colour, shape (3,); renderers have to be made anew."""
+    import mujoco
+
+    model.vis.rgba.fog[:3] = colour
+    for number in np.flatnonzero(model.tex_type == int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)).tolist():
+        first, channels = int(model.tex_adr[number]), int(model.tex_nchannel[number])
+        count = int(model.tex_height[number]) * int(model.tex_width[number])
+        texels = model.tex_data[first : first + count * channels].reshape(count, channels)
+        texels[:, :3] = np.round(255.0 * np.asarray(colour)).astype(np.uint8)
+
+
 class Lights:
     """The light of a model as it is now."""
 
