@@ -35,7 +35,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     *fields(
         Request,
         {
-            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve"},
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve and chain"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
             "least_tilt": DEGREES,
             "device": {"choices": DEVICES},
