@@ -141,7 +141,7 @@ def guessed(objects: Path, scratch: Path) -> None:
 
     from pat3d.assets.library.guess import SURE, guess_unit
     from pat3d.assets.library.indexing import typical_of
-    from pat3d.assets.library.names import Metadata, known_names, synonyms_of, words_of
+    from pat3d.assets.library.names import known_names, synonyms_of, words_of
     from pat3d.assets.library.readers.meshes import read_mesh
     from pat3d.assets.library.upright import guess_up
     from pat3d.assets.mesh.importing import METRES, TO_Z_UP
@@ -154,7 +154,7 @@ def guessed(objects: Path, scratch: Path) -> None:
         if not found:
             continue
         scan = trimesh.load(found[0], process=False, force="mesh")
-        _, _, like = synonyms_of([word for word in words_of(folder) if word != "ycb"], Metadata(), known_names())
+        _, _, like = synonyms_of([word for word in words_of(folder) if word != "ycb"], (), known_names())
         for unit in ("m", "cm", "mm"):
             for up in ("z", "y"):
                 path = scratch / f"{folder}.stl"

@@ -30,6 +30,8 @@ LEAST_SIGMA = 0.002
 """Errors of the depth that are always reckoned with, over the depth [-]."""
 BORDER = 2.5
 """Pixels beside a mask that may still be the object's."""
+NOISY = 0.01
+"""Noise of the depth over the depth, from which on the pixels between those of a window are averaged."""
 UNSURE = 0.4
 """Weight of pixels outside the mask whose depth cannot tell what is drawn from what is there."""
 
@@ -63,9 +65,14 @@ class Window:
         """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
         self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
         self.sigma = relative * np.where(known, self.range, 1.0)
-        self.smooth = np.where(known, seen.smooth_depth[row, column] * reach, np.nan)
-        calm = self.sigma * (1.0 if seen.noise < 0.01 else 0.35)
+        calm = self.sigma * (1.0 if seen.noise < NOISY else 0.35)
         self.calm = 2.0 * calm
+        if stride > 1 and seen.noise >= NOISY:
+            mean, count = _means(seen, mask, low, high, stride)
+            self.range = np.where(known & self.own, mean[row - low[0], column - low[1]] * reach, self.range)
+            less = np.sqrt(np.maximum(count[row - low[0], column - low[1]], 1.0))
+            self.sigma = np.where(self.own, self.sigma * np.maximum(1.0 / less, LEAST_SIGMA / relative), self.sigma)
+        self.smooth = np.where(known, seen.smooth_depth[row, column] * reach, np.nan)
         crop = tuple(slice(max(int(one) - 8, 0), int(other) + 8) for one, other in zip(low, high, strict=True))
         away = np.asarray(distance_transform_edt(~mask[crop]))[row - crop[0].start, column - crop[1].start]
         self.beside = np.where(away <= BORDER, 0.5, 1.0)
@@ -104,3 +111,14 @@ class Window:
         both = np.count_nonzero(self.own & hit)
         either = np.count_nonzero(self.own | (hit & (self.contradicted(drawn) > 0.0)))
         return both / max(either, 1)
+
+
+def _means(seen: Observation, mask: NDArray[np.bool_], low: Array, high: Array, stride: int) -> tuple[Array, Array]:
+    """Mean depth [m] of an object's pixels around each, and their number, from rows and columns `low` to `high`."""
+    from scipy.ndimage import uniform_filter
+
+    crop = (slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1])))
+    own = mask[crop] & seen.known[crop]
+    share = uniform_filter(own.astype(np.float64), size=stride, mode="constant")
+    total = uniform_filter(np.where(own, seen.depth[crop], 0.0).astype(np.float64), size=stride, mode="constant")
+    return total / np.maximum(share, 1e-9), np.round(share * stride**2)

@@ -183,6 +183,20 @@ def test_what_lies_outside_the_library_is_not_read(tmp_path):
         read_urdf(tmp_path / "in" / "x.urdf", tmp_path / "in")
 
 
+def test_links_to_outside_are_refused_with_what_to_do(tmp_path, monkeypatch):
+    """As the cache of Hugging Face has them: names in one folder, what they name in another."""
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    (tmp_path / "in").mkdir()
+    textured_box(tmp_path / "out")
+    (tmp_path / "in" / "cup.obj").symlink_to("../out/textured.obj")
+    (tmp_path / "in" / "can.stl").symlink_to("../out/nontextured.stl")
+    mesh = '<visual><geometry><mesh filename="cup.obj"/></geometry></visual>'
+    (tmp_path / "in" / "x.urdf").write_text(f'<robot name="x"><link name="a">{mesh}</link></robot>')
+    entries = add_library(tmp_path / "in", "lab", workers=1).entries
+    assert [one.state for one in entries] == ["refused", "refused"]
+    assert all("cp -rL" in one.reason for one in entries)
+
+
 def test_indexing_again_reads_only_what_has_changed(home):
     stamps = {path.name: path.stat().st_mtime_ns for path in open_library("lab").folder.glob("objects/*.npz")}
     box = home / "objects" / "003_cracker_box" / "google_16k" / "texture_map.png"

@@ -56,7 +56,8 @@ def test_what_is_named_and_not_there_is_said():
 def test_one_too_few_and_one_too_many_are_said():
     few = replace(MUGS, objects=MUGS.objects[:-1], relations=tuple(r for r in MUGS.relations if r.child != "spoon 2"))
     assert notes(few) == ('counted otherwise: "spoons", of which there are 1',)
-    many = replace(MUGS, objects=(*MUGS.objects, thing("spoon 3", "Two spoons")))
+    third = Relation(child="spoon 3", kind="on", parent="table")
+    many = replace(MUGS, objects=(*MUGS.objects, thing("spoon 3", "Two spoons")), relations=(*MUGS.relations, third))
     assert notes(many) == ('counted otherwise: "spoons", of which there are 3',)
 
 

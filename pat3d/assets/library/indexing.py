@@ -26,9 +26,11 @@ from pat3d.assets.library.guess import (
     longest_side,
     unit_of,
 )
+from pat3d.assets.library.metadata import Metadata
 from pat3d.assets.library.readers.inertials import fault
+from pat3d.assets.library.readers.xml import FOLLOWED
 from pat3d.assets.library.resting import resting_poses, standing
-from pat3d.assets.library.store import Entry
+from pat3d.assets.library.store import Entry, weighed
 from pat3d.assets.library.upright import guess_up
 from pat3d.assets.materials import material
 from pat3d.assets.mesh.cover import outside
@@ -64,6 +66,7 @@ def index_object(
     root: Path,
     library: str,
     settings: Mapping[str, Any],
+    metadata: Metadata,
     licence: str,
     cache_dir: Path,
     cpu_limit: float,
@@ -76,21 +79,21 @@ def index_object(
         root: folder of the library.
         library: its name.
         settings: what library.yaml says of the object.
+        metadata: what the library's files say of it beyond its mesh.
         licence: of the library, where it is known.
         cache_dir: for its convex parts.
         cpu_limit: processor time that the object may take [s].
     """
     begun, spent = time.perf_counter(), sum(os.times()[:4])
-    metadata = names.read_metadata(found.path)
     known = names.known_names()
-    name, synonyms, like = names.synonyms_of(found.words, metadata, known)
+    name, synonyms, like = names.synonyms_of(called(found, metadata), metadata.names, known)
     if "names" in settings:
         said = tuple(each.lower() for each in settings["names"])
         name, synonyms = said[0], tuple(dict.fromkeys((*said[1:], *synonyms)))
         like = next((each for each in (*said, like) if each in known), "")
     base = Entry(
         key=key, name=name, synonyms=synonyms, like=like, path=str(found.path.relative_to(root)), kind=found.kind,
-        state="refused", settings=dict(settings), files=hashes([found.path], root),
+        state="refused", settings=dict(settings), metadata=metadata.digest, files=hashes([found.path], root),
     )  # fmt: skip
     if settings.get("skip"):
         return replace(base, state="skipped", reason="library.yaml leaves it out"), None
@@ -133,6 +136,12 @@ def _took(begun: float, spent: float) -> dict[str, float]:
     }
 
 
+def called(found: Found, metadata: Metadata) -> list[str]:
+    """Words of an object's name: its own file's or folder's, else its metadata's, else those of a folder of many."""
+    titles = [words for title in metadata.names if (words := names.title_words(title))]
+    return titles[0] if titles and not found.told else list(found.words)
+
+
 def hashes(paths: Iterable[Path], root: Path) -> dict[str, str]:
     """SHA-256 of files below `root` that can be read, by relative path."""
     found = {}
@@ -147,6 +156,8 @@ def hashes(paths: Iterable[Path], root: Path) -> dict[str, str]:
 
 
 def _read(found: Found, root: Path) -> Body:
+    if not found.path.resolve().is_relative_to(root.resolve()):
+        raise AssetError(f"it is a link to a file outside the library; {FOLLOWED}")
     if found.kind == "mesh":
         from pat3d.assets.library.readers.meshes import read_mesh as read
     elif found.kind == "mjcf":
@@ -166,12 +177,12 @@ def _made(
     name: str,
     like: str,
     settings: Mapping[str, Any],
-    metadata: names.Metadata,
+    metadata: Metadata,
     cache_dir: Path,
     budget: CpuBudget,
 ) -> tuple[Asset, dict[str, Any], list[str]]:
     typical, doubts = typical_of(like), list[str]()
-    unit, metres = _unit(body, typical, settings)
+    unit, metres = _unit(body, typical, settings, metadata)
     up = _up(body, typical, settings, metadata)
     doubts += [
         f"{what} {guess.value}: {guess.reason}; {100 * guess.confidence:.0f} % sure"
@@ -193,7 +204,7 @@ def _made(
     # Descriptions are in metres already; their mass is about the placed frame.
     made_of, guessed = _material(settings, like)
     mass, source = _mass(settings, body, metadata)
-    if mass is None and guessed:
+    if mass is None and metadata.density is None and guessed:
         doubts.append(f"mass: by the density of {made_of}, which is a guess; give a material or a mass")
     given = [placing.apply(hull) for hull in body.hulls] if body.hulls and "parts" not in settings else None
     make = partial(
@@ -229,6 +240,8 @@ def _made(
         doubts = [one for one in doubts if not one.startswith("collision:")]
         why = "left some of it out" if fits else "came out larger than it is"
         doubts.append(f"collision: its convex parts {why}, so it is {told}")
+    if mass is None and metadata.density is not None and "material" not in settings:
+        asset, source = weighed(asset, metadata.density / asset.material.density), "density of its metadata"
     asset, wrong = _weighed(asset, body, placing, settings)
     doubts += [f"inertia: {wrong}; that of a uniform body was taken"] if wrong else []
     properties = asset.mass_properties
@@ -284,7 +297,7 @@ def _wrapped(points: Points) -> Points:
     return circumscribed(points, np.array([step for step in steps if 1 <= sum(map(abs, step)) <= 2], dtype=np.float64))
 
 
-def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> tuple[Guess, float]:
+def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: Metadata) -> tuple[Guess, float]:
     """The unit, and metres for each of it."""
     if "size" in settings:
         guess = Guess(value="size", reason=f"library.yaml gives {settings['size']:g} m", confidence=1.0, source="given")
@@ -292,11 +305,13 @@ def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> t
     if "units" in settings:
         guess = Guess(value=settings["units"], reason="library.yaml says so", confidence=1.0, source="given")
         return guess, METRES[settings["units"]]
+    if body.metres is None and metadata.metres is not None:
+        body = replace(body, metres=metadata.metres, declared="its metadata")
     guess = guess_unit(body, typical)
     return guess, body.metres if body.metres is not None else METRES[unit_of(guess)]
 
 
-def _up(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: names.Metadata) -> Guess:
+def _up(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: Metadata) -> Guess:
     """The axis that points up: library.yaml's, the file's, its metadata's, or a guess."""
     if "up" in settings:
         return Guess(value=settings["up"], reason="library.yaml says so", confidence=1.0, source="given")
@@ -313,7 +328,7 @@ def _material(settings: Mapping[str, Any], like: str) -> tuple[str, bool]:
     return (found.material, False) if found is not None else ("plastic", True)
 
 
-def _mass(settings: Mapping[str, Any], body: Body, metadata: names.Metadata) -> tuple[float | None, str]:
+def _mass(settings: Mapping[str, Any], body: Body, metadata: Metadata) -> tuple[float | None, str]:
     if "mass" in settings:
         return float(settings["mass"]), "library.yaml"
     if body.inertial is not None and "material" not in settings:

@@ -100,11 +100,15 @@ def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any,
     import trimesh
 
     resolver = _make_resolver(path, texture_root)
+    data = path.read_bytes()
+    if kind == "obj":
+        data = _in_utf8(data)
+    elif kind == "stl":
+        _check_stl(path, data)
     try:
-        with open(path, "rb") as file:
-            scene = trimesh.load_scene(
-                io.BytesIO(file.read()), file_type=kind, resolver=resolver, process=False, allow_remote=False
-            )
+        scene = trimesh.load_scene(
+            io.BytesIO(data), file_type=kind, resolver=resolver, process=False, allow_remote=False
+        )
     except Exception as error:
         # Parsers raise whatever a malformed file makes them hit; the user needs one line.
         text = " ".join(str(error).split())[:200]
@@ -190,6 +194,27 @@ def _check_size(path: Path, kind: str) -> None:
         )
 
 
+def _check_stl(path: Path, data: bytes) -> None:
+    """Refuse an STL that is neither text nor as long as its header says."""
+    if b"facet" in data[:65536].lower():
+        return
+    count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else 0
+    if len(data) != 84 + 50 * count:
+        raise AssetError(
+            f'"{path}" is damaged: by its header it has {count:,} triangles, which take {84 + 50 * count:,} bytes, '
+            f"and it has {len(data):,}."
+        )
+
+
+def _in_utf8(text: bytes) -> bytes:
+    """Text of any encoding that has ASCII in it; older modellers write names of materials in Latin 1."""
+    try:
+        text.decode("utf-8")
+    except UnicodeDecodeError:
+        return text.decode("latin-1").encode("utf-8")
+    return text
+
+
 def _count_faces(path: Path, kind: str, size: int) -> int | None:
     """Number of faces by the header (for OBJ and ASCII STL by counting lines), or None."""
     with open(path, "rb") as file:
@@ -265,7 +290,8 @@ def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> A
                 self.refused.append(f'"{name}" {reason} and was not read')
                 raise ValueError(self.refused[-1])
             self.opened.append(target)
-            return target.read_bytes()
+            data = target.read_bytes()
+            return _in_utf8(data) if target.suffix.lower() == ".mtl" else data
 
         def keys(self) -> list[str]:
             """Nothing is listed: files are opened by name."""

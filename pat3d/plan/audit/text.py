@@ -15,6 +15,8 @@ from pat3d.plan.audit.words import (
     ADJECTIVES,
     ARTICLES,
     BREAKING,
+    ENDING,
+    HEADLESS,
     IRREGULAR,
     LEADING,
     LONGEST,
@@ -69,6 +71,8 @@ class Claim:
     said: str
     """With what stands behind it: "on the table"."""
     at: int
+    end: int
+    """Words of the sentence."""
     of: Mention | None
     """None for a pronoun."""
     part: int
@@ -217,10 +221,15 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             while of not in said.mentions:
                 of = starts[of.end]
             end = of.end
-        pronoun = of is None and at + size < len(words) and words[at + size] in PRONOUNS
-        if of is not None or pronoun:
-            text = " ".join(words[at : end if of is not None else at + size + 1])
-            made.append(Claim(place=place, said=text, at=at, of=of, part=parts[at], whose=_whose(said, at)))
+        after = words[at + size] if at + size < len(words) else ""
+        if of is None:
+            end = at + size + (after in PRONOUNS)
+            headless = after == "the" and place != "between" and set(words[end + 1 : end + 2]) & HEADLESS
+            if headless and not any(word[0].isalpha() and word not in ENDING for word in words[end + 2 : end + 3]):
+                end += 2
+        if of is not None or end > at + size or place in ("its left", "its right"):
+            text = " ".join(words[at:end])
+            made.append(Claim(place=place, said=text, at=at, end=end, of=of, part=parts[at], whose=_whose(said, at)))
         at += size
     return made
 

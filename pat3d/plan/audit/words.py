@@ -6,7 +6,7 @@ from typing import Literal
 
 Place = Literal[
     "on", "on top", "in", "beside", "left", "right", "front", "behind", "under", "above", "between", "around", "far",
-    "hanging", "holding", "with", "from", "across", "side",
+    "hanging", "holding", "with", "from", "across", "against", "its left", "its right", "side",
 ]  # fmt: skip
 """What a relation word says; "with" and "holding" of what stands behind it; "side" of nothing."""
 
@@ -42,6 +42,37 @@ ARTICLES = frozenset({
     "its", "their", "my", "your", "his", "her", "our", "no", *NUMBERS,
 })  # fmt: skip
 PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him", "her", "this"})
+HEADLESS = frozenset({
+    "first", "second", "third", "fourth", "fifth", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
+    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest",
+})  # fmt: skip
+"""Words that name an object of which the noun is not said."""
+ENDING = frozenset({"one", "ones", "and", "but", "while", "is", "are", "or"})
+"""Words behind which such a word stands alone."""
+BACKWARD = frozenset({"it", "them", "him", "her"})
+"""Pronouns for something named before."""
+OPENING = frozenset(
+    {
+        "and",
+        "but",
+        "while",
+        "then",
+        "there",
+        "where",
+        "also",
+        "is",
+        "are",
+        "lies",
+        "lie",
+        "stands",
+        "stand",
+        "sits",
+        "sit",
+        "rests",
+        "rest",
+    }
+)
+"""Words after which a clause may begin with a place."""
 REACHING = PRONOUNS | {"they", "there", "these", "ones", "former", "latter", "other", "first", "second", "last"}
 """Words that speak of what another sentence has named."""
 REPEATS = frozenset({
@@ -49,6 +80,19 @@ REPEATS = frozenset({
     "other", "another", "one", "ones", "rest", "half", "most", "x", "times", "pile", "heap", "piles", "rainbow",
 })  # fmt: skip
 """Words by which there are more of a thing than its name's number says."""
+SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
+"""Words by which likes are told from one another."""
+EACH = frozenset({"each", "every", "either"})
+ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
+CORNERS = frozenset({"corner", "corners"})
+PARTS: dict[str, frozenset[str]] = {
+    **dict.fromkeys(("edge", "rim", "lip", "border"), frozenset({"at_edge"})),
+    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner"}),
+    "bottom": frozenset({"under"}), **dict.fromkeys(("foot", "handle", "leg", "arm", "armrest", "spout"), frozenset()),
+}  # fmt: skip
+"""Parts of things, and the relations that are at them."""
+FLOOR = frozenset({"floor", "ground", "grass", "carpet"})
+"""Words that say where something is that nothing carries."""
 LEADING = frozenset({
     "is", "are", "was", "were", "in", "turn", "sits", "sit", "stands", "stand", "lies", "lie", "rests", "rest",
     "sitting", "standing", "lying", "resting", "placed", "itself", "also", "has", "have",
@@ -74,7 +118,10 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
         "in": ("in", "inside", "within", "into", "inside of"),
         "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by",
-                   "close to", "alongside", "adjacent to", "against", "along"),
+                   "close to", "alongside", "adjacent to", "along"),
+        "against": ("against",),
+        "its left": ("to its left", "on its left"),
+        "its right": ("to its right", "on its right"),
         "left": ("left of", *left),
         "right": ("right of", *right),
         "front": ("in front of", "before", "to the front of"),
@@ -90,11 +137,10 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
-        "side": ("on the left", "on the right", "to the left", "to the right", "to its left", "to its right",
-                 "on its left", "on its right", "from left to right", "on one side", "on the other side",
-                 "on the other", "in the middle", "in a row", "on top", "in front", "on either side", "on both sides",
-                 "hand over", "hands over", "on top of each other", "next to each other", "beside each other",
-                 "on each other"),
+        "side": ("on the left", "on the right", "to the left", "to the right", "from left to right", "on one side",
+                 "on the other side", "on the other", "in the middle", "in a row", "on top", "in front",
+                 "on either side", "on both sides", "hand over", "hands over", "on top of each other",
+                 "next to each other", "beside each other", "on each other"),
     }  # fmt: skip
     return {tuple(words.split()): place for place, phrases in table.items() for words in phrases}
 

@@ -16,6 +16,8 @@ from pat3d.geometry.rotations import about
 
 MAX_BYTES = 5_000_000
 GRAY = (0.7, 0.7, 0.7)
+FOLLOWED = "copy the folder with its links followed (cp -rL)."
+"""What to do about links as the cache of Hugging Face has them."""
 _DECLARATION = re.compile(r"^\s*<\?xml[^>]*\?>")
 
 
@@ -80,6 +82,8 @@ def address(said: str, path: Path, root: Path) -> Path:
         target = one.resolve()
         if target.is_file() and target.is_relative_to(root.resolve()):
             return target
+    if any(one.is_symlink() for one in tried):
+        raise AssetError(f'"{said}" is a link to a file outside the library; {FOLLOWED}')
     raise AssetError(f'"{said}" is not there, or lies outside the library.')
 
 

@@ -1,0 +1,124 @@
+"""Relation words against the edges of a plan: what is said of which object, and whether it stands so."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.text import Claim, Mention
+from pat3d.plan.audit.words import BACKWARD, OPENING, REACHING, Place
+
+_KINDS: dict[Place, frozenset[str]] = {
+    "on": frozenset({"on", "in", "hangs_from", "across", "at_edge", "in_corner", "in_middle", "leaning_against"}),
+    "on top": frozenset({"on", "across", "in_middle"}),
+    "in": frozenset({"in", "on", "in_corner", "in_middle"}),
+    "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
+                         "side_by_side"}),
+    "against": frozenset({"leaning_against"}),
+    "left": frozenset({"left_of"}),
+    "right": frozenset({"right_of"}),
+    "front": frozenset({"in_front_of"}),
+    "behind": frozenset({"behind"}),
+    "under": frozenset({"under"}),
+    "above": frozenset({"on", "above"}),
+    "between": frozenset({"between", "right_of", "left_of", "in_front_of", "behind"}),
+    "around": frozenset({"around", "circle"}),
+    "far": frozenset({"far_from"}),
+    "hanging": frozenset({"hangs_from"}),
+    "from": frozenset({"on", "in", "hangs_from", "far_from"}),
+    "across": frozenset({"across", "on"}),
+    "its left": frozenset({"left_of"}),
+    "its right": frozenset({"right_of"}),
+}  # fmt: skip
+_DOORS = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave", "oven", "toaster oven", "wardrobe",
+                    "dishwasher", "washing machine", "dryer"})  # fmt: skip
+"""What things are in when they are in it: to be on it is something else."""
+
+
+def broken(it: Compared, claim: Claim) -> str | None:
+    """What the plan does not have of `claim`, as a note; None where it has it, or a note says so already."""
+    of = [obj.name for obj in it.which(claim.of)] if claim.of is not None else []
+    if claim.of is not None and (not of or it.named(claim.of.text)):
+        return None
+    asked = claim.of is None and (it.tasks.strip() or it.undone)
+    if it.named(claim.said) or claim.said in it.undone or asked or any(name in it.tasks for name in of):
+        return None
+    turned = any(each.kind == "upside_down" for each in it.plan.postures)
+    if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
+        return f'not as said: "{claim.said}"'
+    whose = {obj.name for obj in it.which(claim.whose)} if claim.whose is not None else set()
+    if claim.whose is not None and whose and not _holds(it, claim, whose, of):
+        return f'"{claim.said}" is not read as said of "{claim.whose.text}"'
+    return None
+
+
+def _here(it: Compared, claim: Claim) -> set[str]:
+    """The objects that `claim` may be said of: those named with it, and where it is a pronoun's, before it."""
+    words = set(it.said.words)
+    reach = bool(words & REACHING) or ":" in words
+    named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+    return {obj.name for obj in it.plan.objects if obj.name not in named} | {
+        obj.name
+        for mention in it.said.mentions
+        if mention is not claim.of and (mention.part == claim.part or reach)
+        for obj in it.of(mention)
+    }
+
+
+def _before(it: Compared, at: int) -> list[Mention]:
+    return [mention for mention in it.said.mentions if mention.end <= at]
+
+
+def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
+    """Whether `names` are what is named right before `claim`, one after the other or by one plural."""
+    near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
+    child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
+    return set(names) <= near and not set(names) & child
+
+
+def _opens(it: Compared, claim: Claim) -> bool:
+    """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
+    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+
+
+def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
+    """Whether what "it" or "its left" in `claim` may mean is named before it, and the plan has the relation to that."""
+    before = _before(it, claim.at)
+    child = before[-1:] if claim.place in ("its left", "its right") and before and before[-1].end == claim.at else []
+    named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+    landmarks = {obj.name for obj in it.plan.objects if obj.name not in named} | {
+        obj.name for mention in before[: len(before) - len(child)] for obj in it.of(mention)
+    }
+    children = {obj.name for mention in child for obj in it.which(mention)} or here
+    kinds = _KINDS[claim.place]
+    return any(kind in kinds and a in children and b in landmarks for a, kind, b in it.edges)
+
+
+def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> bool:
+    if claim.place == "with":
+        owned = any(mention.end == claim.at for mention in it.said.mentions)
+        return not owned or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
+    if claim.place == "holding":
+        return claim.of is None or any(a in of and b in here and kind in ("on", "in") for a, kind, b in it.edges)
+    kinds = set(_KINDS[claim.place])
+    if claim.of is None and claim.place == "between":
+        return any(one.kind == "between" and _just_before(it, claim, one.of) for one in it.plan.arrangements)
+    if claim.place in ("its left", "its right") or (claim.of is None and it.said.words[claim.end - 1] in BACKWARD):
+        return _points_back(it, claim, here)
+    if claim.of is None:
+        near = {obj.name for mention in it.said.mentions if mention.end == claim.at for obj in it.which(mention)}
+        here = near or here
+        return any(kind in kinds and {a, b} & here for a, kind, b in it.edges)
+    if claim.said.startswith(("on the left", "on the right")):
+        kinds |= {"on"}
+    if claim.of.noun in _DOORS and claim.place in ("in", "from"):
+        kinds -= {"on"}
+    if claim.of.noun in it.furniture and claim.place == "across":
+        # "Two chairs across a table from each other" stand on none.
+        kinds -= {"on"}
+    if not _opens(it, claim) and claim.whose is None:
+        # "a mug on a tray": what is on the tray is named before it.
+        earlier = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
+        named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+        here = (here & earlier) | (here - named) or here
+    return any(a in here and b in of and kind in kinds for a, kind, b in it.edges)

@@ -1,0 +1,88 @@
+"""A plan beside its sentence: which objects a name speaks of, how they stand, what notes say of them already."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+
+from pat3d.assets.colours import find_colour
+from pat3d.plan.audit.text import Mention, Said, singulars
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.relations import carriers_of
+
+_MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
+             "next_to": "next_to", "on": "under", "far_from": "far_from", "side_by_side": "side_by_side"}  # fmt: skip
+_ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
+"""Notes that say how a thing is made, not that it is missing."""
+_OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
+"""Notes on a word of a phrase, which say nothing of the rest of it."""
+
+
+def _covered(note: str) -> str:
+    """What `note` says is missing or otherwise."""
+    found = _OF.match(note)
+    return note if found is None else next(part for part in found.groups() if part)
+
+
+class Compared:
+    """A plan, what its prompt says on its face, and what the two have to do with each other."""
+
+    def __init__(self, plan: ScenePlan, said: Said, furniture: Collection[str]) -> None:
+        """Compare `plan` with `said`; `furniture` are nouns of what stands on the floor by nature."""
+        self.furniture = frozenset(furniture)
+        self.plan = plan
+        self.said = said
+        told = [note for note in plan.notes if not _ASSUMED.search(note) and "no task does" not in note]
+        self.told = " ".join((*map(_covered, told), *plan.set_aside)).lower()
+        self.quoted = " ".join((*plan.notes, *plan.set_aside)).lower()
+        self.undone = " ".join(note for note in plan.notes if "no task does" in note).lower()
+        self.tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
+        self.edges: set[tuple[str, str, str]] = set()
+        for rel in plan.relations:
+            self.edges.add((rel.child, rel.kind, rel.parent))
+        for one in plan.arrangements:
+            among = one.of or one.objects
+            self.edges |= {(a, one.kind, b) for a in one.objects for b in among if a != b}
+        self.edges |= {(b, _MIRRORED[kind], a) for a, kind, b in self.edges if kind in _MIRRORED}
+        for obj in plan.objects:
+            for above in self.above(obj.name)[1:]:
+                self.edges.add((obj.name, "on", above))
+
+    # Objects
+
+    def of(self, mention: Mention) -> list[PlannedObject]:
+        """The objects that `mention` may name."""
+        words = {mention.text, *singulars(mention.text)}
+        last = mention.text.split()[-1]
+        heads = {last, *singulars(last)}
+        return [
+            obj for obj in self.plan.objects
+            if obj.noun == mention.noun
+            or any(re.search(rf"\b{re.escape(word)}\b", obj.phrase.lower()) for word in words)
+            or (not mention.new and heads & {obj.noun.split()[-1], obj.name.rstrip(" 0123456789").split()[-1]})
+        ]  # fmt: skip
+
+    def which(self, mention: Mention) -> list[PlannedObject]:
+        """The objects that `mention` may name and that have its colours, where some have; else all that it may name."""
+        objects = self.of(mention)
+        own = [obj for obj in objects if all(self.has(obj, colour) for colour in mention.colours)]
+        return own or objects
+
+    def named(self, text: str) -> bool:
+        """Whether a note names `text` already."""
+        return re.search(rf"\b{re.escape(text)}", self.told) is not None
+
+    def has(self, obj: PlannedObject, colour: str) -> bool:
+        """Whether `obj` has `colour`, in its name or of its material."""
+        wanted = find_colour(colour) or colour
+        own = {find_colour(one) or one for one in obj.colours}
+        return wanted in own or colour in (obj.material or "") or any(
+            colour in word or wanted in word for word in (*obj.adjectives, obj.noun, obj.name)
+        )  # fmt: skip
+
+    def above(self, name: str) -> list[str]:
+        """What carries object `name`, what carries that, and so on."""
+        path = [name]
+        while (below := carriers_of(path[-1], self.plan.relations)[0]) in {obj.name for obj in self.plan.objects}:
+            path.append(below)
+        return path[1:]

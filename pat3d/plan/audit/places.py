@@ -1,0 +1,166 @@
+"""What a plan decides where its sentence is silent: where things are, which of several are meant, how many for each.
+
+None of this needs to know how the sentence was read: a plan in which likes stand apart, or in which something is
+nowhere while the rest is somewhere, has decided that, and a person is to see it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.text import Mention
+from pat3d.plan.audit.words import CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, PARTS, PRONOUNS, SPLITTING
+from pat3d.plan.scene_plan import PlannedObject
+from pat3d.scene.relations import carriers_of
+
+_NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
+
+
+def unplaced(it: Compared) -> Iterator[str]:
+    """Objects of which nothing says where they are, while what is named with them is somewhere."""
+    if it.tasks.strip() or it.undone or FLOOR & set(it.said.words):
+        return
+    objects = {obj.name: obj for obj in it.plan.objects}
+    carrying = any(b in objects and objects[b].noun in it.furniture and kind in ("on", "in") for _, kind, b in it.edges)
+    left: list[PlannedObject] = []
+    for part in _connected(it):
+        furniture = any(objects[name].noun in it.furniture for name in part)
+        own = [objects[name] for name in part if not it.above(name)]
+        alone = len({objects[name].noun for name in part}) == 1
+        left += [obj for obj in own if (not furniture and carrying) or (alone and _mate_is_told(it, obj, part))]
+    for phrase in dict.fromkeys(obj.phrase for obj in left):
+        own, whole = ([obj for obj in objs if obj.phrase == phrase] for objs in (left, it.plan.objects))
+        beside = any(rel.parent == obj.name and not rel.supports for rel in it.plan.relations for obj in whole)
+        carried = any(set(it.above(obj.name)) - {like.name for like in whole} for obj in whole)
+        if phrase.lower() not in it.told and (len(own) == len(whole) or (carried and not beside)):
+            some = f"{len(own)} of {len(whole)}: where they are" if len(own) < len(whole) else "where"
+            yield f'"{phrase}": {some} is not said; on the ground'
+
+
+def _mate_is_told(it: Compared, obj: PlannedObject, part: set[str]) -> bool:
+    """Whether what is listed with `obj` is related to something that `obj` is not."""
+    mentions = it.said.mentions
+    for one, other in zip(mentions, mentions[1:], strict=False):
+        between = set(it.said.words[one.end : other.start])
+        own, mates = (one, other) if obj in it.which(one) else (other, one)
+        if not between & {"and", ","} or len(between) > 3 + len(other.lead) or obj not in it.which(own):
+            continue
+        if obj.noun in it.furniture and not (own is other and "the" in between and _is_landmark(it, mates)):
+            # Of what stands on the floor by nature nobody says where it is, but "on the table and the rug".
+            continue
+        names = {mate.name for mate in it.which(mates)} - part
+        if any(a in names and (own is other or (kind != "under" and not it.above(b))) for a, kind, b in it.edges):
+            return True
+    # Of likes told of one by one.
+    return any(it.above(like.name) for like in it.plan.objects if like.phrase == obj.phrase)
+
+
+def _is_landmark(it: Compared, mention: Mention) -> bool:
+    return any(claim.of is mention for claim in it.said.claims)
+
+
+def parts(it: Compared) -> Iterator[tuple[int, str]]:
+    """Parts of things that something is said to be at, and that the plan takes the whole for."""
+    words, kinds = it.said.words, {rel.kind for rel in it.plan.relations} | {one.kind for one in it.plan.arrangements}
+    for at, word in enumerate(words[:-1]):
+        if word not in PARTS or words[at + 1] != "of" or kinds & PARTS[word]:
+            continue
+        whole = next((mention for mention in it.said.mentions if at < mention.start <= at + 5), None)
+        inside = word == "bottom" and "on" not in words[max(at - 2, 0) : at] and "in" in kinds
+        if whole is not None and it.which(whole) and not inside and not re.search(rf"\b{word}\b", it.quoted):
+            yield at, f'not modelled: "{word}" of "{whole.text}"'
+
+
+def _connected(it: Compared) -> list[set[str]]:
+    """The objects that relations join, in the order of the plan."""
+    parts: list[set[str]] = []
+    for obj in it.plan.objects:
+        near = {obj.name} | {b for a, _, b in it.edges if a == obj.name} | {a for a, _, b in it.edges if b == obj.name}
+        touched = [part for part in parts if part & near]
+        parts = [part for part in parts if not part & near] + [near.union(*touched)]
+    return [part & {obj.name for obj in it.plan.objects} for part in parts]
+
+
+def shared_out(it: Compared) -> Iterator[str]:
+    """Likes that stand on different things though the sentence tells them by no word from one another."""
+    if set(it.said.words) & SPLITTING:
+        return
+    for phrase in dict.fromkeys(obj.phrase for obj in it.plan.objects):
+        names = [obj.name for obj in it.plan.objects if obj.phrase == phrase]
+        nouns = {obj.name: obj.noun for obj in it.plan.objects}
+        carriers = [carriers_of(name, it.plan.relations)[0] for name in names]
+        kinds = {nouns.get(carrier, "the ground") for carrier in carriers if carrier not in names}
+        if len(kinds) > 1 and phrase.lower() not in it.told:
+            where = " and ".join(f'"{kind}"' for kind in sorted(kinds))
+            yield f'"{phrase}" are shared out among {where}; who is where is not said'
+
+
+def for_each(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things of which "each", "every" or "either end" wants several, and of which there are fewer."""
+    for at, word in enumerate(it.said.words):
+        if word not in EACH:
+            continue
+        place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
+        before = [mention for mention in it.said.mentions if mention.end <= at]
+        behind = [mention for mention in it.said.mentions if mention.start > at]
+        if place in ENDS or place in CORNERS:
+            # "A bench with a plant at either end", but not "two lamps, one at either side"
+            wanted = 4 if place in CORNERS else 2
+            told = before[-1:] if before and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
+            yield from _fewer(it, at, told, wanted, f"{word} {place}")
+            continue
+        if word == "either" or place == "other":
+            continue
+        own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
+        if own:
+            # "a fork beside each plate", "each plate holds a bun"
+            owners, things = it.which(own[0]), _led(it, own[0], at, before, behind[1:])
+        else:
+            plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
+            owners, things = (it.which(plural[-1]) if plural else []), _listed(it, behind)
+        yield from _fewer(it, at, things, len(owners), word)
+
+
+def _led(it: Compared, own: Mention, at: int, before: Sequence[Mention], behind: Sequence[Mention]) -> list[Mention]:
+    """What there is one of for each of `own`: named before "beside each plate", behind "each plate holds"."""
+    claim = next((claim for claim in it.said.claims if claim.of is own or claim.end == at + 1), None)
+    if claim is None:
+        return _listed(it, behind)
+    near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING]
+    return near[-1:] if claim.at < at else []
+
+
+def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
+    """The first of `behind`, and what "and" joins to it."""
+    made = list(behind[:1])
+    for mention in behind[1:]:
+        between = set(it.said.words[made[-1].end : mention.start])
+        if "and" not in between or len(between) > 2 + len(mention.lead) or not mention.new:
+            break
+        made.append(mention)
+    return made
+
+
+def _fewer(it: Compared, at: int, things: Sequence[Mention], wanted: int, said: str) -> Iterator[tuple[int, str]]:
+    for thing in things:
+        there = len(it.which(thing))
+        if thing.new and 0 < there < wanted * (thing.number or 1) and not it.named(thing.text):
+            yield at, f'not as said: "{said}" wants {wanted * (thing.number or 1)} of "{thing.text}"; there are {there}'
+
+
+def without(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is said to be without something that all there are of its kind have."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word == "without"):
+        owner = next((mention for mention in reversed(it.said.mentions) if mention.end <= at), None)
+        lacking = next((mention for mention in it.said.mentions if at < mention.start <= at + 3), None)
+        if lacking is None:
+            owned = [claim.of for claim in it.said.claims if claim.place in ("with", "holding") and claim.at < at]
+            lacking = owned[-1] if owned else None
+        if owner is None or lacking is None or not it.which(lacking):
+            continue
+        have = {b for a in it.which(lacking) for b in it.above(a.name)}
+        if all(obj.name in have for obj in it.which(owner)):
+            yield at, f'not as said: "{" ".join(words[at : at + 2]).rstrip(" ,.;")}" of "{owner.text}"'
