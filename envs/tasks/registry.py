@@ -43,7 +43,7 @@ def _step(spec: str) -> Task:
 
 
 def possible_tasks(scene: Scene) -> Iterator[Task]:
-    """Every task that the scene's tree and sizes allow, but for chains; whether a robot reaches it, its placement says."""
+    """Every task that the scene's tree and sizes allow, but for chains; its placement says what is in reach."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
         if kind is Chain:
