@@ -46,7 +46,9 @@ class Surveyed:
     @staticmethod
     def from_json(data: dict[str, Any]) -> Surveyed:
         """From what `to_json` gave."""
-        kept = {name: tuple(value) if isinstance(value, list) else value for name, value in data.items()}
+        kept: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value for name, value in data.items()
+        }
         return Surveyed(**kept)
 
     def least_seen(self, camera: str) -> float:
