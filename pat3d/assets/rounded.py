@@ -143,7 +143,7 @@ def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segment
         out = outline(between(fine_outer, low, high), 0.5 * limit, 4)
         into = _chord(between(fine_inner, low, high), outward=False)
         # The outside has the corners of the picture; the inside is flat.
-        drawn = 2 * math.pi / SMOOTH_SEGMENTS * np.arange(SMOOTH_SEGMENTS // segments + 1)
+        drawn = np.asarray(2 * math.pi / SMOOTH_SEGMENTS * np.arange(SMOOTH_SEGMENTS // segments + 1), dtype=np.float64)
         for k in range(segments):
             corners = [_ring(k * step + drawn, r, z) for r, z in out]
             corners += [
