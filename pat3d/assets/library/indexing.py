@@ -53,8 +53,8 @@ MISSED = 0.05
 """Share of the longest side by which a picture may reach beyond its collision shapes for them to be meant for it."""
 
 LEAST_FILLED, OPEN = 0.01, 0.01
-"""A mesh's centre of mass is known where it encloses this share of its bounding box at least, and its area vectors leave
-this share of its area at most."""
+"""A mesh's centre of mass is known where it encloses this share of its bounding box at least, and its area vectors
+add up to this share of its area at most."""
 
 STICKS_OUT = 1e-4
 """By how much [m] a picture may stick out of the convex parts."""
@@ -95,7 +95,7 @@ def index_object(
         said = tuple(each.lower() for each in settings["names"])
         name, synonyms = said[0], tuple(dict.fromkeys((*said[1:], *synonyms)))
         like = next((each for each in (*said, like) if each in known), "")
-    # What the reader of sentences knows of kinds it knows by nouns, not by their synonyms: a salad bowl is a fruit bowl.
+    # What the reader of sentences knows of kinds it knows by nouns, not by synonyms: a salad bowl is a fruit bowl.
     like = kind.noun if like and (kind := lookup.find(like)) is not None else like
     base = Entry(
         key=key, name=name, synonyms=synonyms, like=like, path=str(found.path.relative_to(root)), kind=found.kind,
