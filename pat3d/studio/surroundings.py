@@ -103,7 +103,7 @@ def lines(left: tuple[float, float], right: tuple[float, float], cell: float) ->
         segments[y % per_metre == 0].append([(left[0], y * cell, 0.0), (right[0], y * cell, 0.0)])
     for whole, colour in ((False, LINE), (True, METRE_LINE)):
         if segments[whole]:
-            path = trimesh.load_path(np.array(segments[whole]))
+            path: Any = trimesh.load_path(np.array(segments[whole]))
             path.colors = np.tile(colour, (len(path.entities), 1))
             scene.add_geometry(path)
     return scene.export(file_type="glb")

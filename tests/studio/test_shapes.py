@@ -11,7 +11,7 @@ import trimesh
 from pat3d.assets.shapes import box
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Material, VisualMesh
-from pat3d.studio.shapes import FEW, METALLIC, SEEN, glb, joined, levels
+from pat3d.studio.shapes import FEW, METALLIC, OUTWARD, SEEN, glb, joined, levels
 from pat3d.studio.surroundings import CELLS, extent, lines
 from tests.scenes import asset_of
 
@@ -40,13 +40,14 @@ def test_a_mesh_of_few_triangles_stays_as_it_is():
     assert levels(asset_of(box(0.3, 0.2, 0.02), noun="board")) == ()
 
 
-def test_joined_meshes_are_where_each_was():
+def test_joined_meshes_are_where_each_was_and_a_little_larger():
     cube = trimesh.creation.box((1.0, 1.0, 1.0))
     places = [Pose.from_yaw(0.3 * k, (2.0 * k, 0.0, 0.0)) for k in range(3)]
     vertices, faces = joined((place, cube.vertices, cube.faces) for place in places)
     pieces = trimesh.Trimesh(vertices, faces).split()
     assert [piece.is_watertight for piece in pieces] == [True] * 3
-    centres = sorted(tuple(piece.center_mass.round(5)) for piece in pieces)
+    assert all(1.0 < piece.volume < (1.0 + 2.0 * OUTWARD) ** 3 for piece in pieces)
+    centres = sorted(tuple(piece.center_mass.round(3)) for piece in pieces)
     assert centres == [(0, 0, 0), (2, 0, 0), (4, 0, 0)]
 
 
