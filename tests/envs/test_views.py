@@ -65,7 +65,7 @@ def test_links_that_have_nothing_but_what_collides_are_drawn(arm):
     env.close()
 
 
-@pytest.mark.parametrize("task", ["pick:red mug", "place:green apple:blue bowl"])
+@pytest.mark.parametrize("task", ["place:green apple:blue bowl"])
 def test_what_a_task_is_about_is_large_in_the_close_camera(arm, task):
     """Half a percent of the picture at least, many times what the agent's camera shows of it, and nothing cut off."""
     env = TabletopEnv(robot=arm, task=task)

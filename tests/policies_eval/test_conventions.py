@@ -204,6 +204,7 @@ JOINT_FAULTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("control", sorted(JOINT_FAULTS))
 def test_faults_of_actions_of_joints_are_recognised(settings, control):
     asked = replace(settings, control=control)
