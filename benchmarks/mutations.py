@@ -191,8 +191,8 @@ class _Finder(ast.NodeVisitor):
             self._add(kind, at, at + len(symbol), other, left, right)
 
     def _span(self, node: ast.expr | ast.stmt) -> tuple[int, int]:
-        assert node.end_lineno is not None
-        assert node.end_col_offset is not None
+        if node.end_lineno is None or node.end_col_offset is None:
+            raise ValueError(f"line {node.lineno}: a node without an end, which ast.parse does not make.")
         start = self._lines[node.lineno - 1] + node.col_offset
         return start, self._lines[node.end_lineno - 1] + node.end_col_offset
 

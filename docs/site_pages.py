@@ -30,7 +30,7 @@ SCHEMAS = {
     "Scene specification": ("pat3d.generation.spec_schema", "BUILD_SCHEMA", "`scene.yaml`, what `pat3d build` reads"),
     "Scene": ("pat3d.scene.schema", "SCENE_SCHEMA", "`scene.json` of a scene folder"),
     "Labels of a photograph": ("pat3d.vision.files", "LABELS_SCHEMA", "What `pat3d generate --labels` reads"),
-    "Camera of a photograph": ("pat3d.vision.files", "CAMERA_SCHEMA", "What `pat3d generate --camera` reads"),
+    "Camera of a photograph": ("pat3d.vision.intrinsics", "CAMERA_SCHEMA", "What `pat3d generate --camera` reads"),
     "Library settings": ("pat3d.assets.library.overrides", "SCHEMA", "`library.yaml` of a library"),
     "Noun": ("pat3d.assets.nouns.language", "SCHEMA", "What `pat3d catalogue add` reads"),
 }
@@ -43,16 +43,17 @@ FACTS = {
         "ForeignFacts",
         "SuiteFacts",
         "LibraryFacts",
+        "PartFacts",
         "FoundFacts",
+        "SpecFacts",
+        "ConventionFacts",
+    ),
+    "pat3d.cli.evaluation_documents": (
         "EvaluationFacts",
         "ComparisonFacts",
         "RankedFacts",
         "ReplayFacts",
         "DemonstrationFacts",
-        "PartFacts",
-        "FoundFacts",
-        "SpecFacts",
-        "ConventionFacts",
     ),
 }
 """Documents of `--json`, by module."""

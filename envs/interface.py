@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.observations import ObservationSpec
+from pat3d.envs.physics.views import ANGLES
 from pat3d.envs.physics.world import Mounted
 from pat3d.envs.robots.controllers import LARGEST
 from pat3d.geometry.pose import Pose
@@ -110,9 +111,14 @@ def describe(env: TabletopEnv) -> dict[str, Any]:
             "parts": [part for arm in world.arms for part in _action(env, arm)],
         },
         "observation": {kind: _observation(env, kind) for kind in ("state", "rgbd")},
-        "cameras": {name: _camera(env, name) for name in _names(env)},
+        "cameras": cameras(env),
         "instruction": "text: info['instruction'] after a reset",
     }
+
+
+def cameras(env: TabletopEnv) -> dict[str, dict[str, Any]]:
+    """Intrinsics and poses of all cameras in the present scene, by name."""
+    return {name: _camera(env, name) for name in _names(env)}
 
 
 def _action(env: TabletopEnv, arm: Mounted) -> list[dict[str, Any]]:
@@ -157,7 +163,7 @@ def _names(env: TabletopEnv) -> list[str]:
 
 def _is_ours(name: str) -> bool:
     """The scene's own camera is for viewers."""
-    return name in ("agentview", "frontview") or name.endswith("wrist")
+    return name in ANGLES or name.endswith("wrist")
 
 
 def _camera(env: TabletopEnv, name: str) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from pat3d.envs.env import choose
 from pat3d.envs.physics.loading import DEFAULT_TASK, load
 from pat3d.envs.physics.mujoco_state import MujocoState
 from pat3d.envs.physics.state import SimState
+from pat3d.envs.physics.views import ANGLES
 from pat3d.envs.physics.world import furnish, index
 from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot
@@ -95,7 +96,7 @@ class PAT3DScene(_Base):
             text = processor(text)
         own = mujoco.MjSpec.from_string(text)
         for camera in list(own.cameras):
-            if camera.name in ("agentview", "frontview"):
+            if camera.name in ANGLES:
                 own.delete(camera)
         for thing in (*own.worldbody.geoms, *own.lights):
             own.delete(thing)

@@ -12,18 +12,27 @@ import numpy as np
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstrate
 from pat3d.policies_eval.datasets.files import write_demonstrations
-from pat3d.policies_eval.policies.cloning import features, make_network, save
+from pat3d.policies_eval.policies.cloning import make_network, save
+from pat3d.policies_eval.policies.inputs import Inputs
 from pat3d.policies_eval.run.episodes import Episode
-from pat3d.policies_eval.run.settings import NOISE
+from pat3d.policies_eval.run.settings import NOISE, RolloutSettings
 
 BATCH = 256
 RATE = 1e-3
 
 
 def fit(
-    demonstrations: Sequence[Demonstration], *, epochs: int, seed: int = 0, target: Any = None
+    demonstrations: Sequence[Demonstration], *, epochs: int, seed: int = 0, sees: str = "task", target: Any = None
 ) -> tuple[Any, float]:
-    """A network that imitates, and its mean squared error at the end."""
+    """A network that imitates, and its mean squared error at the end.
+
+    Args:
+        demonstrations: to imitate.
+        epochs: passes over them.
+        seed: of the training.
+        sees: one of `pat3d.policies_eval.policies.inputs.KINDS`.
+        target: a console for the progress.
+    """
     import torch
 
     if not 1 <= epochs <= 100_000:
@@ -31,14 +40,16 @@ def fit(
     torch.manual_seed(seed)
     # The network is small: threads would only wait for one another.
     torch.set_num_threads(1)
+    rows = max((len(one.observations["objects"][0]) for one in demonstrations), default=0) if sees == "objects" else 0
+    inputs_of = Inputs.of(sees, (one.instruction for one in demonstrations), rows)
     seen = [
-        features({name: values[step] for name, values in one.observations.items()})
+        inputs_of.see({name: values[step] for name, values in one.observations.items()}, one.instruction, step)
         for one in demonstrations
         for step in range(len(one.actions))
     ]
     inputs = torch.from_numpy(np.stack(seen))
     answers = torch.from_numpy(np.concatenate([one.actions for one in demonstrations]))
-    network = make_network(action_size=answers.shape[1])
+    network = make_network(action_size=answers.shape[1], inputs=inputs_of)
     network.mean.copy_(inputs.mean(0))
     network.deviation.copy_(inputs.std(0).clamp(min=1e-3))
     optimiser = torch.optim.AdamW(network.parameters(), lr=RATE, weight_decay=1e-4)
@@ -70,6 +81,8 @@ def train(
     successes: int | None = None,
     demonstrations: str | Path | None = None,
     overwrite: bool = False,
+    sees: str = "task",
+    settings: RolloutSettings | None = None,
     target: Any = None,
 ) -> int:
     """Demonstrate, train and write a checkpoint; returns how many demonstrations it learned from.
@@ -83,15 +96,17 @@ def train(
         successes: after which no more are demonstrated; None for all episodes.
         demonstrations: file or folder to write them to, if any.
         overwrite: replace what is there.
+        sees: what of the observations it gets, see `fit`.
+        settings: of the environment.
         target: a console for the progress.
     """
     if Path(out).suffix != ".pt":
         raise EvaluationError(f'a checkpoint is FILE.pt, not "{out}".')
     begun = time.perf_counter()
-    shown = demonstrate(episodes, noise=noise, successes=successes, target=target)
+    shown = demonstrate(episodes, noise=noise, successes=successes, settings=settings, target=target)
     if demonstrations is not None:
         write_demonstrations(shown, demonstrations, overwrite=overwrite)
-    network, error = fit(shown, epochs=epochs, seed=seed, target=target)
+    network, error = fit(shown, epochs=epochs, seed=seed, sees=sees, target=target)
     save(network, out, {"demonstrations": len(shown), "epochs": epochs, "error": error, "seed": seed})
     if target is not None:
         seconds = time.perf_counter() - begun

@@ -75,6 +75,7 @@ def _read(record: Path) -> Placement | None:
             return None
         told = json.loads(record.read_text(encoding="utf-8"))
         told["grasps"] = {name: tuple(Grasp(**_fixed(one)) for one in all_) for name, all_ in told["grasps"].items()}
+        told["visit"] = tuple(map(tuple, told["visit"]))
         if told["bench"] is not None:
             low, high = told["bench"]
             told["bench"] = (tuple(low), tuple(high))

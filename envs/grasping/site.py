@@ -105,6 +105,7 @@ class Site:
     shown: tuple[str, ...]
     """What the cameras show."""
     work: tuple[str, ...]
+    visit: tuple[tuple[float, float, float], ...]
 
     @staticmethod
     def of(scene: Scene, needs: Needs) -> Site:
@@ -136,6 +137,7 @@ class Site:
             middle=middle,
             shown=tuple(name for name in boxes if name in beside),
             work=work,
+            visit=needs.visit,
         )
 
     def describe(self) -> str:
@@ -227,6 +229,7 @@ class Site:
             shown=self.shown,
             start=tuple(map(float, self.start(arm, frame, tip))),
             grasps=grasps,
+            visit=self.visit,
             reach={name: math.dist(frame.position[:2], middle[:2]) for name, middle in centre.items()},
             other=other,
         )

@@ -61,6 +61,8 @@ class Placement:
     """Grasps of every object of the task that are within reach, best first; objects in the order of taking them."""
     reach: Mapping[str, float] = field(default_factory=dict)
     """Horizontal distance of every object of the task from the base [m]."""
+    visit: tuple[tuple[float, float, float], ...] = ()
+    """Points that the fingertips have to get to with what they hold [m]."""
     pedestal_radius: float = 0.1
     """[m]"""
     robot: str = ""

@@ -144,6 +144,17 @@ class Simulation:
         """Positions of the joints of the arm that does the task [rad]."""
         return self.data.qpos[self._arm]
 
+    @property
+    def arm_addresses(self) -> NDArray[np.int64]:
+        """Of its joints in qpos."""
+        return self._arm
+
+    @property
+    def touching(self) -> bool:
+        """Whether a robot touches anything but itself and what it stands on."""
+        owners = self.world.owner[self.data.contact.geom] if self.data.ncon else np.zeros((0, 2), dtype=np.int64)
+        return bool(((owners == ROBOT).any(axis=1) & ~(owners == ROBOT).all(axis=1)).any())
+
     def posture(self, side: str) -> Array:
         """Positions of the joints of the arm on one side [rad]."""
         return self.data.qpos[self._addresses(self.world.arm(side))[0]]

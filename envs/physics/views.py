@@ -1,7 +1,9 @@
-"""Where the fixed cameras of a world stand: as near as they can with the whole robot and its work in the picture.
+"""Where the fixed cameras of a world stand: as near as they can with what they show in the picture.
 
-Both look from where the robot faces. The agent's camera is wide and near, so that what is worked on, which is nearer to
-it than the arm, is large; the one in front is farther, lower, and shows the workbench too.
+All look from where the robot faces. The agent's camera is wide and near, so that what is worked on, which is nearer to
+it than the arm, is large; the one in front is farther, lower, and shows the workbench too. Both show the whole robot,
+beside which a small object is a few pixels: the close camera shows what the task moves and where it goes, and of the
+robot what comes there.
 """
 
 from __future__ import annotations
@@ -20,8 +22,11 @@ from pat3d.view.camera import Camera, frame
 
 Array = NDArray[np.float64]
 
-ANGLES = {"agentview": (40.0, 60.0), "frontview": (20.0, 45.0)}
+ANGLES = {"agentview": (40.0, 60.0), "frontview": (20.0, 45.0), "closeview": (50.0, 45.0)}
 """Height above the horizon and opening angle of each fixed camera [degrees]."""
+
+NEAREST = 0.15
+"""Around the middle of what the task is about the close camera shows at least so much [m]."""
 
 MARGIN = 0.02
 """Free on every side of a square picture, as a share of it; wider ones have more at the sides."""
@@ -57,11 +62,17 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
         if obj.name in placement.shown
         for part in obj.asset.parts
     ]
+    moved = [obj for obj in scene.objects if obj.name in placement.grasps]
+    visited = np.array(placement.visit, dtype=np.float64).reshape(-1, 3)
+    task = [*(obj.pose.apply(part.vertices) for obj in moved for part in obj.asset.parts), visited]
+    middle = np.concatenate([points.mean(axis=0, keepdims=True) for points in task if len(points)]).mean(axis=0)
+    task.append(middle + NEAREST * _CORNERS)
     bench = []
     if placement.bench is not None:
         (low_x, low_y), (high_x, high_y) = placement.bench
         bench.append(np.array([[x, y, 0.0] for x in (low_x, high_x) for y in (low_y, high_y)]))
-    for name, points in (("agentview", [arm, *work]), ("frontview", [arm, *work, *bench])):
+    shown = {"agentview": [arm, *work], "frontview": [arm, *work, *bench], "closeview": task}
+    for name, points in shown.items():
         elevation, angle = ANGLES[name]
         camera = frame(
             np.concatenate(points),

@@ -29,7 +29,7 @@ from pat3d.scene.model import Scene
 PREFIX = "robot/"
 """Of every name that belongs to the robot."""
 
-CAMERAS = ("agentview", "frontview", "wrist")
+CAMERAS = ("agentview", "frontview", "closeview", "wrist")
 """Of one arm; of two, `cameras_of` says."""
 
 _HIDDEN_GROUP = 4

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
-from pat3d.envs.physics.lights import FADES, FLOOR, SKY, Lights
+from pat3d.envs.physics.lights import FADES, FLOOR, Lights, sky_of, tint_of
 from pat3d.envs.rendering.picture import Picture
 from pat3d.envs.rendering.surfaces import Body, Surfaces
 from pat3d.view.rays import pinhole_rays, unit
@@ -138,7 +138,7 @@ class RayTracer:
 
     def _shade(self, data: Any, eye: Array, rays: Array, seen: _Seen, *, fine: bool) -> tuple[Array, NDArray[np.bool_]]:
         """Colours of what is seen, shape (rays, 3), and which of it lies in the shadow, shape (rays,)."""
-        colours, lights = np.tile(SKY, (len(rays), 1)), Lights(self._model, data)
+        colours, lights = np.tile(sky_of(self._model), (len(rays), 1)), Lights(self._model, data)
         shaded = np.zeros(len(rays), dtype=np.bool_)
         for number in np.unique(seen.part).tolist():
             which = np.flatnonzero(seen.part == number)
@@ -178,10 +178,10 @@ class RayTracer:
         axes = data.geom_xmat[geom].reshape(3, 3).astype(np.float32)
         point = (eye + reach[:, None] * rays - data.geom_xpos[geom].astype(np.float32)) @ axes
         tiles = (np.floor(point[:, 0] / TILE) + np.floor(point[:, 1] / TILE)) % 2
-        colour = np.where(tiles[:, None] > 0, *np.array(FLOOR, dtype=np.float32)) * light
+        colour = np.where(tiles[:, None] > 0, *np.array(FLOOR, dtype=np.float32)) * tint_of(self._model, geom) * light
         near, far = FADES
         fade = np.clip((reach - near) / (far - near), 0.0, 1.0)[:, None]
-        return (colour * (1.0 - fade) + SKY * fade).astype(np.float32)
+        return (colour * (1.0 - fade) + sky_of(self._model) * fade).astype(np.float32)
 
     def _shadows(
         self, data: Any, eye: Array, rays: Array, reach: Array, normal: Array, sun: Array | None

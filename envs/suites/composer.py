@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from pat3d.assets import catalogue
 from pat3d.envs.suites.pools import (
     COLOURS,
     CONTAINERS,
@@ -23,6 +24,12 @@ STACKED_WIDTH = 0.09
 
 _NAMED_MATERIAL = 0.4
 """Share of things that come in several materials whose material is named."""
+
+
+def natural(noun: str) -> set[str]:
+    """Colours that a thing has of itself."""
+    found = catalogue.find(noun)
+    return set() if found is None else set(found.colours)
 
 
 class ExhaustedError(Exception):
@@ -58,6 +65,8 @@ class Composer:
         """Add something a gripper takes, at most `width` and at least `height` [m]; returns its name."""
         if colour is not None or self.coloured_only:
             groups = tuple(group for group in groups if group != PLAIN)
+        # What is moved is seen against what it comes from and goes to.
+        hidden = self._colours({parent, *self.places} if moved else {parent})
         fitting = [
             item.noun
             for item in ITEMS
@@ -65,6 +74,7 @@ class Composer:
             and item.group in groups
             and item.width <= width
             and item.height >= height
+            and not (item.group == PLAIN and hidden & natural(item.noun))
         ]
         if not fitting:
             raise ExhaustedError
@@ -75,7 +85,7 @@ class Composer:
         if item.group == PLAIN:
             colours: tuple[str, ...] = ()
         else:
-            colours = (colour or self._pick([name for name in COLOURS if name not in self.avoid]),)
+            colours = (colour or self._pick([name for name in COLOURS if name not in {*self.avoid, *hidden}]),)
         name = self._add(item.noun, colours, material, parent, kind)
         if moved:
             self.moved.append(name)
@@ -123,6 +133,11 @@ class Composer:
         """Everything, with the sentence that describes it."""
         prompt = self._sentence()
         return ScenePlan(prompt=prompt, objects=tuple(self.objects), relations=tuple(self.relations))
+
+    def _colours(self, names: set[str]) -> set[str]:
+        """Of the objects with these names."""
+        found = (set(obj.colours) or natural(obj.noun) for obj in self.objects if obj.name in names)
+        return set().union(*found)
 
     def _pick(self, of: list[str] | tuple[str, ...]) -> str:
         return of[int(self.rng.integers(len(of)))]

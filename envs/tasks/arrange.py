@@ -11,7 +11,8 @@ import numpy as np
 from pat3d.assets.colours import COLOURS
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.tasks.manipulate import above, check_move
-from pat3d.envs.tasks.naming import spoken
+from pat3d.envs.tasks.naming import the
+from pat3d.envs.tasks.paraphrase import worded
 from pat3d.envs.tasks.task import Goal, Judge, Task, children, movable, origin, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
@@ -33,9 +34,9 @@ class Sort(Task):
     kind: ClassVar[str] = "sort"
     form: ClassVar[str] = "sort"
 
-    def instruction(self, scene: Scene) -> str:
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
         homes = sorted(set(self.pairs(scene).values()))
-        return f"sort the objects by colour into {' and '.join(f'the {spoken(scene, home)}' for home in homes)}"
+        return worded("sort", where=" and ".join(the(scene, home) for home in homes))
 
     def pairs(self, scene: Scene) -> dict[str, str]:
         """Container of every object that has one: the only container of the same colour.
@@ -96,9 +97,10 @@ class Unload(Task):
 
     container: str
 
-    def instruction(self, scene: Scene) -> str:
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
         inner = any(rel.parent == self.container and rel.kind == "in" for rel in scene.relations)
-        return f"take everything {'out of' if inner else 'off'} the {spoken(scene, self.container)}"
+        how, inside, verb = ("out of", "in", "empty") if inner else ("off", "on", "clear")
+        return worded("unload", where=the(scene, self.container), how=how, inside=inside, verb=verb)
 
     def check(self, scene: Scene) -> None:
         present(scene, self.container)
@@ -133,10 +135,10 @@ class Retrieve(Task):
 
     target: str
 
-    def instruction(self, scene: Scene) -> str:
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
         on = standing_on(scene, self.target)
-        where = f" from under the {spoken(scene, on[0])}" if on else origin(scene, self.target)
-        return f"take out the {spoken(scene, self.target)}{where} without knocking anything over"
+        source = f" from under {the(scene, on[0])}" if on else origin(scene, self.target)
+        return worded("retrieve", it=the(scene, self.target), source=source)
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)

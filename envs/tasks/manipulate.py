@@ -11,7 +11,8 @@ import numpy as np
 from pat3d.envs.grasping.free_space import edge_margin, has_free_space
 from pat3d.envs.grasping.grasp import narrowest
 from pat3d.envs.grasping.placement import Needs
-from pat3d.envs.tasks.naming import spoken
+from pat3d.envs.tasks.naming import the
+from pat3d.envs.tasks.paraphrase import worded
 from pat3d.envs.tasks.task import Goal, Judge, Task, centre_of_mass, movable, origin, point, present, standing_on
 from pat3d.errors import TaskError
 from pat3d.scene.model import GROUND, Scene
@@ -33,8 +34,8 @@ class Pick(Task):
 
     target: str
 
-    def instruction(self, scene: Scene) -> str:
-        return f"pick up the {spoken(scene, self.target)}{origin(scene, self.target)}"
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
+        return worded("pick", it=the(scene, self.target), source=origin(scene, self.target))
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)
@@ -61,9 +62,9 @@ class Place(Task):
     target: str
     where: str
 
-    def instruction(self, scene: Scene) -> str:
-        where = f"{_preposition(scene, self.where)} the {spoken(scene, self.where)}"
-        return f"put the {spoken(scene, self.target)} {where}"
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
+        how, where = _preposition(scene, self.where), the(scene, self.where)
+        return worded("place", it=the(scene, self.target), how=how, where=where)
 
     def check(self, scene: Scene) -> None:
         check_move(scene, self.target, self.where)
@@ -93,8 +94,8 @@ class Stack(Task):
     target: str
     base: str
 
-    def instruction(self, scene: Scene) -> str:
-        return f"stack the {spoken(scene, self.target)} on the {spoken(scene, self.base)}"
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
+        return worded("stack", it=the(scene, self.target), where=the(scene, self.base))
 
     def check(self, scene: Scene) -> None:
         check_move(scene, self.target, self.base)

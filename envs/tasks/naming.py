@@ -26,6 +26,11 @@ def spoken(scene: Scene, name: str) -> str:
     return called(scene, name) or name
 
 
+def the(scene: Scene, name: str) -> str:
+    """The same with its article."""
+    return f"the {spoken(scene, name)}"
+
+
 def _base(name: str) -> str:
     """A name without the number that the planner gives to one of several."""
     return re.sub(r" \d+$", "", name)

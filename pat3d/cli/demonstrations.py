@@ -6,11 +6,12 @@ import argparse
 from typing import Any
 
 from pat3d.cli.console import console, verdict
-from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of
+from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of, suite_robot
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.run.settings import NOISE
+from pat3d.policies_eval.policies.inputs import KINDS
+from pat3d.policies_eval.run.settings import NOISE, RolloutSettings
 
 ATTEMPTS_PER_SUCCESS = 10
 """With --successes N, this many episodes for each are tried at most."""
@@ -81,6 +82,13 @@ def demonstrate(options: argparse.Namespace) -> int:
     *_HOW_MANY,
     option("--out", "checkpoint to write", required=True, metavar="FILE.pt"),
     option("--epochs", "passes over the demonstrations", type=int, default=200),
+    option(
+        "--sees",
+        "task: the object to take and where it goes; objects: all of them, and not which is meant; words: the "
+        "instruction alone; robot: neither",
+        choices=KINDS,
+        default="task",
+    ),
     option("--demonstrations", "write them too: see pat3d demonstrate --out", metavar="PATH"),
     JSON,
     examples="""
@@ -105,6 +113,8 @@ def train(options: argparse.Namespace) -> int:
         successes=options.successes,
         demonstrations=options.demonstrations,
         overwrite=options.overwrite,
+        sees=options.sees,
+        settings=RolloutSettings(robot=suite_robot(options)),
         target=console(stderr=options.json),
     )
     if options.json:
@@ -122,7 +132,7 @@ def _attempts(options: argparse.Namespace) -> tuple[Any, ...]:
 
 def _document(options: argparse.Namespace, count: int, attempts: int) -> int:
     """Print what was written as JSON; returns the exit code."""
-    from pat3d.cli.documents import file_facts
+    from pat3d.cli.evaluation_documents import file_facts
 
     failures = _lacking(options, count, attempts)
     print_facts(file_facts(options.out, demonstrations=count, attempts=attempts, failures=failures))

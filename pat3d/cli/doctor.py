@@ -184,19 +184,25 @@ def _model(table: Table) -> None:
 
 def _photographs(table: Table) -> None:
     """Report what `pat3d generate --image` can do without files; nobody is asked, and no weights are loaded."""
-    from pat3d.vision.depth import INSTALL, VARIABLE, can_load, depth_model_named
+    from pat3d.vision.models import EXAMPLES, INSTALL, VARIABLES, can_load, vision_models
+    from pat3d.vision.painting import MODEL, URL, image_settings
 
     try:
-        name = depth_model_named()
+        named, painter = vision_models(), image_settings()
     except ModelError as error:
         table.add("FAULT", "photographs", str(error))
         return
     if not can_load():
-        table.add("no", "photographs", f"depth is read from files; {INSTALL} lets a model measure it")
-    elif name is None:
-        table.add("no", "photographs", f"depth is read from files; a model measures it where {VARIABLE} names one")
+        table.add("no", "photographs", f"depth and masks come from files; {INSTALL} lets models find them")
     else:
-        table.add("ok", "photographs", f"depth is read from files, or measured by {name}")
+        for key, variable in VARIABLES.items():
+            name = getattr(named, key)
+            advice = f"{variable} names a model, such as {EXAMPLES[key]}"
+            table.add("no" if name is None else "ok", f"photographs, {key}", advice if name is None else str(name))
+    if painter is None:
+        table.add("no", "photographs, painting", f"for --paint: {MODEL} names a model, {URL} its server")
+    else:
+        table.add("ok", "photographs, painting", f"{painter.name} on {painter.server}")
 
 
 def _embeddings(table: Table) -> None:

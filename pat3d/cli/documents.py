@@ -1,10 +1,12 @@
-"""What --json says of everything but scenes, of which pat3d.generation.facts tells; see docs/json.md."""
+"""What --json says of libraries, suites and other people's scenes; see docs/json.md.
+
+Of scenes tells `pat3d.generation.facts`, of evaluations `pat3d.cli.evaluation_documents`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pat3d.generation.facts import OutcomeFacts
@@ -16,10 +18,6 @@ if TYPE_CHECKING:
     from pat3d.check.foreign.settling import SettledForeign
     from pat3d.check.foreign.verify import ForeignReport
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.analysis.compare import PairedResult
-    from pat3d.policies_eval.analysis.statistics import Rate
-    from pat3d.policies_eval.analysis.summary import Summary
-    from pat3d.policies_eval.run.records import Evaluation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,6 +143,8 @@ class SuiteFacts:
     intersections: int
     drift_mm: float
     drift_degrees: float
+    reference: str | None
+    bit_for_bit: int | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,6 +153,7 @@ class SpecFacts:
 
     file: str
     episodes: int
+    scenes: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,87 +163,6 @@ class ConventionFacts:
     passed: bool
     failures: list[str]
     explained: dict[str, float | None]
-
-
-@dataclass(frozen=True, kw_only=True)
-class RateFacts:
-    """A share of successes with its 95 % interval."""
-
-    successes: int
-    episodes: int
-    low: float | None
-    high: float | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class EvaluationFacts:
-    """What an evaluation of a policy found."""
-
-    folder: str
-    policy: str
-    rate: RateFacts
-    wanted: int
-    interval: str
-    outcomes: dict[str, int]
-    events: dict[str, int]
-    reasons: dict[str, int]
-    rates: dict[str, dict[str, RateFacts]]
-    clipped: int
-    seconds: dict[str, float]
-    engine: dict[str, str]
-
-
-@dataclass(frozen=True, kw_only=True)
-class ComparisonFacts:
-    """Two policies on the episodes that both did."""
-
-    names: list[str]
-    rates: list[RateFacts]
-    both: int
-    only_first: int
-    only_second: int
-    neither: int
-    difference: float
-    p_value: float
-    decided: bool
-    needed: int | None
-    left_out: int
-    verdict: str
-    notes: list[str]
-
-
-@dataclass(frozen=True, kw_only=True)
-class RankedFacts:
-    """One evaluation of a leaderboard."""
-
-    policy: str
-    folder: str
-    source: str
-    rate: RateFacts
-    wanted: int
-    policy_errors: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReplayFacts:
-    """Recorded episodes that were done again."""
-
-    folder: str
-    passed: bool
-    replayed: int
-    different: list[int]
-    files: list[str]
-
-
-@dataclass(frozen=True, kw_only=True)
-class DemonstrationFacts:
-    """Demonstrations that were written, or learned from."""
-
-    file: str
-    passed: bool
-    failures: list[str]
-    demonstrations: int
-    attempts: int
 
 
 def foreign_facts(
@@ -320,8 +240,10 @@ def library_object_facts(entry: Entry) -> LibraryObjectFacts:
 
 def suite_facts(suite: Suite, failures: Sequence[str] = ()) -> SuiteFacts:
     """Of a suite, and what a check of it found."""
+    from pat3d.envs.suites.reference import differences, reference_of
     from pat3d.envs.suites.request import SPLITS, in_split
 
+    of = reference_of(suite.request)
     numbers = suite.document["numbers"]
     kinds = {split: [one.kind for one in suite.entries if in_split(one.split, split)] for split in SPLITS}
     return SuiteFacts(
@@ -335,70 +257,9 @@ def suite_facts(suite: Suite, failures: Sequence[str] = ()) -> SuiteFacts:
         intersections=int(numbers["intersections"]),
         drift_mm=float(numbers["largest_drift_mm"]),
         drift_degrees=float(numbers["largest_turn_degrees"]),
+        reference=None if of is None else of.name,
+        bit_for_bit=None if of is None else differences(suite.folder, suite.request)[1],
     )
-
-
-def rate_facts(rate: Rate) -> RateFacts:
-    """Of a rate; its interval is null without episodes."""
-    return RateFacts(successes=rate.successes, episodes=rate.episodes, **finite({"low": rate.low, "high": rate.high}))
-
-
-def evaluation_facts(evaluation: Evaluation, summary: Summary) -> EvaluationFacts:
-    """Of a finished evaluation."""
-    return EvaluationFacts(
-        folder=str(evaluation.folder),
-        policy=summary.policy,
-        rate=rate_facts(summary.rate),
-        wanted=summary.wanted,
-        interval=summary.interval,
-        outcomes=dict(summary.outcomes),
-        events=dict(summary.events),
-        reasons=dict(summary.reasons),
-        rates={name: {key: rate_facts(one) for key, one in table.items()} for name, table in summary.tables.items()},
-        clipped=sum(one.clipped for one in evaluation.results),
-        seconds=dict(summary.seconds),
-        engine=dict(summary.engine),
-    )
-
-
-def comparison_facts(found: PairedResult) -> ComparisonFacts:
-    """Of two evaluations."""
-    from pat3d.policies_eval.analysis.compare import verdict
-
-    seen = found.comparison
-    return ComparisonFacts(
-        names=list(found.names),
-        rates=[rate_facts(one) for one in found.rates],
-        both=seen.both,
-        only_first=seen.only_first,
-        only_second=seen.only_second,
-        neither=seen.neither,
-        difference=seen.difference,
-        p_value=seen.p_value,
-        decided=seen.decided,
-        needed=seen.needed,
-        left_out=found.left_out,
-        verdict=verdict(found),
-        notes=list(found.notes),
-    )
-
-
-def ranked_facts(evaluations: Sequence[Evaluation]) -> list[RankedFacts]:
-    """Of several evaluations, those of the same episodes and engine together, best first."""
-    from pat3d.policies_eval.analysis.compare import comparable, leaderboard
-
-    return [
-        RankedFacts(
-            policy=one.manifest["policy"],
-            folder=str(one.folder),
-            source=title,
-            rate=rate_facts(rate),
-            wanted=one.manifest["episodes"],
-            policy_errors=errors,
-        )
-        for title, group in comparable(evaluations)
-        for one, rate, errors in leaderboard(group)
-    ]
 
 
 def optimized_facts(outcome: OutcomeFacts, record: Mapping[str, Any], edited: Sequence[str]) -> OptimizedFacts:
@@ -412,15 +273,4 @@ def optimized_facts(outcome: OutcomeFacts, record: Mapping[str, Any], edited: Se
         **finite({"loss_before_m2": record["loss_before"], "loss_after_m2": record["loss_after"]}),
         epochs=len(record["history"]),
         layouts_tried=len(record["trials"]),
-    )
-
-
-def file_facts(out: str | Path, *, demonstrations: int, attempts: int, failures: Sequence[str]) -> DemonstrationFacts:
-    """Of demonstrations in the file or folder `out`, or of a checkpoint trained on them."""
-    return DemonstrationFacts(
-        file=str(out),
-        passed=not failures,
-        failures=list(failures),
-        demonstrations=demonstrations,
-        attempts=attempts,
     )

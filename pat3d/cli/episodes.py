@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +17,12 @@ EPISODES = (
     option("--scene", "scene folder; may be repeated", action="append", default=[], metavar="FOLDER"),
     option("--task", '"pick:red mug"; may be repeated', action="append", default=[], metavar="TASK"),
     option("--suite", "scenes and tasks of a suite", metavar="FOLDER"),
-    option("--split", "of the suite", default="test"),
+    option("--split", "of the suite; all for every scene", default="test"),
     option("--episodes", "number of episodes", type=int, default=EPISODE_COUNT),
     option("--seed", "the same seed gives the same episodes", type=int, default=0),
     option(
         "--perturb",
-        "pose [m], friction, mass, camera, light, words; all 0 by default",
+        "pose [m], friction, mass, camera, light, words, start [rad], background, noise; all 0 by default",
         nargs="+",
         default=[],
         metavar="AXIS=STRENGTH",
@@ -34,6 +35,7 @@ SETTINGS = fields(
     robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
+    cameras="of rgb and rgbd: agentview, closeview, frontview, wrist",
     control_freq="actions a second",
     max_steps="of an episode",
     image_size="of observations [pixel]",
@@ -46,18 +48,33 @@ SETTINGS = fields(
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
     """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
     settings = values(RolloutSettings, options)
-    if options.suite and not settings["robot"]:
-        from pat3d.envs.suites.suite import Suite
-
-        settings["robot"] = Suite.open(options.suite).request.robot
+    settings["robot"] = settings["robot"] or suite_robot(options)
     return RolloutSettings(**settings)
 
 
-def episodes_from(options: argparse.Namespace, count: int | None = None) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """The episodes that a command line asks for, or `count` of them, and their source for the manifest."""
+def suite_robot(options: argparse.Namespace) -> str:
+    """The robot that the suite was made for; "" without a suite."""
+    if not options.suite:
+        return ""
+    from pat3d.envs.suites.suite import Suite
+
+    return Suite.open(options.suite).request.robot
+
+
+def episodes_from(
+    options: argparse.Namespace, count: int | None = None, axes: Sequence[str] = ()
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """The episodes that a command line asks for, or `count` of them, and their source for the manifest.
+
+    With `axes`, so many without a perturbation and at every strength of each of them.
+    """
     from pat3d.policies_eval.run import episodes as listed
+    from pat3d.policies_eval.run.axes import episodes_along, levels
     from pat3d.policies_eval.run.perturb import parse
 
+    if axes and options.perturb:
+        raise EvaluationError("--axes perturbs in turn what --perturb does together; leave out one of them.")
+    along = levels(axes) if axes else ()
     perturbation = parse(options.perturb)
     source: dict[str, Any] = {"seed": options.seed, "perturbation": perturbation.to_json()}
     if options.suite:
@@ -65,7 +82,7 @@ def episodes_from(options: argparse.Namespace, count: int | None = None) -> tupl
             raise EvaluationError("a suite brings its scenes and tasks; leave out --scene and --task.")
         from pat3d.policies_eval.run.suites import suite_settings
 
-        settings, identity = suite_settings(options.suite, options.split)
+        settings, identity = suite_settings(options.suite, None if options.split == "all" else options.split)
         source |= identity
     else:
         settings = listed.settings_of(options.scene, options.task)
@@ -73,4 +90,8 @@ def episodes_from(options: argparse.Namespace, count: int | None = None) -> tupl
             "scenes": sorted({Path(one.scene).name or "shipped scene" for one in settings}),
             "tasks": [s.task for s in settings],
         }
-    return listed.episodes_of(settings, count or options.episodes, seed=options.seed, perturbation=perturbation), source
+    wanted = count or options.episodes
+    if along:
+        source |= {"axes": list(axes), "levels": len(along)}
+        return episodes_along(settings, wanted, along, seed=options.seed), source
+    return listed.episodes_of(settings, wanted, seed=options.seed, perturbation=perturbation), source

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
@@ -26,6 +27,14 @@ if TYPE_CHECKING:
         metavar="POLICY",
     ),
     *EPISODES,
+    option(
+        "--axes",
+        "so many episodes at every strength of each axis of --perturb, one axis at a time, and without any; all, or "
+        "as in pose camera=0.02,0.1",
+        nargs="+",
+        default=[],
+        metavar="AXIS",
+    ),
     option("--out", "records; an unfinished run goes on there", required=True, metavar="FOLDER"),
     option("--workers", "processes, or auto: one a core", default="1", metavar="N"),
     option("--overwrite", "throw away what FOLDER holds", action="store_true"),
@@ -38,6 +47,7 @@ if TYPE_CHECKING:
     pat3d evaluate --policy scripted --episodes 50 --out eval/scripted
     pat3d evaluate --scene scenes/desk --task "pick:red mug" --policy ws://127.0.0.1:8000 --out eval/server
     pat3d evaluate --suite suites/tabletop --split test --policy my_policies:make --workers auto --out eval/mine
+    pat3d evaluate --suite suites/tabletop --policy FILE.pt --episodes 50 --axes all --out eval/axes
     """,
 )
 def evaluate(options: argparse.Namespace) -> int:
@@ -46,7 +56,7 @@ def evaluate(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.run.evaluate import evaluate as run
 
     settings = settings_of(options)
-    episodes, source = episodes_from(options)
+    episodes, source = episodes_from(options, axes=options.axes)
     workers = worker_count(options.workers)
     begun = time.perf_counter()
     errors = console(stderr=True)
@@ -68,17 +78,20 @@ def evaluate(options: argparse.Namespace) -> int:
         overwrite=options.overwrite,
         report=report,
     )
+    from pat3d.policies_eval.analysis.curves import curves, lines_of
     from pat3d.policies_eval.analysis.report import write_report
     from pat3d.policies_eval.analysis.summary import show_summary, summarise
 
     summary = summarise(done, options.interval)
     write_report(done, summary, videos=options.videos, pictures=not options.no_pictures)
     if options.json:
-        from pat3d.cli.documents import evaluation_facts
+        from pat3d.cli.evaluation_documents import evaluation_facts
 
         print_facts(evaluation_facts(done, summary))
         return _scored(done)
     show_summary(console(), summary)
+    for line in lines_of(curves(done, options.interval)):
+        console().print(line, markup=False, highlight=False)
     clipped = sum(one.clipped for one in done.results)
     if clipped:
         values = sum(one.actions.size for one in done.results)
@@ -112,7 +125,7 @@ def compare(options: argparse.Namespace) -> int:
 
     found = compare_evaluations(read_evaluation(options.first), read_evaluation(options.second))
     if options.json:
-        from pat3d.cli.documents import comparison_facts
+        from pat3d.cli.evaluation_documents import comparison_facts
 
         print_facts(comparison_facts(found))
     else:
@@ -122,23 +135,63 @@ def compare(options: argparse.Namespace) -> int:
 
 @command(
     option("folders", "what evaluate wrote", metavar="FOLDER", nargs="+"),
+    option("--page", "write the tables as a web page too", metavar="FILE.html"),
     JSON,
     examples="""
     pat3d leaderboard eval/*
+    pat3d leaderboard eval/* --page leaderboard.html
     """,
+    notes="Signatures are checked. Exit code 1 where one is forged, or records are not those that were signed.",
 )
 def leaderboard(options: argparse.Namespace) -> int:
-    """`pat3d leaderboard`."""
+    """`pat3d leaderboard`: exit code 1 where a signature is wrong."""
+    from pat3d.policies_eval.analysis.board import board_page
     from pat3d.policies_eval.analysis.compare import show_leaderboard
-    from pat3d.policies_eval.run.records import read_evaluation
+    from pat3d.policies_eval.analysis.signing import verify
+    from pat3d.policies_eval.run.records import read_evaluation, write_text
 
     evaluations = [read_evaluation(folder) for folder in options.folders]
+    signatures = {one.folder: verify(one) for one in evaluations}
+    if options.page:
+        write_text(Path(options.page), board_page(evaluations, signatures))
     if options.json:
-        from pat3d.cli.documents import ranked_facts
+        from pat3d.cli.evaluation_documents import ranked_facts
 
-        print_facts(ranked_facts(evaluations))
+        print_facts(ranked_facts(evaluations, signatures))
     else:
-        show_leaderboard(console(), evaluations)
+        show_leaderboard(console(), evaluations, signatures)
+    bad = [f"{folder}: {one.state}" for folder, one in signatures.items() if not one.good]
+    return verdict([f"{text} (signature.json does not vouch for these records)." for text in bad])
+
+
+@command(
+    option("folder", "what evaluate wrote", metavar="FOLDER"),
+    option("--key", "private key, Ed25519 in PEM", required=True, metavar="FILE"),
+    option("--new-key", "make the key first; one that is there is never replaced", action="store_true"),
+    JSON,
+    examples="""
+    pat3d sign eval/mine --key mine.pem --new-key
+    pat3d leaderboard eval/*
+    """,
+    notes="signature.json is over the figures and the checksums of the records. The key stays with you; whoever has it "
+    "signs as you.",
+)
+def sign(options: argparse.Namespace) -> int:
+    """`pat3d sign`."""
+    from pat3d.policies_eval.analysis.signing import FILE, make_key
+    from pat3d.policies_eval.analysis.signing import sign as run
+    from pat3d.policies_eval.run.records import read_evaluation
+
+    evaluation = read_evaluation(options.folder)
+    if options.new_key:
+        make_key(options.key)
+    signer, file = run(evaluation, options.key), evaluation.folder / FILE
+    if options.json:
+        from pat3d.cli.evaluation_documents import SignedFacts
+
+        print_facts(SignedFacts(file=str(file), signer=signer))
+    else:
+        console().print(f"{file}: signed by {signer}", markup=False, highlight=False, soft_wrap=True)
     return 0
 
 
@@ -147,7 +200,7 @@ def leaderboard(options: argparse.Namespace) -> int:
     option("--episode", "which one; all by default", type=int, action="append", metavar="N"),
     option("--video", ".mp4, .gif, or a folder for PNG files", metavar="FILE"),
     option("--picture", "moments of the episode side by side", metavar="FILE.png"),
-    option("--camera", "agentview, frontview or wrist", default="agentview"),
+    option("--camera", "agentview, frontview, closeview or wrist", default="agentview"),
     option("--size", "of video and moments [pixel]", default="320x240", metavar="WxH"),
     JSON,
     examples="""
@@ -172,7 +225,7 @@ def replay(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        from pat3d.cli.documents import ReplayFacts
+        from pat3d.cli.evaluation_documents import ReplayFacts
 
         print_facts(
             ReplayFacts(

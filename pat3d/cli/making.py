@@ -17,8 +17,7 @@ from pat3d.cli.reading import (
     PLANNER,
     PROXIES,
     critic_of,
-    depth_model_of,
-    labeller_of,
+    orders_of_options,
     planner_of,
 )
 from pat3d.errors import SpecError
@@ -51,10 +50,17 @@ PHOTOGRAPH = tuple(
     for name, text in {
         "image": "the photograph, PNG or JPEG; PROMPT is then only what the scene is called",
         "depth": ".npy in metres, or 16-bit PNG in millimetres; else the model of PAT3D_DEPTH_MODEL or pat3d.toml",
-        "masks": "PNG or .npy whose pixels tell the object, or .npy of one mask an object",
+        "masks": "PNG or .npy whose pixels tell the object, or .npy of one mask an object; else models find them",
         "labels": 'JSON or YAML: {"objects": [{"name": "red mug", "noun": "mug"}, ...]}, in order; else a model tells',
-        "camera": 'JSON or YAML: {"angle": 60}, degrees across, or width, height, fx, fy, cx, cy',
+        "camera": 'JSON or YAML: {"angle": 60}, degrees across, or width, height, fx, fy, cx, cy, and depth_per_metre; '
+        "or as TUM, ScanNet, Open3D and RealSense write it",
     }.items()
+)
+PAINT = option(
+    "--paint",
+    "the model of PAT3D_IMAGE_MODEL or pat3d.toml paints the photograph of PROMPT",
+    action="store_true",
+    group="a photograph instead of a sentence",
 )
 _OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
 
@@ -72,6 +78,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     ASSETS,
     CRITIC,
     *PHOTOGRAPH,
+    PAINT,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
@@ -83,12 +90,13 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     pat3d generate "a teapot dinosaur on a plate" --assets mesh:http://127.0.0.1:8080 --out scenes/tea
     pat3d generate --planner llm --critic "una taza roja sobre la mesa" --out scenes/taza
     pat3d generate "my desk" --image desk.jpg --depth desk.npy --masks desk.png --labels desk.json --out scenes/desk
+    pat3d generate "two mugs beside a laptop on a desk" --paint --out scenes/desk      models do all of it
     pat3d generate --prompts prompts.txt --out scenes      one a line; the same command goes on where it stopped
     """,
 )
 def generate(options: argparse.Namespace) -> int:
     """`pat3d generate`."""
-    if options.image is not None or any(getattr(options, name) is not None for name in PHOTOGRAPHED):
+    if options.paint or options.image is not None or any(getattr(options, name) is not None for name in PHOTOGRAPHED):
         return _generate_from_image(options)
     if (options.prompt is None) == (options.prompts is None):
         raise SpecError('give either a sentence, pat3d generate "a red mug on a table", or --prompts FILE.')
@@ -120,25 +128,31 @@ def generate(options: argparse.Namespace) -> int:
 
 
 def _generate_from_image(options: argparse.Namespace) -> int:
-    from pat3d.generation.pictured import Photograph, generate_from_image
+    from pat3d.cli.photographs import lookers_of
+    from pat3d.generation.pictured import generate_from_image
+    from pat3d.vision.looking import Photograph
 
-    missing = [f"--{name}" for name in ("image", "masks", "out") if getattr(options, name) is None]
-    if missing:
-        raise SpecError(
-            f"{', '.join(missing)} missing: a photograph needs --image, --masks and --out, and --depth and "
-            "--labels where no model is set up for them. Masks come from models such as SAM 2."
-        )
+    if options.out is None:
+        raise SpecError("--out missing: give the folder to write, --out scenes/NAME.")
+    if (options.image is None) == (not options.paint):
+        raise SpecError("give either the photograph, --image FILE, or --paint and a PROMPT to paint it of.")
+    if options.paint and not (options.prompt or "").strip():
+        raise SpecError('--paint needs a PROMPT: pat3d generate "two mugs on a desk" --paint --out scenes/desk.')
+    if options.paint and (options.masks is not None or options.depth is not None):
+        raise SpecError("--masks and --depth belong to a photograph that is there already: give it as --image.")
     if options.prompts is not None or options.critic:
-        raise SpecError("--image makes one scene of one photograph, without --prompts and --critic.")
+        raise SpecError("--image and --paint make one scene of one photograph, without --prompts and --critic.")
     files = {name: Path(value) for name in PHOTOGRAPHED if (value := getattr(options, name)) is not None}
+    picture = None if options.image is None else Path(options.image)
     with watch(console(stderr=True)) as progress:
         outcome = generate_from_image(
-            Photograph(picture=Path(options.image), **files),
+            Photograph(picture=picture, **files),
             out=options.out,
             prompt=options.prompt or "",
             settings=Settings(**values(Settings, options)),
-            labeller=labeller_of(options),
-            depth_model=depth_model_of(options),
+            lookers=lookers_of(options),
+            libraries=options.libraries,
+            orders=orders_of_options(options),
             progress=progress,
         )
     return _finished(outcome, options)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
-from pat3d.errors import ModelError
 from pat3d.plan.describe import describe
 from pat3d.plan.grammar.names import known_names
 from pat3d.plan.grammar.planner import GrammarPlanner
@@ -21,8 +20,6 @@ if TYPE_CHECKING:
     from pat3d.assets.generated.orders import Orders
     from pat3d.plan.llm.chat import Chat
     from pat3d.plan.llm.critic import Critic
-    from pat3d.vision.depth import DepthModel
-    from pat3d.vision.labelling import Labeller
 
 PROXIES = option("--allow-proxies", "a plain box for what the catalogue lacks", action="store_true")
 
@@ -61,7 +58,7 @@ def planner_of(options: argparse.Namespace) -> Planner:
         ModelError: it is a language model, and none is set up.
         AssetError: `--assets` names no server.
     """
-    orders = _orders(options.assets)
+    orders = orders_of_options(options)
     if options.planner == "llm":
         from pat3d.plan.llm.planner import LLMPlanner
 
@@ -71,13 +68,17 @@ def planner_of(options: argparse.Namespace) -> Planner:
     return kind(options.allow_proxies, vocabulary=known_names(options.libraries), orders=orders)
 
 
-def _orders(assets: str | None) -> Orders | None:
-    """What `--assets` says; the module that knows waits for numpy, so it is not asked for nothing."""
-    if assets is None:
+def orders_of_options(options: argparse.Namespace) -> Orders | None:
+    """What `--assets` says; the module that knows waits for numpy, so it is not asked for nothing.
+
+    Raises:
+        AssetError: it names no server.
+    """
+    if options.assets is None:
         return None
     from pat3d.assets.generated.orders import orders_of
 
-    return orders_of(assets)
+    return orders_of(options.assets)
 
 
 def critic_of(options: argparse.Namespace) -> Critic | None:
@@ -91,46 +92,6 @@ def critic_of(options: argparse.Namespace) -> Critic | None:
     from pat3d.plan.llm.critic import Critic
 
     return Critic(chat())
-
-
-def depth_model_of(options: argparse.Namespace) -> DepthModel | None:
-    """Who measures the depth of a photograph; None where `--depth` does.
-
-    Raises:
-        ModelError: no model is named, or it cannot be loaded.
-    """
-    if options.depth is not None:
-        return None
-    from pat3d.vision.depth import EXAMPLE, VARIABLE, TransformersDepth, depth_model_named
-
-    name = depth_model_named()
-    if name is None:
-        raise ModelError(
-            f"--depth is missing, and no model can measure it: set {VARIABLE}, or [vision] depth in pat3d.toml, to the "
-            f"name or the folder of one, such as {EXAMPLE}."
-        )
-    return TransformersDepth(name)
-
-
-def labeller_of(options: argparse.Namespace) -> Labeller | None:
-    """Who says what the masks of a photograph show; None where `--labels` does.
-
-    Raises:
-        ModelError: no model is set up.
-    """
-    if options.labels is not None:
-        return None
-    from pat3d.assets.catalogue import lookup
-    from pat3d.assets.colours import COLOURS
-    from pat3d.assets.materials import material_names
-    from pat3d.vision.labelling import ChatLabeller
-
-    nouns = [one.noun for one in lookup.entries()]
-    try:
-        asked = chat()
-    except ModelError as error:
-        raise ModelError(f"--labels is missing, and no model can say what the masks show: {error}") from error
-    return ChatLabeller(asked, nouns, materials=material_names(), colours=tuple(COLOURS))
 
 
 @cache

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.library.body import Body, Inertial
-from pat3d.assets.library.names import Metadata, known_names, synonyms_of, words_of
+from pat3d.assets.library.names import known_names, synonyms_of, words_of
 from pat3d.assets.library.readers.collision import FROM_PICTURE
 from pat3d.assets.library.readers.inertials import fault
 from pat3d.assets.materials import material as find_material
@@ -148,7 +148,7 @@ def _noun(name: str) -> tuple[str, Any]:
     """Noun of an asset, and the catalogue's entry that it is a kind of."""
     known = known_names()
     words = words_of(name)
-    like = synonyms_of(words, Metadata(), known)[2] if words else ""
+    like = synonyms_of(words, (), known)[2] if words else ""
     return (" ".join(words) or "object"), (lookup.find(like) if like else None)
 
 

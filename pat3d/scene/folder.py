@@ -31,6 +31,7 @@ OWN = (
     "summary.json",
     "preview.png",
     "picture.png",
+    "photograph.png",
     "trajectory.npz",
     "loss.png",
     "before_after.png",

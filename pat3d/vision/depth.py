@@ -6,25 +6,15 @@ and no more, are refused: from such depth neither gravity nor a size follows.
 
 from __future__ import annotations
 
-import os
-import tomllib
-from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.util import find_spec
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import ModelError
+from pat3d.vision.models import EXAMPLES, loaded
 
-VARIABLE = "PAT3D_DEPTH_MODEL"
-FILE = "pat3d.toml"
-"""In the current folder, unless PAT3D_CONFIG names another file; its table `vision` may hold `depth`."""
-MAX_FILE_BYTES = 2**20
-INSTALL = "pip install 'pat3d[vision]'"
-EXAMPLE = "depth-anything/Depth-Anything-V2-Metric-Indoor-Small-hf"
 _METRIC = frozenset({"depth_pro", "zoedepth"})
 
 
@@ -60,25 +50,16 @@ class TransformersDepth:
         Raises:
             ModelError: it cannot be loaded, or does not say metres.
         """
-        try:
-            from transformers import (  # pyright: ignore[reportMissingImports]
-                AutoImageProcessor,
-                AutoModelForDepthEstimation,
-            )
-        except ImportError as error:
-            raise ModelError(f"depth from a picture needs transformers and torch: {INSTALL}.") from error
         self.name, self._device = name, device
-        try:
-            self._processor: Any = AutoImageProcessor.from_pretrained(name)
-            self._model: Any = AutoModelForDepthEstimation.from_pretrained(name, use_safetensors=True).to(device).eval()
-        except (OSError, ValueError, RuntimeError, ImportError) as error:
-            line = " ".join(str(error).split())[:300]
-            raise ModelError(f'depth model "{name}" cannot be loaded: {line}') from error
+        self._processor, self._model = loaded(
+            "depth", name, device, lambda one: one.AutoModelForDepthEstimation, lambda one: one.AutoImageProcessor
+        )
         config = self._model.config
         metric = config.model_type in _METRIC or getattr(config, "depth_estimation_type", "") == "metric"
         if not metric:
             raise ModelError(
-                f'depth model "{name}" does not say metres, from which sizes could follow; one that does is {EXAMPLE}.'
+                f'depth model "{name}" does not say metres, from which sizes could follow; one that does is '
+                f"{EXAMPLES['depth']}."
             )
 
     def measure(self, picture: NDArray[np.uint8]) -> MeasuredDepth:
@@ -107,31 +88,3 @@ class TransformersDepth:
         # Depth Pro tells the angle across the width.
         half = np.tan(np.radians(float(across)) / 2.0) * max(width, height) / width
         return MeasuredDepth(depth=depth, angle=float(np.degrees(2.0 * np.arctan(half))))
-
-
-def can_load() -> bool:
-    """Whether what loads depth models is installed."""
-    return find_spec("transformers") is not None and find_spec("torch") is not None
-
-
-def depth_model_named(environment: Mapping[str, str] | None = None, folder: Path | None = None) -> str | None:
-    """The depth model that `environment` (the process's own) or the file in `folder` (the current one) names.
-
-    Raises:
-        ModelError: the file is not valid.
-    """
-    given = os.environ if environment is None else environment
-    if given.get(VARIABLE):
-        return given[VARIABLE]
-    path = Path(given["PAT3D_CONFIG"]) if given.get("PAT3D_CONFIG") else (folder or Path()) / FILE
-    try:
-        if not path.is_file():
-            return None
-        if path.stat().st_size > MAX_FILE_BYTES:
-            raise ModelError(f"{path} is larger than {MAX_FILE_BYTES} bytes.")
-        table = tomllib.loads(path.read_text(encoding="utf-8")).get("vision", {})
-    except (OSError, ValueError) as error:
-        raise ModelError(f"{path}: cannot be read: {error}") from error
-    if not isinstance(table, dict) or set(table) - {"depth"} or not isinstance(table.get("depth", ""), str):
-        raise ModelError(f'{path}: [vision] may hold depth = "NAME", the name or the folder of a depth model, alone.')
-    return table.get("depth") or None

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from pat3d.errors import SpecError
 from pat3d.scene.yaml_source import read_yaml, validate
-from pat3d.vision.camera import USUAL_ANGLE, Pinhole
+from pat3d.vision.camera import Pinhole
+from pat3d.vision.intrinsics import depth_per_metre, require_same_shape
 from pat3d.vision.observation import Observation
 
 MAX_PIXELS = 50_000_000
@@ -65,27 +66,6 @@ LABELS_SCHEMA: dict[str, Any] = {
     "additionalProperties": False,
 }
 """Of the file of labels."""
-
-CAMERA_SCHEMA: dict[str, Any] = {
-    "type": "object",
-    "properties": {
-        "width": {
-            **_POSITIVE,
-            "description": "Of the picture that the numbers are for [pixel], like all below.",
-        },
-        "height": _POSITIVE,
-        "fx": _POSITIVE,
-        "fy": _POSITIVE,
-        "cx": {"type": "number"},
-        "cy": {"type": "number"},
-        "angle": {
-            **_POSITIVE,
-            "description": "Across the longer side [deg], instead of all the others.",
-        },
-    },
-    "additionalProperties": False,
-}
-"""Of the file of the camera."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,31 +126,6 @@ def read_labels(path: Path) -> Labels:
     return labels
 
 
-def read_camera(path: Path, width: int, height: int) -> Pinhole:
-    """The camera in a JSON or YAML file, for a picture of `width` x `height` pixels.
-
-    Raises:
-        SpecError: it cannot be read, is not as CAMERA_SCHEMA says, or does not fit the picture.
-    """
-    source = read_yaml(path)
-    validate(source, CAMERA_SCHEMA)
-    known = source.document
-    if "angle" in known:
-        if len(known) > 1:
-            raise SpecError(f"{path}: give the angle alone, or width, height, fx, fy, cx and cy.")
-        return Pinhole.of_angle(width, height, float(known["angle"]))
-    missing = [key for key in ("width", "height", "fx", "fy", "cx", "cy") if key not in known]
-    if missing:
-        raise SpecError(f"{path}: {', '.join(missing)} missing; give these, or the angle alone.")
-    made = Pinhole(
-        width=round(known["width"]),
-        height=round(known["height"]),
-        **{key: float(known[key]) for key in ("fx", "fy", "cx", "cy")},
-    )
-    _require_same_shape(path, (made.width, made.height), (width, height))
-    return made.resized(width, height)
-
-
 def read_picture(path: Path) -> tuple[NDArray[np.uint8], float | None]:
     """A PNG or JPEG: RGB, shape (height, width, 3), and the angle across its longer side [deg] where its notes say.
 
@@ -191,8 +146,8 @@ def read_picture(path: Path) -> tuple[NDArray[np.uint8], float | None]:
     return pixels, float(np.degrees(2 * np.arctan(FILM_WIDTH / 2 / focal))) if 5.0 <= focal <= 500.0 else None
 
 
-def read_depth(path: Path) -> NDArray[np.float32]:
-    """Depth [m], shape (height, width): numbers of an .npy file, or millimetres of a 16-bit PNG.
+def read_depth(path: Path, camera: Path | None = None) -> NDArray[np.float32]:
+    """Depth [m], shape (height, width): of an .npy file, or a 16-bit PNG in millimetres or as file `camera` says.
 
     What is not known is NaN, infinite or at most 0 there, and NaN in what is returned.
 
@@ -207,8 +162,8 @@ def read_depth(path: Path) -> NDArray[np.float32]:
     else:
         image = _opened(path, formats=("PNG",))
         if not image.mode.startswith("I"):
-            raise SpecError(f'{path}: depth as a PNG has 16 bits, in millimetres; this one is "{image.mode}".')
-        depth = _pixels(path, image).astype(np.float32) / 1000.0
+            raise SpecError(f'{path}: depth as a PNG has 16 bits; this one is "{image.mode}".')
+        depth = (_pixels(path, image) / depth_per_metre(camera)).astype(np.float32)
     with np.errstate(invalid="ignore"):
         depth[~(np.isfinite(depth) & (depth > 0.0))] = np.nan
     if np.isnan(depth).all():
@@ -275,7 +230,7 @@ def observed(
     """
     height, width = depth.shape
     for what, shape in (("the picture", picture.shape[:2]), ("masks", instances.shape)):
-        _require_same_shape(what, shape[::-1], (width, height))
+        require_same_shape(what, shape[::-1], (width, height))
     thin = max(1, -(-max(width, height) // WORKING_SIDE))
     rows, columns = np.arange(thin // 2, height, thin), np.arange(thin // 2, width, thin)
 
@@ -311,19 +266,10 @@ def like(array: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
         SpecError: their proportions differ.
     """
     (high, wide), (height, width) = array.shape[:2], other.shape[:2]
-    _require_same_shape("a picture", (wide, high), (width, height))
+    require_same_shape("a picture", (wide, high), (width, height))
     row = np.minimum(((np.arange(height) + 0.5) * high / height).astype(int), high - 1)
     column = np.minimum(((np.arange(width) + 0.5) * wide / width).astype(int), wide - 1)
     return array if array.shape[:2] == other.shape[:2] else array[row][:, column]
-
-
-def usual_camera(width: int, height: int, angle: float | None) -> tuple[Pinhole, str]:
-    """The camera of a picture of which no file tells, and a note of how it is known."""
-    if angle is not None:
-        note = f"the camera sees {angle:.0f} degrees across, as the photograph's notes or the depth model say"
-        return Pinhole.of_angle(width, height, angle), note
-    note = f"nobody says what camera it was: one that sees {USUAL_ANGLE:g} degrees across is assumed"
-    return Pinhole.of_angle(width, height), note
 
 
 def _opened(path: Path, formats: tuple[str, ...] = ("PNG", "JPEG")) -> Any:
@@ -372,12 +318,6 @@ def _check_size(path: Path) -> None:
         raise SpecError(f"{path}: {error.strerror or error}.") from error
     if not path.is_file() or size > MAX_BYTES:
         raise SpecError(f"{path} is no file, or larger than {MAX_BYTES // 2**20} MiB.")
-
-
-def _require_same_shape(what: object, size: tuple[int, int], other: tuple[int, int]) -> None:
-    """Raise SpecError unless two sizes, width first, have the same proportions."""
-    if abs(size[0] * other[1] / (size[1] * other[0]) - 1.0) > 0.02:
-        raise SpecError(f"{what}: {size[0]} x {size[1]} pixels have other proportions than {other[0]} x {other[1]}.")
 
 
 def _said(array: NDArray[Any]) -> str:

@@ -1,17 +1,10 @@
 """Scale, place and yaw of an asset from the pixels that show it: what is drawn has to be what is seen.
 
-Every candidate is drawn, and each pixel around the mask judges it in units of log likelihood:
-
-- in the mask, where the candidate is: (range drawn - range measured)^2 / (2 sigma^2), at most CAP;
-- in the mask, where the candidate is not: CAP;
-- outside, where the candidate is: CAP, unless something that is nearer hides it; less beside the mask's border and
-  where depth cannot tell it from what is behind, since masks end a little early or late;
-- elsewhere: nothing.
-
-The camera sees directions well and distances badly, so the search is over direction and distance of the middle, the
-angle that the asset fills, and yaw: for each of many yaws the first three follow from areas and medians, and the best
-few are refined by the simplex method, which does not mind that the judgement has steps. It begins with a larger sigma,
-so that what is far off still feels where it belongs.
+Every candidate is drawn and judged by the pixels around the mask (`pat3d.vision.window`). The camera sees directions
+well and distances badly, so the search is over direction and distance of the middle, the angle that the asset fills,
+and yaw: for each of many yaws the first three follow from areas and medians, and the best few are refined by the
+simplex method, which does not mind that the judgement has steps. It begins with a larger sigma, so that what is far
+off still feels where it belongs.
 """
 
 from __future__ import annotations
@@ -21,19 +14,14 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from pat3d.geometry.rotations import yaw_of
 from pat3d.vision.camera import Array, PlacedCamera
 from pat3d.vision.caster import Caster, Placement, orientation
 from pat3d.vision.observation import Observation
+from pat3d.vision.window import Window
 
-Ranges = NDArray[np.float32]
-"""What is drawn: how far it is along the rays of a window [m], infinite where there is nothing; shape (pixels,)."""
-
-CAP = 4.0
-"""Cost of a pixel that contradicts the candidate: 2.8 standard deviations."""
 YAWS = 24
 """First guesses."""
 TRIED, REFINED = 7, 3
@@ -48,18 +36,10 @@ RESTARTS = 3
 """Of the simplex method at most, while each makes the cost less by a twentieth."""
 COARSE, FINE, SHARP = 400, 1500, 6000
 """Pixels that judge, around a mask that fills a rectangle; the last where two candidates are nearly as good."""
-MOST = 5
-"""By how much more, where the mask fills little of its rectangle."""
 NEARLY = 0.15
 """Difference of costs that noise and few pixels can make."""
 ROUGH_STEPS, STEPS = 70, 130
 """Drawings of one refinement."""
-LEAST_SIGMA = 0.002
-"""Errors of the depth that are always reckoned with, over the depth [-]."""
-BORDER = 2.5
-"""Pixels beside a mask that may still be the object's."""
-UNSURE = 0.4
-"""Weight of pixels outside the mask whose depth cannot tell what is drawn from what is there."""
 UNEXPLAINED = 0.4
 """Cost from which on an object may stand otherwise than upright."""
 UPRIGHT = math.cos(math.radians(5.0))
@@ -83,78 +63,6 @@ class Fit:
     """Mean over the mask's pixels beyond what the noise costs, from 0 (explained exactly) to about CAP."""
     overlap: float
     """Of the pixels that asset or mask claim and nothing hides, those that both do [-]."""
-
-
-class Window:
-    """The pixels around a mask, with all that judges candidates."""
-
-    def __init__(self, seen: Observation, camera: PlacedCamera, name: str, pixels: int) -> None:
-        from scipy.ndimage import distance_transform_edt
-
-        mask = seen.mask(name)
-        rows, columns = np.nonzero(mask)
-        low, high = np.array([rows.min(), columns.min()]), np.array([rows.max(), columns.max()]) + 1
-        margin = 4 + np.ceil(0.3 * (high - low)).astype(int)
-        low, high = np.maximum(low - margin, 0), np.minimum(high + margin, mask.shape)
-        area = float(np.prod(high - low))
-        stride = max(1, round(math.sqrt(max(min(area / pixels, 2.0 * len(rows) / pixels), area / (MOST * pixels)))))
-        # The first of the strided rows and columns lie half a stride inside, so that the grid is in the middle.
-        grid = np.mgrid[low[0] + stride // 2 : high[0] : stride, low[1] + stride // 2 : high[1] : stride]
-        row, column = grid.reshape(2, -1)
-        self.own = mask[row, column]
-        self.origin = camera.position
-        self.rays, reach = camera.rays(column + 0.5, row + 0.5)
-        known = seen.known[row, column]
-        relative = max(seen.noise, LEAST_SIGMA)
-        self.expected = 0.5 * (seen.noise / relative) ** 2
-        """Cost of the true candidate, from the noise alone."""
-        self.shift_free = False
-        """Whether the depth of the object may be off by a common shift."""
-        self.perfect = self.expected + 0.01 if self.expected < 0.05 else 0.0
-        """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
-        self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
-        self.sigma = relative * np.where(known, self.range, 1.0)
-        self.smooth = np.where(known, seen.smooth_depth[row, column] * reach, np.nan)
-        calm = self.sigma * (1.0 if seen.noise < 0.01 else 0.35)
-        self.calm = 2.0 * calm
-        crop = tuple(slice(max(int(one) - 8, 0), int(other) + 8) for one, other in zip(low, high, strict=True))
-        away = np.asarray(distance_transform_edt(~mask[crop]))[row - crop[0].start, column - crop[1].start]
-        self.beside = np.where(away <= BORDER, 0.5, 1.0)
-        self.count = max(int(self.own.sum()), 1)
-        self.middle = camera.rays([columns.mean() + 0.5], [rows.mean() + 0.5])[0][0]
-        right, down = camera.rotation[:, 0], camera.rotation[:, 1]
-        self.right, self.down = right, down
-        distances = self.range[self.own & known]
-        self.distance = float(np.median(distances)) if len(distances) else float(np.nanmedian(self.range))
-        self.angle = math.sqrt(len(rows)) / seen.camera.fx
-        """About how wide the mask is [rad]."""
-
-    def cost(self, drawn: Ranges, blur: float = 1.0) -> float:
-        """Mean cost of what is drawn: ranges [m] of the window's pixels, infinite where there is nothing."""
-        hit = np.isfinite(drawn)
-        inside = self.own & hit
-        error = drawn[inside] - self.range[inside]
-        if self.shift_free and np.isfinite(error).any():
-            error -= np.nanmedian(error)
-        total = float(np.nansum(np.minimum(0.5 * (error / (blur * self.sigma[inside])) ** 2, CAP)))
-        total += CAP * float(np.count_nonzero(self.own & ~hit))
-        outside = ~self.own & hit
-        total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
-        return total / self.count
-
-    def contradicted(self, drawn: Ranges) -> Array:
-        """How surely something would be seen at the range that is drawn [-], by pixel."""
-        with np.errstate(invalid="ignore"):
-            nearer = drawn - self.smooth
-            free = np.where(nearer > self.calm, 0.0, np.where(nearer > -self.calm, UNSURE, 1.0))
-        return np.where(np.isfinite(self.smooth), free, UNSURE)
-
-    def overlap(self, drawn: Ranges) -> float:
-        """Intersection over union with the mask, of pixels in which nothing nearer hides what is drawn."""
-        hit = np.isfinite(drawn)
-        both = np.count_nonzero(self.own & hit)
-        either = np.count_nonzero(self.own | (hit & (self.contradicted(drawn) > 0.0)))
-        return both / max(either, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,8 +178,13 @@ def _turned_about(window: Window, caster: Caster, found: list[tuple[_Guess, floa
     best, cost = found[0]
     if cost < window.perfect:
         return found
-    others = [replace(best, yaw=best.yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
-    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in others]
+    quarters = [best.yaw + quarter * math.pi / 2 for quarter in (1, 2, 3)]
+    others = [replace(best, yaw=yaw) for yaw in quarters]
+    if cost > window.expected + EXPLAINED:
+        # Turned by a quarter, what is longer than wide has another size too: only the mask tells which.
+        others += [_aligned(window, caster, start, yaw=yaw) for start in STARTS for yaw in (best.yaw, *quarters)]
+    rough = [_refined(window, caster, other, steps=ROUGH_STEPS, blur=HALFWAY)[0] for other in others]
+    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in rough]
     return sorted([*found, *tried], key=lambda one: one[1])
 
 
@@ -285,6 +198,9 @@ def _judged(
     costs = sorted(((_cost(sharp, caster, one), k) for k, one in enumerate(rivals)))
     closest = [rivals[k] for cost, k in costs if cost < costs[0][0] + NEARLY / 3][:2]
     tried = [_refined(sharp, caster, one, leans=leans, steps=ROUGH_STEPS) for one in closest]
+    if len(tried) > 1 and sharp.expected >= EXPLAINED:
+        # Between noise and noise, what is not quite at its best is worse than its rival.
+        tried = [_settled(sharp, caster, one, leans=leans) for one in tried]
     return min(tried, key=lambda one: one[1])
 
 

@@ -94,9 +94,9 @@ class ChatLabeller:
             found: tuple[Described, ...] = self._shape.made(Description, data).objects
             return self._checked(sorted(found, key=lambda one: one.number), values)
 
-        parts: list[dict[str, Any]] = [_image(picture, SENT_SIDE)]
+        parts: list[dict[str, Any]] = [as_message(picture, SENT_SIDE)]
         for number, value in enumerate(values, start=1):
-            crop = _image(cut_out(picture, instances == value), SENT_SIDE // 2)
+            crop = as_message(cut_out(picture, instances == value), SENT_SIDE // 2)
             parts += [{"type": "text", "text": f"Object {number}:"}, crop]
         messages = [{"role": "system", "content": _TELLING}, {"role": "user", "content": parts}]
         return self._chat.ask(messages, self._shape, vision=True, made=made)
@@ -145,7 +145,7 @@ def cut_out(picture: NDArray[np.uint8], mask: NDArray[np.bool_]) -> NDArray[np.u
     return np.where(own[..., None], shown, 192 + shown // 4).astype(np.uint8)
 
 
-def _image(picture: NDArray[np.uint8], side: int) -> dict[str, Any]:
+def as_message(picture: NDArray[np.uint8], side: int) -> dict[str, Any]:
     """A picture as chat completions take it, at most `side` pixels long."""
     from PIL import Image
 

@@ -13,8 +13,10 @@ from pat3d.layout.bodies import Body, Placed
 from pat3d.progress import Event, Progress, silent
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import Relation
+from pat3d.vision.borders import border_lost, bordered
 from pat3d.vision.camera import PlacedCamera
 from pat3d.vision.caster import Caster, Placement
+from pat3d.vision.dependencies import Judge, Pair, close_pairs, joined
 from pat3d.vision.fitting import STOOD_LOSS, Fit, fit, stood
 from pat3d.vision.gravity import Plane, ground_plane, level_camera, surface_plane
 from pat3d.vision.observation import Observation
@@ -74,18 +76,26 @@ class Recovered:
         return replace(self, camera=camera, fits=fits, notes=(*self.notes, note))
 
 
-def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progress = silent) -> Recovered:
+def recover(
+    seen: Observation, assets: Mapping[str, Asset], *, judge: Judge | None = None, progress: Progress = silent
+) -> Recovered:
     """Where the objects of a picture are.
 
     Args:
         seen: the picture with depth and masks.
         assets: what the masks show, by name; of any size.
+        judge: says what carries what, before the fitted surfaces do.
         progress: told of every object.
 
     Raises:
         LayoutError: nothing in the picture tells what is level.
+        ModelError: `judge` gives no valid answer.
     """
+    lost = border_lost(seen)
+    seen = bordered(seen, lost)
     camera, notes = _camera(seen, assets)
+    if lost:
+        notes.append(f"the masks end early, by {lost} px, as the depth beside them shows; they are grown.")
     casters = {name: Caster(assets[name].visual) for name in seen.names}
     fits: dict[str, Fit] = {}
     for number, name in enumerate(seen.names):
@@ -94,6 +104,11 @@ def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progres
     slack = seen.noise * float(camera.position[2])
     bodies = {name: _body(name, assets[name], one.placed) for name, one in fits.items()}
     relations = supports(bodies, slack=slack)
+    judged: Mapping[Pair, Relation | None] = {}
+    if judge is not None:
+        progress(Event(stage="asking what stands on what"))
+        judged = judge.judge(seen, close_pairs(bodies))
+        relations, _ = joined(relations, judged)
     for name in from_the_ground(seen.names, relations):
         relation = next((one for one in relations if one.child == name), None)
         if relation is not None and relation.kind == "in":
@@ -105,7 +120,8 @@ def recover(seen: Observation, assets: Mapping[str, Asset], *, progress: Progres
         if lower.cost < fits[name].cost + STOOD_LOSS:
             fits[name] = lower
             bodies[name] = _body(name, assets[name], lower.placed)
-    relations = supports(bodies, slack=slack)
+    relations, differences = joined(supports(bodies, slack=slack), judged)
+    notes += differences
     notes += [
         f'"{name}" is explained poorly by "{assets[name].noun}" (cost {one.cost:.2f}, overlap {one.overlap:.0%}).'
         for name, one in fits.items()

@@ -1,8 +1,9 @@
 """What stands on what, and in what, from assets at poses: the scene tree of a picture (paper, Algorithm 1).
 
 The paper asks a vision-language model about every pair of objects of which one is over the other and near it. Here the
-fitted surfaces answer first: from points of the child's underside one looks down, and what carries it is the highest
-thing below within tolerance. What lies in a container is in it, whatever it rests on there.
+fitted surfaces answer, also where there is a model (`dependencies`): from points of the child's underside one looks
+down, and what carries it is the highest thing below within tolerance. What lies in a container is in it, whatever it
+rests on there.
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.policies_eval.analysis.charts import CHART_STYLE, OUTCOME_COLOURS, axis, interval_bar, outcome_bar
+from pat3d.policies_eval.analysis.curves import CURVE_STYLE, curves, drawing, lines_of
 from pat3d.policies_eval.analysis.summary import Summary
 from pat3d.policies_eval.run.failures import OUTCOMES
 from pat3d.policies_eval.run.records import Evaluation, write_text
@@ -108,6 +109,7 @@ def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, p
     parts = [
         _head(evaluation, summary),
         _settings(evaluation),
+        _robustness(evaluation, summary),
         _failures(summary),
         _section("What it looked like", "".join([*films, *strips])) if films or strips else "",
         _tables(summary),
@@ -117,7 +119,8 @@ def write_report(evaluation: Evaluation, summary: Summary, *, videos: int = 0, p
     page = (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{escape(summary.policy)}: PAT3D evaluation</title><style>{STYLE}{CHART_STYLE}</style></head>"
+        f"<title>{escape(summary.policy)}: PAT3D evaluation</title>"
+        f"<style>{STYLE}{CHART_STYLE}{CURVE_STYLE}</style></head>"
         f"<body><main>{''.join(parts)}</main></body></html>\n"
     )
     file = evaluation.folder / "report.html"
@@ -173,6 +176,22 @@ def _in_words(value: Any) -> str:
     if isinstance(value, list | tuple):
         return ", ".join(map(_in_words, value)) or "none"
     return f"{value:g}" if isinstance(value, float) else "none" if value is None else str(value)
+
+
+def _robustness(evaluation: Evaluation, summary: Summary) -> str:
+    """Success along the axes of perturbation; nothing where there were none."""
+    found = curves(evaluation, summary.interval)
+    if not found:
+        return ""
+    rows = "".join(f"<li>{escape(line.strip())}</li>" for line in lines_of(found))
+    told = (
+        "<p>The figure above is over all perturbations. Here every axis is alone, and each level is compared in pairs "
+        "with the same episodes without a perturbation; bars are 95 % intervals.</p>"
+    )
+    return _section(
+        "Along the axes of perturbation",
+        f"{told}{drawing(found)}<details><summary>figures</summary><ul>{rows}</ul></details>",
+    )
 
 
 def _failures(summary: Summary) -> str:

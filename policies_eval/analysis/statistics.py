@@ -107,14 +107,26 @@ def mcnemar(only_first: int, only_second: int) -> float:
 def episodes_needed(only_first: int, only_second: int, episodes: int, *, power: float = POWER) -> int | None:
     """Paired episodes after which a difference like the one seen is significant at 5 % with probability `power`.
 
-    n = (z_a sqrt(d) + z_b sqrt(d - e^2))^2 / e^2 with d the share of episodes that differ and e the difference of the
-    rates (Miettinen 1968). None where there is no difference.
+    None where there is no difference.
     """
-    from scipy.stats import norm
-
     if not episodes or only_first == only_second:
         return None
     share, effect = (only_first + only_second) / episodes, (only_first - only_second) / episodes
+    return episodes_for(share, effect, power=power)
+
+
+def episodes_for(share: float, effect: float, *, power: float = POWER) -> int:
+    """Paired episodes after which a difference is significant at 5 % with probability `power` (Miettinen 1968).
+
+    n = (z_a sqrt(d) + z_b sqrt(d - e^2))^2 / e^2
+
+    Args:
+        share: d, of episodes in which exactly one of the two succeeds; at least that of the effect.
+        effect: e, difference of the success rates; not 0.
+        power: of the test.
+    """
+    from scipy.stats import norm
+
     z_a, z_b = float(norm.ppf(0.5 + LEVEL / 2)), float(norm.ppf(power))
     return math.ceil((z_a * math.sqrt(share) + z_b * math.sqrt(max(share - effect**2, 0.0))) ** 2 / effect**2)
 

@@ -1,8 +1,4 @@
-"""A small policy that imitates demonstrations: state observations in, one action out.
-
-What it sees is written in the frames that matter for a grasp: the hand relative to the object, in the object's frame
-and in the world's, so that a few dozen demonstrations are enough for new places of the object.
-"""
+"""A small policy that imitates demonstrations: state observations in, one action out."""
 
 from __future__ import annotations
 
@@ -14,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import EvaluationError
-from pat3d.geometry.rotations import matrix_of
+from pat3d.policies_eval.policies.inputs import Inputs
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.scene.replacement import replaced_file
 
@@ -25,40 +21,6 @@ WIDTHS = (16, 4096)
 LAYERS = (1, 12)
 
 INSTALL_HINT = "cloned policies need torch: pip install 'pat3d[torch]'."
-
-
-def features(observation: Mapping[str, Any]) -> NDArray[np.float32]:
-    """What the network sees of a state observation, shape (FEATURES,).
-
-    Raises:
-        EvaluationError: not a state observation, or one of two arms.
-    """
-    missing = {"eef_pos", "eef_quat", "gripper_pos", "target"} - observation.keys()
-    if "left_eef_pos" in observation:
-        raise EvaluationError("a cloned policy moves one arm; here are two.")
-    if missing:
-        raise EvaluationError(f'a cloned policy needs obs="state"; {", ".join(sorted(missing))} are missing.')
-    target = np.asarray(observation["target"], dtype=np.float64)
-    hand = np.asarray(observation["eef_pos"], dtype=np.float64)
-    hand_rotation, rotation = matrix_of(observation["eef_quat"]), matrix_of(target[3:7])
-    away, goal = target[:3] - hand, target[7:10] - target[:3]
-    fingers = np.asarray(observation["gripper_pos"], dtype=np.float64)[:2]
-    return np.concatenate(
-        [
-            away,
-            rotation.T @ away,
-            hand_rotation.T @ away,
-            goal,
-            [hand[2]],
-            fingers,
-            hand_rotation[:, :2].ravel(),
-            (rotation.T @ hand_rotation)[:, :2].ravel(),
-            rotation[:, :2].ravel(),
-        ]
-    ).astype(np.float32)
-
-
-FEATURES = 33
 
 
 class ClonedPolicy:
@@ -73,9 +35,11 @@ class ClonedPolicy:
         self._torch = _torch()
         # One small network for one observation: threads would only wait for one another.
         self._torch.set_num_threads(1)
+        self._instruction, self._step = "", 0
 
     def reset(self, episode: EpisodeStart) -> None:
-        """Nothing is remembered."""
+        """The instruction and the time are remembered."""
+        self._instruction, self._step = episode.instruction, 0
         if episode.action_size != self._network.action_size:
             raise EvaluationError(
                 f"the checkpoint gives {self._network.action_size} values an action, the robot takes "
@@ -85,24 +49,28 @@ class ClonedPolicy:
     def act(self, observation: Mapping[str, Any]) -> NDArray[np.float32]:
         """The action for an observation."""
         torch = self._torch
+        seen = self._network.inputs.see(observation, self._instruction, self._step)
+        self._step += 1
         with torch.no_grad():
-            action = self._network(torch.from_numpy(features(observation))[None])[0].numpy()
+            action = self._network(torch.from_numpy(seen)[None])[0].numpy()
         # Demonstrations only ever open or close the fingers.
         action[-1] = 1.0 if action[-1] > 0.0 else -1.0
         return action
 
 
-def make_network(action_size: int = 7, width: int = 256, layers: int = 3) -> Any:
-    """A multilayer perceptron that knows mean and deviation of its inputs."""
+def make_network(action_size: int = 7, width: int = 256, layers: int = 3, inputs: Inputs | None = None) -> Any:
+    """A multilayer perceptron that knows what it sees, and mean and deviation of that."""
     torch: Any = _torch()
+    known = inputs or Inputs()
 
     class Network(torch.nn.Module):
         def __init__(self) -> None:
             super().__init__()
             self.action_size, self.config = action_size, {"action_size": action_size, "width": width, "layers": layers}
-            self.register_buffer("mean", torch.zeros(FEATURES))
-            self.register_buffer("deviation", torch.ones(FEATURES))
-            sizes = [FEATURES, *[width] * layers]
+            self.inputs = known
+            self.register_buffer("mean", torch.zeros(known.size))
+            self.register_buffer("deviation", torch.ones(known.size))
+            sizes = [known.size, *[width] * layers]
             steps: list[Any] = []
             for before, after in zip(sizes, sizes[1:], strict=False):
                 steps += [torch.nn.Linear(before, after), torch.nn.ReLU()]
@@ -122,6 +90,7 @@ def save(network: Any, file: str | Path, notes: Mapping[str, Any]) -> None:
         "kind": KIND,
         "format": FORMAT,
         "config": network.config,
+        "inputs": network.inputs.to_json(),
         "weights": network.state_dict(),
         "notes": dict(notes),
     }
@@ -158,7 +127,8 @@ def load(file: str | Path) -> Any:
         value = config.get(name)
         if not isinstance(value, int) or not low <= value <= high:
             raise EvaluationError(f"{path}: {name} is {value}; valid are {low} to {high}.")
-    network = make_network(**{name: config[name] for name in limits})
+    inputs = Inputs.from_json(content.get("inputs"))
+    network = make_network(**{name: config[name] for name in limits}, inputs=inputs)
     try:
         network.load_state_dict(content["weights"])
     except (KeyError, RuntimeError, TypeError, AttributeError) as error:

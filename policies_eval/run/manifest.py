@@ -34,7 +34,8 @@ def make_manifest(
         "format": FORMAT,
         "policy": policy,
         "policy_details": details,
-        "settings": asdict(settings),
+        # As it is read back: without tuples.
+        "settings": asdict(settings) | {"cameras": list(settings.cameras)},
         "engine": engine(),
         "source": source,
         "episodes": episodes,

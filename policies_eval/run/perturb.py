@@ -6,14 +6,16 @@ Every axis has its own stream of random numbers, so that switching one on leaves
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.physics.lights import Sky
 from pat3d.envs.physics.world import FLOOR, SUPPORT
+from pat3d.envs.tasks.paraphrase import politely
 from pat3d.errors import EvaluationError
 from pat3d.scene.model import GROUND
 
@@ -28,15 +30,11 @@ DEEPEST = 2e-4
 SETTLE_STEPS = 4
 """Control steps without an action after an object was moved."""
 
-TEMPLATES = (
-    "{}",
-    "please {}",
-    "could you {}?",
-    "robot, {}",
-    "your task: {}",
-    "i need you to {}",
-)
-"""Wordings of an instruction."""
+BACKDROP = ("bench", "ground", "sky")
+"""Materials whose colours are the background's, and the sky."""
+
+START_TRIES = 40
+"""Postures that are drawn before the robot is left where it was."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +55,14 @@ class Perturbation:
     [m]."""
     words: float = 0.0
     """Probability that the instruction is put in other words."""
+    start: float = 0.0
+    """Joints of the arms start up to this away from where they do otherwise [rad]; a posture that touches something is
+    drawn again."""
+    background: float = 0.0
+    """By this share the colours of the table, of the floor and of the background are mixed with random ones."""
+    noise: float = 0.0
+    """Every colour of a picture gets normal noise of this deviation, as a share of full brightness, depth of a tenth of
+    this as a share, and every number of the state of a tenth of this [rad, m]."""
 
     def __post_init__(self) -> None:
         for name, (low, high) in LIMITS.items():
@@ -81,7 +87,14 @@ LIMITS: Mapping[str, tuple[float, float]] = {
     "camera": (0.0, 0.3),
     "light": (0.0, 1.0),
     "words": (0.0, 1.0),
+    "start": (0.0, 0.5),
+    "background": (0.0, 1.0),
+    "noise": (0.0, 1.0),
 }
+"""Strengths of every axis; the order is that of the streams of random numbers."""
+
+SEEN = ("words", "noise")
+"""Axes that change what a policy is told, not the simulation."""
 
 
 def parse(texts: list[str]) -> Perturbation:
@@ -108,6 +121,8 @@ class Perturber:
     def __init__(self, env: Any) -> None:
         self._env = env
         self._kept: tuple[Any, dict[str, Array], dict[str, Any]] | None = None
+        self._sky: Sky | None = None
+        """Of a model whose background was changed."""
 
     def apply(self, perturbation: Perturbation, seed: int) -> dict[str, Any]:
         """Perturb the episode that was just reset; returns what was drawn, as plain JSON data."""
@@ -115,9 +130,9 @@ class Perturber:
         for name in perturbation.active:
             strength = float(getattr(perturbation, name))
             random = np.random.default_rng([seed, list(LIMITS).index(name)])
-            if name == "words":
+            if name in SEEN:
                 continue
-            if name != "pose":
+            if name not in ("pose", "start"):
                 self._keep()
             drawn[name] = getattr(self, f"_{name}")(strength, random)
         if drawn:
@@ -129,6 +144,10 @@ class Perturber:
         if self._kept is None:
             return
         model, values, statistics = self._kept
+        if self._sky is not None:
+            self._sky.restore()
+            self._env.close()
+            self._sky = None
         for name, value in values.items():
             getattr(model, name)[...] = value
         for name, value in statistics.items():
@@ -185,6 +204,38 @@ class Perturber:
             drawn.append(factor)
         return drawn
 
+    def _background(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
+        model, drawn = self._env.simulation.model, {}
+        self._sky = Sky(model)
+        for name in BACKDROP:
+            drawn[name] = random.uniform(size=3).tolist()
+            if name == "sky":
+                self._sky.paint((1.0 - strength) * self._sky.colour + strength * np.array(drawn[name]))
+            elif (number := _material(model, name)) >= 0:
+                colour = model.mat_rgba[number, :3]
+                model.mat_rgba[number, :3] = (1.0 - strength) * colour + strength * np.array(drawn[name])
+        # Renderers keep colours.
+        self._env.close()
+        return drawn
+
+    def _start(self, strength: float, random: np.random.Generator) -> list[float]:
+        """Turn the joints of the arm that does the task; where every posture touches something, it stays."""
+        import mujoco
+
+        simulation = self._env.simulation
+        model, data, where = simulation.model, simulation.data, simulation.arm_addresses
+        before = data.qpos[where].copy()
+        low, high = model.jnt_range[[_joint(model, int(place)) for place in where]].T
+        for _ in range(START_TRIES):
+            shift = random.uniform(-strength, strength, len(where))
+            data.qpos[where] = np.clip(before + shift, low, high)
+            mujoco.mj_forward(model, data)
+            if not simulation.touching:
+                return (data.qpos[where] - before).tolist()
+        data.qpos[where] = before
+        mujoco.mj_forward(model, data)
+        return [0.0] * len(where)
+
     def _pose(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
         """Move the task's objects; every one is settled for a moment and put back where that fails."""
         simulation, drawn = self._env.simulation, {}
@@ -200,12 +251,49 @@ class Perturber:
         return drawn
 
 
-def reworded(instruction: str, perturbation: Perturbation, seed: int) -> str:
-    """The instruction, perhaps in other words."""
+def reworded(wordings: Sequence[str], perturbation: Perturbation, seed: int) -> str:
+    """The first of several wordings of an instruction, or perhaps another one, perhaps more politely."""
     random = np.random.default_rng([seed, list(LIMITS).index("words")])
     if random.uniform() >= perturbation.words:
-        return instruction
-    return TEMPLATES[int(random.integers(1, len(TEMPLATES)))].format(instruction)
+        return wordings[0]
+    others = [*wordings[1:], *politely(wordings[0]), *(politely(one)[0] for one in wordings[1:])]
+    return others[int(random.integers(len(others)))]
+
+
+class Noise:
+    """Noise of an episode's sensors."""
+
+    def __init__(self, strength: float, seed: int) -> None:
+        self._strength = strength
+        self._random = np.random.default_rng([seed, list(LIMITS).index("noise")])
+
+    def on(self, observation: dict[str, Any]) -> dict[str, Any]:
+        """An observation as the sensors tell it; segmentations are of no sensor."""
+        if not self._strength:
+            return observation
+        return {name: self._sensed(name, value) for name, value in observation.items()}
+
+    def _sensed(self, name: str, value: NDArray[Any]) -> NDArray[Any]:
+        if name.endswith("_segmentation"):
+            return value
+        normal = self._random.standard_normal(value.shape)
+        if value.dtype == np.uint8:
+            return np.clip(np.round(value + 255.0 * self._strength * normal), 0, 255).astype(np.uint8)
+        scale = 0.1 * self._strength
+        found = value * (1.0 + scale * normal) if name.endswith("_depth") else value + scale * normal
+        return np.maximum(found, 0.0).astype(value.dtype) if name.endswith("_depth") else found.astype(value.dtype)
+
+
+def _material(model: Any, name: str) -> int:
+    """Number of a material; -1 for none of that name."""
+    import mujoco
+
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_MATERIAL, name))
+
+
+def _joint(model: Any, place: int) -> int:
+    """The joint whose position is at `place` in qpos."""
+    return int(np.flatnonzero(model.jnt_qposadr == place)[0])
 
 
 def _real_arrays(model: Any) -> list[tuple[str, Any]]:
@@ -213,7 +301,7 @@ def _real_arrays(model: Any) -> list[tuple[str, Any]]:
     found = []
     for name in dir(model):
         value = getattr(model, name) if not name.startswith("_") else None
-        drawn = name.startswith(("cam_", "light_"))
+        drawn = name.startswith(("cam_", "light_")) or name == "mat_rgba"
         if isinstance(value, np.ndarray) and value.size and (value.dtype == np.float64 or drawn):
             found.append((name, value))
     return found

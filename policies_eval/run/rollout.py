@@ -17,7 +17,7 @@ from pat3d.errors import Pat3dError
 from pat3d.policies_eval.policies.policy import EpisodeStart, Policy, PolicyError, PolicyHang, checked
 from pat3d.policies_eval.run.episodes import Episode
 from pat3d.policies_eval.run.failures import Events, Watcher
-from pat3d.policies_eval.run.perturb import Perturber, reworded
+from pat3d.policies_eval.run.perturb import Noise, Perturber, reworded
 from pat3d.policies_eval.run.settings import RolloutSettings
 
 NO_EVENTS = Events(
@@ -79,6 +79,7 @@ class Runner:
         self.env: Any = None
         self._perturber: Perturber | None = None
         self._about = ("", "")
+        self._noise = Noise(0.0, 0)
 
     def close(self) -> None:
         """Free the environment."""
@@ -102,8 +103,10 @@ class Runner:
         drawn = self._perturber.apply(episode.perturbation, episode.seed)
         if drawn:
             observation, info = self.env.restart()
-        info["instruction"] = reworded(info["instruction"], episode.perturbation, episode.seed)
-        return observation, info, drawn
+        wordings = self.env.task.wordings(self.env.scene)
+        info["instruction"] = reworded(wordings, episode.perturbation, episode.seed)
+        self._noise = Noise(episode.perturbation.noise, episode.seed)
+        return self._noise.on(observation), info, drawn
 
     def run(self, episode: Episode, policy: Policy, watch: Callable[[Any], None] | None = None) -> Result:
         """One episode from its start to success, failure, or the last step.
@@ -128,17 +131,17 @@ class Runner:
         if watch:
             watch(env)
         guard = _Guard(settings.act_seconds, clock, self._deadline)
+        begin = EpisodeStart(
+            instruction=info["instruction"],
+            task=info["task"],
+            seed=episode.seed,
+            robot=settings.robot,
+            control=settings.control,
+            action_size=size,
+            control_freq=settings.control_freq,
+            env=env if getattr(policy, "privileged", False) else None,
+        )
         try:
-            begin = EpisodeStart(
-                instruction=info["instruction"],
-                task=info["task"],
-                seed=episode.seed,
-                robot=settings.robot,
-                control=settings.control,
-                action_size=size,
-                control_freq=settings.control_freq,
-                env=env if getattr(policy, "privileged", False) else None,
-            )
             with guard:
                 guard.ask("reset", policy.reset, begin)
                 while len(recorder.actions) < limit and not (success or broken):
@@ -151,6 +154,7 @@ class Runner:
                     start = time.perf_counter()
                     observation, _, success, broken, info = env.step(action)
                     clock["physics"] += time.perf_counter() - start
+                    observation = self._noise.on(observation)
                     recorder.add(action)
                     watcher.update(info)
                     if watch:
@@ -165,7 +169,7 @@ class Runner:
             reason=str(fault) if fault else "",
             events=watcher.events(),
             progress=float(info["progress"]),
-            instruction=info["instruction"],
+            instruction=begin.instruction,
             actions=recorder.array(size),
             clipped=clipped,
             state_hash=recorder.digest(),

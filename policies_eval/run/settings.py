@@ -24,6 +24,8 @@ class RolloutSettings:
     control_freq: float = 20.0
     max_steps: int = 0
     """Of an episode; 0 for as many as its task takes (`Task.horizon`)."""
+    cameras: tuple[str, ...] = ("agentview", "wrist")
+    """Whose pictures a policy gets with obs="rgb" or "rgbd"."""
     image_size: int = IMAGE_SIDE
     max_objects: int = 32
     """Rows of the state's "objects", so that every scene of a suite gives observations of one shape."""
@@ -36,6 +38,7 @@ class RolloutSettings:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "robot", self.robot or default_robot())
+        object.__setattr__(self, "cameras", tuple(self.cameras))
         for name, low, high in (("max_steps", 0, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
             if not low <= getattr(self, name) <= high:
                 raise EvaluationError(f"{name} is {low} to {high}, not {getattr(self, name)}.")
@@ -52,6 +55,7 @@ class RolloutSettings:
             task=task,
             control_freq=self.control_freq,
             max_objects=self.max_objects,
+            cameras=self.cameras,
             image_size=(self.image_size, self.image_size),
             **kinds,
             **more,

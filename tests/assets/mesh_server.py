@@ -6,25 +6,12 @@ import base64
 import email
 import email.policy
 import json
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any, Literal
 
-
-@dataclass(kw_only=True)
-class Reply:
-    """One answer of the server."""
-
-    status: int = 200
-    body: bytes = b"{}"
-    headers: dict[str, str] = field(default_factory=dict)
-    length: int | None = None
-    """What Content-Length says where that is not the truth."""
-    stalls: bool = False
-    """Whether it says nothing until the client has gone."""
+from tests.loopback import Reply, listening
 
 
 @dataclass(kw_only=True)
@@ -64,7 +51,11 @@ class Server:
 def said(data: Any, status: int = 200, **headers: str) -> Reply:
     """JSON."""
     names = {name.replace("_", "-"): text for name, text in headers.items()}
-    return Reply(status=status, body=json.dumps(data).encode(), headers={"Content-Type": "application/json", **names})
+    return Reply(status=status, body=json.dumps(data).encode(), headers=names)
+
+
+def _glb(mesh: bytes) -> Reply:
+    return Reply(body=mesh, headers={"Content-Type": "model/gltf-binary"})
 
 
 def _sglang(self: Server, method: str, path: str, headers: Any, body: bytes) -> Reply | None:
@@ -89,7 +80,7 @@ def _sglang(self: Server, method: str, path: str, headers: Any, body: bytes) -> 
         self.busy -= 1
         return said(job if self.busy >= 0 else {**job, "status": "completed", "progress": 100})
     if (method, path) == ("GET", "/v1/meshes/job-1/content"):
-        return Reply(body=self.mesh, headers={"Content-Type": "model/gltf-binary"})
+        return _glb(self.mesh)
     return said({**job, "status": "deleted"}) if (method, path) == ("DELETE", "/v1/meshes/job-1") else None
 
 
@@ -100,7 +91,7 @@ def _hunyuan(self: Server, method: str, path: str, headers: Any, body: bytes) ->
         self.asked.append(json.loads(body))
         if self.needs_picture and "image" not in self.asked[-1]:
             return said({"detail": [{"loc": ["body", "image"], "msg": "Field required"}]}, 422)
-        return said({"uid": "a-b-c"}) if path == "/send" else Reply(body=self.mesh)
+        return said({"uid": "a-b-c"}) if path == "/send" else _glb(self.mesh)
     if path == "/health" and self.kind == "hunyuan21":
         return said({"status": "healthy", "worker_id": "1"})
     if path.startswith("/status/"):
@@ -114,45 +105,6 @@ def _hunyuan(self: Server, method: str, path: str, headers: Any, body: bytes) ->
 @contextmanager
 def serving(kind: Any, mesh: bytes, **more: Any) -> Iterator[Server]:
     """A server of `kind` whose meshes are all `mesh`."""
-    ended = threading.Event()
     made = Server(kind=kind, mesh=mesh, **more)
-
-    class Handler(BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
-
-        def do_POST(self) -> None:
-            body = self.rfile.read(int(self.headers["Content-Length"] or 0))
-            reply = made.answer(self.command, self.path, self.headers, body)
-            if reply.stalls:
-                ended.wait(10.0)
-                self.close_connection = True
-                return
-            self.send_response(reply.status)
-            for name, text in reply.headers.items():
-                self.send_header(name, text)
-            self.send_header("Content-Length", str(len(reply.body) if reply.length is None else reply.length))
-            self.send_header("Connection", "close")
-            self.end_headers()
-            self.wfile.write(reply.body)
-            self.close_connection = True
-
-        def do_GET(self) -> None:
-            self.do_POST()
-
-        def do_DELETE(self) -> None:
-            self.do_POST()
-
-        def log_message(self, *words: Any) -> None:
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    made.url = f"http://127.0.0.1:{server.server_address[1]}"
-    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.02})
-    thread.start()
-    try:
+    with listening(made.answer) as made.url:
         yield made
-    finally:
-        ended.set()
-        server.shutdown()
-        server.server_close()
-        thread.join()

@@ -183,6 +183,20 @@ def test_what_lies_outside_the_library_is_not_read(tmp_path):
         read_urdf(tmp_path / "in" / "x.urdf", tmp_path / "in")
 
 
+def test_links_to_outside_are_refused_with_what_to_do(tmp_path, monkeypatch):
+    """As the cache of Hugging Face has them: names in one folder, what they name in another."""
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    (tmp_path / "in").mkdir()
+    textured_box(tmp_path / "out")
+    (tmp_path / "in" / "cup.obj").symlink_to("../out/textured.obj")
+    (tmp_path / "in" / "can.stl").symlink_to("../out/nontextured.stl")
+    mesh = '<visual><geometry><mesh filename="cup.obj"/></geometry></visual>'
+    (tmp_path / "in" / "x.urdf").write_text(f'<robot name="x"><link name="a">{mesh}</link></robot>')
+    entries = add_library(tmp_path / "in", "lab", workers=1).entries
+    assert [one.state for one in entries] == ["refused", "refused"]
+    assert all("cp -rL" in one.reason for one in entries)
+
+
 def test_indexing_again_reads_only_what_has_changed(home):
     stamps = {path.name: path.stat().st_mtime_ns for path in open_library("lab").folder.glob("objects/*.npz")}
     box = home / "objects" / "003_cracker_box" / "google_16k" / "texture_map.png"
@@ -282,6 +296,22 @@ def test_a_sentence_names_library_objects_before_the_catalogues(home):
     assert "lab/bowl" in {obj.noun for obj in planner.plan("three apples in a bowl").objects}
     plain = GrammarPlanner().plan("an apple in a bowl")
     assert all("/" not in obj.noun for obj in plain.objects)
+
+
+def test_names_with_adjectives_are_names_and_kinds_are_nouns(tmp_path, monkeypatch):
+    """The large clamp of a set is not made larger still; a salad bowl has an inside, since the catalogue's has."""
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "objects").mkdir()
+    for name in ("large_clamp", "small_salad_bowl"):
+        textured_box(tmp_path / "objects" / name)
+    add_library(tmp_path / "objects", "lab", workers=1)
+    planner = GrammarPlanner(vocabulary=known_names(["lab"]))
+    plan = planner.plan("a large clamp beside an apple in a small salad bowl on a table")
+    found = {one.noun: one for one in plan.objects}
+    assert found["lab/large_clamp"].scale == found["lab/small_salad_bowl"].scale == 1.0
+    assert not any("inside" in note for note in plan.notes)
+    assert planner.plan("a small dog on a table").objects[0].scale < 1.0
 
 
 def test_sources_answer_alike(home):

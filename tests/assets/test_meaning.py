@@ -12,7 +12,8 @@ from pat3d.cli.main import main
 from pat3d.errors import ModelError
 from tests.assets.things_to_index import MJCF, URDF
 from tests.documents import document_of
-from tests.plan.llm_server import Reply, fault, serving
+from tests.loopback import Reply
+from tests.plan.llm_server import fault, serving
 
 pytest.importorskip("openai")
 

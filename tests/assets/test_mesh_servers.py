@@ -19,7 +19,8 @@ from pat3d.errors import AssetError, PromptError
 from pat3d.generation.request import objects_of_plan
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.progress import silent
-from tests.assets.mesh_server import Reply, said, serving
+from tests.assets.mesh_server import said, serving
+from tests.loopback import Reply
 
 KINDS = ("sglang", "hunyuan", "hunyuan21", "generate")
 LINE = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]], process=False)

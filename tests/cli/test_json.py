@@ -8,7 +8,7 @@ import jsonschema
 import pytest
 
 from pat3d.assets.shapes import box
-from pat3d.cli import documents
+from pat3d.cli import documents, evaluation_documents
 from pat3d.cli.commands import COMMANDS, find
 from pat3d.cli.documents import ForeignFacts
 from pat3d.cli.main import main
@@ -21,7 +21,7 @@ from tests.scenes import GAP, asset_of, placed
 
 DOCUMENTS = [
     one
-    for module in (facts, documents)
+    for module in (facts, documents, evaluation_documents)
     for one in vars(module).values()
     if dataclasses.is_dataclass(one) and one.__module__ == module.__name__
 ]

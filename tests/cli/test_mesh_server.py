@@ -8,7 +8,8 @@ import trimesh
 
 from pat3d.cli.main import main
 from pat3d.scene.io import load_scene
-from tests.assets.mesh_server import Reply, serving
+from tests.assets.mesh_server import serving
+from tests.loopback import Reply
 
 
 def glb() -> bytes:

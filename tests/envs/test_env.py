@@ -368,7 +368,7 @@ def test_a_scene_with_more_objects_than_the_space_is_refused_and_nothing_changes
         ({"obs": "smell"}, "Observations: state, rgb, rgbd"),
         ({"control": "telepathy"}, "Controls: osc"),
         ({"reward": "praise"}, "Valid: sparse, dense"),
-        ({"obs": "rgb", "cameras": ("ceiling",)}, "Cameras: agentview, frontview, wrist"),
+        ({"obs": "rgb", "cameras": ("ceiling",)}, "Cameras: agentview, frontview, closeview, wrist"),
         ({"control_freq": 33.0}, "whole number of time steps"),
         ({"start_noise": float("nan")}, "0 to 0.5"),
         ({"start_noise": "little"}, "0 to 0.5 rad, not 'little'"),

@@ -49,7 +49,7 @@ def test_it_is_json_with_the_observations_that_the_environment_gives(env, arm):
     pictured.close()
 
 
-@pytest.mark.parametrize("camera", ["agentview", "frontview", "wrist"])
+@pytest.mark.parametrize("camera", ["agentview", "frontview", "closeview", "wrist"])
 def test_a_camera_s_intrinsics_and_pose_say_where_in_the_picture_a_point_is(env, camera):
     """The silhouette of an object that nothing hides is where its outermost points are projected."""
     env.reset(seed=0)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from pat3d.assets import catalogue
+from pat3d.envs.suites.composer import natural
 from pat3d.envs.suites.composition import draft, structure_splits
 from pat3d.envs.suites.pools import CONTAINERS, ITEMS, partition
 from pat3d.envs.suites.request import SPLITS, TASKS, Request, check_split, in_split
@@ -21,7 +22,7 @@ REQUEST = Request(tasks=TASKS, scenes=300)
 
 
 def test_unknown_names_are_answered_with_the_valid_ones():
-    with pytest.raises(SuiteError, match=r'no task "juggle".*pick, place, stack, sort, unload, retrieve'):
+    with pytest.raises(SuiteError, match=r'no task "juggle".*pick, place, stack, sort, unload, retrieve, chain'):
         Request(tasks=("pick", "juggle"))
     with pytest.raises(SuiteError, match=r'no split "tset".*train, val, test'):
         check_split("tset")
@@ -93,6 +94,34 @@ def test_nouns_are_held_out_without_overlap_and_from_every_group(seed):
     assert all({groups[noun] for noun in nouns} == {"flat", "standing", "plain"} for nouns in parts.values())
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_what_means_the_same_is_held_out_together(seed):
+    """Where a soda can is held out, a soup can is too: every kind of noun is in one part alone."""
+    parts = partition(seed)
+    places = {item.noun: part for item in ITEMS for part, nouns in parts.items() if item.noun in nouns}
+    for meaning in {item.meaning for item in ITEMS}:
+        assert len({places[item.noun] for item in ITEMS if item.meaning == meaning}) == 1
+    assert places["can"] == places["soda can"] == places["tomato soup can"]
+
+
+def test_what_is_moved_is_not_of_the_colour_of_what_it_comes_from_or_goes_to():
+    for place in range(0, 300, 2):
+        made = draft(REQUEST, place, 0)
+        colours = {obj.name: set(obj.colours) or natural(obj.noun) for obj in made.plan.objects}
+        if made.task == "sort":
+            continue
+        for name in made.moved:
+            carriers = {rel.parent for rel in made.plan.relations if rel.child == name}
+            assert not any(colours[name] & colours[where] for where in carriers), made.plan.prompt
+    assert made
+
+
+def test_suites_use_a_hundred_nouns_and_no_kind_of_them_is_a_third():
+    counts = Counter(item.meaning for item in ITEMS)
+    assert len(ITEMS) >= 95
+    assert counts.most_common(1)[0][1] < len(ITEMS) / 8
+
+
 @pytest.mark.parametrize("objects", [(4, 6), (6, 6), (5, 8), (10, 12)])
 def test_structures_are_held_out_without_overlap_at_every_size(objects):
     request = Request(tasks=TASKS, objects=objects)
@@ -129,7 +158,7 @@ def test_tasks_name_objects_of_their_scene():
         task = parse_task(made.task)
         names = {obj.name for obj in made.plan.objects}
         assert task.kind == REQUEST.task_of(place)
-        assert set(made.task.split(":")[1:]) <= names
+        assert set(task.names) <= names
         assert set(made.moved) <= names
 
 

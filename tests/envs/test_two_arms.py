@@ -114,10 +114,11 @@ def test_each_arm_has_its_own_values_and_cameras(pair):
         f"{side}_{name}" for side in ("left", "right") for name in ("joint_pos", "gripper_pos", "eef_pos", "eef_quat")
     )
     names = [pair.simulation.model.camera(k).name for k in range(pair.simulation.model.ncam)]
-    assert {"agentview", "frontview", "left_wrist", "right_wrist"} <= set(names)
+    assert {"agentview", "frontview", "closeview", "left_wrist", "right_wrist"} <= set(names)
     config = TabletopConfig(robot="aloha", obs="rgb")
     assert config.cameras == ("agentview", "left_wrist", "right_wrist")
-    with pytest.raises(EnvironmentSetupError, match=r'no camera "left_wrist"\. Cameras: agentview, frontview, wrist'):
+    known = "Cameras: agentview, frontview, closeview, wrist"
+    with pytest.raises(EnvironmentSetupError, match=rf'no camera "left_wrist"\. {known}'):
         TabletopConfig(robot="panda", cameras=("left_wrist",))
 
 
@@ -281,7 +282,7 @@ def test_one_arm_of_a_file_with_two_is_named_by_its_first_body(tmp_path):
 def test_an_evaluation_with_two_arms_is_replayed_bit_for_bit_and_demonstrated(own, tmp_path):
     from pat3d.policies_eval.datasets.demonstrations import demonstrate
     from pat3d.policies_eval.datasets.lerobot import _values_of
-    from pat3d.policies_eval.policies.cloning import features
+    from pat3d.policies_eval.policies.cloning_features import features
     from pat3d.policies_eval.run.episodes import Episode
     from pat3d.policies_eval.run.rollout import Runner
     from pat3d.policies_eval.run.settings import RolloutSettings

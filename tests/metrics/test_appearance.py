@@ -21,7 +21,8 @@ from pat3d.plan.llm.chat import Chat
 from pat3d.plan.llm.critic import Picture
 from pat3d.plan.llm.settings import ModelSettings
 from pat3d.scene.io import save_scene
-from tests.plan.llm_server import Reply, said, serving
+from tests.loopback import Reply
+from tests.plan.llm_server import said, serving
 from tests.scenes import asset_of, placed, scene_of
 
 CUBE = asset_of(box(0.1, 0.1, 0.1))

@@ -3,26 +3,12 @@
 from __future__ import annotations
 
 import json
-import socket
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
-
-@dataclass(kw_only=True)
-class Reply:
-    """One answer of the server."""
-
-    status: int = 200
-    body: bytes = b"{}"
-    headers: dict[str, str] = field(default_factory=dict)
-    sent: int | None = None
-    """Bytes of the body after which the connection breaks; None for all of them."""
-    stalls: bool = False
-    """Whether it says nothing until the client has gone."""
+from tests.loopback import Reply, listening
 
 
 def said(content: Any, *, finish: str = "stop", refusal: str | None = None, tokens: tuple[int, int] = (100, 20)):
@@ -64,42 +50,13 @@ class Server:
 @contextmanager
 def serving(*replies: Reply) -> Iterator[Server]:
     """A server that gives `replies` in order, and status 418 when there are none left."""
-    ended = threading.Event()
+    made = Server("", list(replies))
 
-    class Handler(BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
+    def answer(method: str, path: str, headers: Any, body: bytes) -> Reply:
+        made.requests.append({"path": path, **json.loads(body)})
+        made.keys.append(headers["Authorization"])
+        return made.replies.pop(0) if made.replies else fault(418, "nothing more to say")
 
-        def do_POST(self) -> None:
-            length = int(self.headers["Content-Length"])
-            made.requests.append({"path": self.path, **json.loads(self.rfile.read(length))})
-            made.keys.append(self.headers["Authorization"])
-            reply = made.replies.pop(0) if made.replies else fault(418, "nothing more to say")
-            if reply.stalls:
-                ended.wait(10.0)
-                self.close_connection = True
-                return
-            self.send_response(reply.status)
-            for name, text in ({"Content-Type": "application/json"} | reply.headers).items():
-                self.send_header(name, text)
-            self.send_header("Content-Length", str(len(reply.body)))
-            self.end_headers()
-            self.wfile.write(reply.body[: reply.sent])
-            if reply.sent is not None:
-                self.wfile.flush()
-                self.connection.shutdown(socket.SHUT_RDWR)
-                self.close_connection = True
-
-        def log_message(self, *words: Any) -> None:
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    made = Server(f"http://127.0.0.1:{server.server_address[1]}/v1", list(replies))
-    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.02})
-    thread.start()
-    try:
+    with listening(answer) as url:
+        made.url = f"{url}/v1"
         yield made
-    finally:
-        ended.set()
-        server.shutdown()
-        server.server_close()
-        thread.join()

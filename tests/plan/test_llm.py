@@ -17,7 +17,8 @@ from pat3d.plan.scene_plan import ArrangementKind, PlannedObject, ScenePlan
 from pat3d.plan.telling import tell
 from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES
 from pat3d.scene.relations import Relation
-from tests.plan.llm_server import Reply, fault, said, serving
+from tests.loopback import Reply
+from tests.plan.llm_server import fault, said, serving
 
 KEY = "sk-very-secret-0123456789"
 

@@ -12,7 +12,8 @@ torch = pytest.importorskip("torch")
 
 from pat3d.errors import EvaluationError  # noqa: E402
 from pat3d.policies_eval.datasets.demonstrations import Demonstration, demonstrate  # noqa: E402
-from pat3d.policies_eval.policies.cloning import FEATURES, ClonedPolicy, features, load, make_network, save  # noqa: E402
+from pat3d.policies_eval.policies.cloning import ClonedPolicy, load, make_network, save  # noqa: E402
+from pat3d.policies_eval.policies.cloning_features import FEATURES, features  # noqa: E402
 from pat3d.policies_eval.run.episodes import Episode  # noqa: E402
 from pat3d.policies_eval.run.settings import RolloutSettings  # noqa: E402
 from pat3d.policies_eval.train import fit  # noqa: E402

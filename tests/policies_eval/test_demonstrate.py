@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("h5py")
 pytest.importorskip("gymnasium")
 
-from pat3d.cli.documents import DemonstrationFacts
+from pat3d.cli.evaluation_documents import DemonstrationFacts
 from pat3d.cli.main import main, parser
 from pat3d.errors import EvaluationError
 from pat3d.policies_eval.datasets import demonstrations as module

@@ -103,10 +103,27 @@ def test_strengths_bound_what_is_drawn(runner, episode):
 
 
 def test_words_change_only_where_they_are_asked_to():
-    assert reworded("pick up the mug", Perturbation(), 1) == "pick up the mug"
-    said = {reworded("pick up the mug", Perturbation(words=1.0), seed) for seed in range(30)}
-    assert len(said) > 2
-    assert all("pick up the mug" in text for text in said)
+    wordings = ("pick up the mug", "grab the mug")
+    assert reworded(wordings, Perturbation(), 1) == wordings[0]
+    said = {reworded(wordings, Perturbation(words=1.0), seed) for seed in range(60)}
+    assert len(said) > 5
+    assert wordings[0] not in said
+    assert wordings[1] in said
+    assert all(any(one in text for one in wordings) for text in said)
+
+
+def test_a_policy_is_told_the_words_that_are_recorded(runner, episode, monkeypatch):
+    told = []
+
+    class Listener(Away):
+        def reset(self, start):
+            told.append(start.instruction)
+            super().reset(start)
+
+    monkeypatch.setattr(runner, "settings", replace(runner.settings, max_steps=2))
+    result = runner.run(replace(episode, perturbation=Perturbation(words=1.0)), Listener())
+    assert result.instruction == told[0] != "pick up the red mug from the wooden tray"
+    assert "red mug" in told[0]
 
 
 class Clumsy(ScriptedPolicy):

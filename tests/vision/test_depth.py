@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from pat3d.errors import ModelError
-from pat3d.vision.depth import TransformersDepth, depth_model_named
+from pat3d.vision.depth import TransformersDepth
+from pat3d.vision.models import vision_models
 
 PICTURE = np.random.default_rng(0).integers(0, 255, (60, 80, 3), dtype=np.uint8)
 
@@ -62,10 +63,10 @@ def test_a_folder_without_a_model_is_refused(tmp_path):
 
 
 def test_the_model_is_the_environments_else_the_files(tmp_path):
-    assert depth_model_named({}, tmp_path) is None
+    assert vision_models({}, tmp_path).depth is None
     (tmp_path / "pat3d.toml").write_text('[model]\nname = "x"\n[vision]\ndepth = "theirs"\n')
-    assert depth_model_named({}, tmp_path) == "theirs"
-    assert depth_model_named({"PAT3D_DEPTH_MODEL": "mine"}, tmp_path) == "mine"
+    assert vision_models({}, tmp_path).depth == "theirs"
+    assert vision_models({"PAT3D_DEPTH_MODEL": "mine"}, tmp_path).depth == "mine"
     (tmp_path / "pat3d.toml").write_text("[vision]\ndeep = 1\n")
-    with pytest.raises(ModelError, match=r"\[vision\] may hold depth"):
-        depth_model_named({}, tmp_path)
+    with pytest.raises(ModelError, match=r"\[vision\] may hold depth, detection"):
+        vision_models({}, tmp_path)

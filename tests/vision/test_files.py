@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from pat3d.errors import SpecError
-from pat3d.vision import files
+from pat3d.vision import files, intrinsics
 from pat3d.vision.camera import Pinhole
 
 NAMES = {"objects": [{"name": "red mug", "noun": "mug"}, {"name": "plate", "value": 7}]}
@@ -186,7 +186,7 @@ def test_files_of_different_proportions_are_refused(tmp_path):
         )
     write(tmp_path / "camera.json", {"width": 100, "height": 100, "fx": 90, "fy": 90, "cx": 50, "cy": 50})
     with pytest.raises(SpecError, match="proportions"):
-        files.read_camera(tmp_path / "camera.json", 64, 48)
+        intrinsics.read_camera(tmp_path / "camera.json", 64, 48)
     write(tmp_path / "camera.json", {"fx": 90})
     with pytest.raises(SpecError, match="width, height, fy, cx, cy missing"):
-        files.read_camera(tmp_path / "camera.json", 64, 48)
+        intrinsics.read_camera(tmp_path / "camera.json", 64, 48)

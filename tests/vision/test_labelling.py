@@ -14,7 +14,8 @@ from pat3d.errors import ModelError
 from pat3d.plan.llm.chat import Chat
 from pat3d.plan.llm.settings import ModelSettings
 from pat3d.vision.labelling import ChatLabeller
-from tests.plan.llm_server import Reply, fault, said, serving
+from tests.loopback import Reply
+from tests.plan.llm_server import fault, said, serving
 
 KEY = "sk-very-secret-0123456789"
 PICTURE = np.zeros((60, 80, 3), dtype=np.uint8)

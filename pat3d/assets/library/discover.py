@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from pat3d.assets.library.names import COLLISION, GENERIC, label, words_of
+from pat3d.assets.library.names import COLLISION, GENERIC, home_of, label, words_of
 from pat3d.errors import AssetError
 
 DESCRIPTIONS = {
@@ -17,7 +17,7 @@ DESCRIPTIONS = {
 }  # fmt: skip
 """Kind of description by the end of the file's name."""
 
-MESHES = ("glb", "gltf", "obj", "ply", "off", "stl")
+MESHES = ("glb", "gltf", "obj", "dae", "fbx", "3mf", "ply", "off", "stl")
 """Mesh formats, those that carry most first."""
 
 _WORDS = re.compile(r"[^a-z0-9]+")
@@ -36,6 +36,8 @@ class Found:
     """"mesh", "mjcf", "urdf", "sdf" or "usd"."""
     words: tuple[str, ...]
     """Of its name."""
+    told: bool = True
+    """Whether its own file or folder says them, and not a folder of many."""
     others: tuple[Path, ...] = ()
     """Files that hold the same object in another way, and are not read."""
 
@@ -48,7 +50,7 @@ def discover(root: Path, library: str) -> list[Found]:
     """
     if not root.is_dir():
         raise AssetError(f"{root} is no folder; give the folder that holds the objects.")
-    files = sorted(_files(root))
+    files = sorted(files_below(root))
     used: set[tuple[str, str]] = set()
     for path in files:
         # Pieces that a description includes name meshes as well.
@@ -73,17 +75,23 @@ def discover(root: Path, library: str) -> list[Found]:
             str(path),
         )
         own = tuple(word for word in _WORDS.split(path.stem.lower()) if word and word not in GENERIC)
-        groups.setdefault((_home(path, root), own), []).append((rank, path, kind))
+        groups.setdefault((home_of(path, root), own), []).append((rank, path, kind))
     found = []
     for members in groups.values():
         members.sort(key=lambda one: one[0])
         _, path, kind = members[0]
-        words = tuple(label(path, root, library))
-        found.append(Found(path=path, kind=kind, words=words, others=tuple(one[1] for one in members[1:])))
+        words, told = label(path, home_of(path, root), root, library)
+        others = tuple(one[1] for one in members[1:])
+        found.append(Found(path=path, kind=kind, words=tuple(words), told=told, others=others))
     return sorted(found, key=lambda one: str(one.path))
 
 
-def _files(root: Path) -> Iterator[Path]:
+def files_below(root: Path) -> Iterator[Path]:
+    """Every file of the folder that is not hidden.
+
+    Raises:
+        AssetError: they are too many.
+    """
     count = 0
     for folder, folders, names in os.walk(root):
         folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
@@ -111,11 +119,3 @@ def _head(path: Path, size: int = MAX_HEAD) -> str:
             return file.read(size).decode("utf-8", errors="replace")
     except OSError:
         return ""
-
-
-def _home(path: Path, root: Path) -> Path:
-    """The folder that is the object's own: above those that only say how it is stored."""
-    folder = path.parent
-    while folder != root and all(word in GENERIC for word in words_of(folder.name)):
-        folder = folder.parent
-    return folder

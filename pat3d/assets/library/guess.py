@@ -26,6 +26,10 @@ USUAL = (0.015, 1.5)
 """Longest side [m] of things that lie about in scenes."""
 
 
+UNLIKE = 4.0
+"""Times by which the size of a thing of its kind is usually missed at most."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Guess:
     """What was decided, why, and how sure that is."""
@@ -53,6 +57,13 @@ def guess_unit(body: Body, typical: Typical | None) -> Guess:
         longest = longest_side(body) * body.metres
         if _log_off(longest, USUAL) > math.log(10):
             reason = f"{body.declared} says so, yet it would be {longest:.3g} m long"
+            return Guess(value=known, reason=reason, confidence=0.5, source="declared")
+        if typical is not None and abs(math.log(longest / max(typical.size))) > math.log(UNLIKE):
+            # Models made for pictures are of any size, whatever their format says.
+            reason = (
+                f"{body.declared} says so, yet it would be {longest:.3g} m long, and a {typical.noun} of the catalogue "
+                f"is {max(typical.size):.2g} m"
+            )
             return Guess(value=known, reason=reason, confidence=0.5, source="declared")
         return Guess(value=known, reason=f"{body.declared} says so", confidence=1.0, source="declared")
     longest = longest_side(body)

@@ -12,8 +12,9 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from pat3d.assets.library.discover import Found, discover
-from pat3d.assets.library.indexing import hashes, index_object
+from pat3d.assets.library.discover import Found, discover, files_below
+from pat3d.assets.library.indexing import called, hashes, index_object
+from pat3d.assets.library.metadata import Metadata, metadata_of
 from pat3d.assets.library.overrides import read_overrides, settings_for
 from pat3d.assets.library.store import (
     VERSION,
@@ -120,22 +121,25 @@ def add_library(
     found = discover(root, name)
     if not found:
         raise AssetError(
-            f"{root} holds no object: OBJ, STL, PLY, OFF, GLB, glTF, USD, URDF, SDF or MJCF files. Nothing was written."
+            f"{root} holds no object: OBJ, STL, PLY, OFF, GLB, glTF, DAE, FBX, 3MF, USD, URDF, SDF or MJCF files. "
+            "Nothing was written."
         )
     overrides = read_overrides(folder, root)
     objects = folder / "objects"
     objects.mkdir(parents=True, exist_ok=True)
     write_json(folder / "library.json", {"version": VERSION, "source": str(root), "licence": licence})
-    keys = dict(zip(unique_slugs(_told_apart(found, root)).values(), found, strict=True))
+    said = metadata_of([one.path for one in found], files_below(root), root)
+    keys = dict(zip(unique_slugs(_told_apart(found, said, root)).values(), found, strict=True))
     for path in objects.iterdir():
         if path.name.split(".")[0] not in keys:
             path.unlink()
     jobs: dict[str, dict[str, Any]] = {}
     for key, one in keys.items():
-        settings = settings_for(overrides, key)
-        if not _fresh(objects / key, one, root, settings):
+        settings, metadata = settings_for(overrides, key), said[one.path]
+        if not _fresh(objects / key, one, root, settings, metadata):
             jobs[key] = {
                 "found": one, "key": key, "root": root, "library": name, "settings": settings, "licence": licence,
+                "metadata": metadata,
                 "cache_dir": folder / "cache", "cpu_limit": cpu_limit,
             }  # fmt: skip
     done = len(keys) - len(jobs)
@@ -159,12 +163,12 @@ def remove_library(name: str) -> Path:
     return library.source
 
 
-def _told_apart(found: Sequence[Found], root: Path) -> list[str]:
+def _told_apart(found: Sequence[Found], said: Mapping[Path, Metadata], root: Path) -> list[str]:
     """A text for every object, all different, whose slug is its key: its name, longer where others have it too."""
     named: dict[str, int] = {}
     texts = []
     for one in found:
-        text = " ".join(one.words)
+        text = " ".join(called(one, said[one.path]))
         named[text] = named.get(text, 0) + 1
         # Names that only differ by what is no letter would be one slug; the path tells them apart in the end.
         texts.append(text if named[text] == 1 else f"{text} {named[text]}")
@@ -173,10 +177,12 @@ def _told_apart(found: Sequence[Found], root: Path) -> list[str]:
     return texts
 
 
-def _fresh(stem: Path, found: Found, root: Path, settings: Mapping[str, Any]) -> bool:
+def _fresh(stem: Path, found: Found, root: Path, settings: Mapping[str, Any], metadata: Metadata) -> bool:
     """Whether the index has this object as its files and settings are now."""
     entry = read_entry(stem.with_suffix(".json"))
-    if entry is None or entry.path != str(found.path.relative_to(root)) or dict(entry.settings) != dict(settings):
+    if entry is None or entry.path != str(found.path.relative_to(root)):
+        return False
+    if dict(entry.settings) != dict(settings) or entry.metadata != metadata.digest:
         return False
     if entry.state == "ready" and not stem.with_suffix(".npz").is_file():
         return False
@@ -203,7 +209,7 @@ def _run(jobs: Mapping[str, dict[str, Any]], folder: Path, workers: int) -> Iter
                 found: Found = job["found"]
                 entry = Entry(
                     key=key, name=" ".join(found.words), path=str(found.path.relative_to(job["root"])),
-                    kind=found.kind, state="refused", settings=dict(job["settings"]),
+                    kind=found.kind, state="refused", settings=dict(job["settings"]), metadata=job["metadata"].digest,
                     reason="the process that read it died; the mesh breaks a program that reads or cuts it",
                     files=hashes([found.path], job["root"]),
                 )  # fmt: skip

@@ -26,9 +26,11 @@ from pat3d.assets.library.guess import (
     longest_side,
     unit_of,
 )
+from pat3d.assets.library.metadata import Metadata
 from pat3d.assets.library.readers.inertials import fault
+from pat3d.assets.library.readers.xml import FOLLOWED
 from pat3d.assets.library.resting import resting_poses, standing
-from pat3d.assets.library.store import Entry
+from pat3d.assets.library.store import Entry, weighed
 from pat3d.assets.library.upright import guess_up
 from pat3d.assets.materials import material
 from pat3d.assets.mesh.cover import outside
@@ -50,6 +52,10 @@ DENSITIES = (15.0, 12_000.0)
 MISSED = 0.05
 """Share of the longest side by which a picture may reach beyond its collision shapes for them to be meant for it."""
 
+LEAST_FILLED, OPEN = 0.01, 0.01
+"""A mesh's centre of mass is known where it encloses this share of its bounding box at least, and its area vectors
+add up to this share of its area at most."""
+
 STICKS_OUT = 1e-4
 """By how much [m] a picture may stick out of the convex parts."""
 
@@ -64,6 +70,7 @@ def index_object(
     root: Path,
     library: str,
     settings: Mapping[str, Any],
+    metadata: Metadata,
     licence: str,
     cache_dir: Path,
     cpu_limit: float,
@@ -76,21 +83,23 @@ def index_object(
         root: folder of the library.
         library: its name.
         settings: what library.yaml says of the object.
+        metadata: what the library's files say of it beyond its mesh.
         licence: of the library, where it is known.
         cache_dir: for its convex parts.
         cpu_limit: processor time that the object may take [s].
     """
     begun, spent = time.perf_counter(), sum(os.times()[:4])
-    metadata = names.read_metadata(found.path)
     known = names.known_names()
-    name, synonyms, like = names.synonyms_of(found.words, metadata, known)
+    name, synonyms, like = names.synonyms_of(called(found, metadata), metadata.names, known)
     if "names" in settings:
         said = tuple(each.lower() for each in settings["names"])
         name, synonyms = said[0], tuple(dict.fromkeys((*said[1:], *synonyms)))
         like = next((each for each in (*said, like) if each in known), "")
+    # What the reader of sentences knows of kinds it knows by nouns, not by synonyms: a salad bowl is a fruit bowl.
+    like = kind.noun if like and (kind := lookup.find(like)) is not None else like
     base = Entry(
         key=key, name=name, synonyms=synonyms, like=like, path=str(found.path.relative_to(root)), kind=found.kind,
-        state="refused", settings=dict(settings), files=hashes([found.path], root),
+        state="refused", settings=dict(settings), metadata=metadata.digest, files=hashes([found.path], root),
     )  # fmt: skip
     if settings.get("skip"):
         return replace(base, state="skipped", reason="library.yaml leaves it out"), None
@@ -133,6 +142,12 @@ def _took(begun: float, spent: float) -> dict[str, float]:
     }
 
 
+def called(found: Found, metadata: Metadata) -> list[str]:
+    """Words of an object's name: its own file's or folder's, else its metadata's, else those of a folder of many."""
+    titles = [words for title in metadata.names if (words := names.title_words(title))]
+    return titles[0] if titles and not found.told else list(found.words)
+
+
 def hashes(paths: Iterable[Path], root: Path) -> dict[str, str]:
     """SHA-256 of files below `root` that can be read, by relative path."""
     found = {}
@@ -147,6 +162,8 @@ def hashes(paths: Iterable[Path], root: Path) -> dict[str, str]:
 
 
 def _read(found: Found, root: Path) -> Body:
+    if not found.path.resolve().is_relative_to(root.resolve()):
+        raise AssetError(f"it is a link to a file outside the library; {FOLLOWED}")
     if found.kind == "mesh":
         from pat3d.assets.library.readers.meshes import read_mesh as read
     elif found.kind == "mjcf":
@@ -166,12 +183,12 @@ def _made(
     name: str,
     like: str,
     settings: Mapping[str, Any],
-    metadata: names.Metadata,
+    metadata: Metadata,
     cache_dir: Path,
     budget: CpuBudget,
 ) -> tuple[Asset, dict[str, Any], list[str]]:
     typical, doubts = typical_of(like), list[str]()
-    unit, metres = _unit(body, typical, settings)
+    unit, metres = _unit(body, typical, settings, metadata)
     up = _up(body, typical, settings, metadata)
     doubts += [
         f"{what} {guess.value}: {guess.reason}; {100 * guess.confidence:.0f} % sure"
@@ -180,7 +197,8 @@ def _made(
     ]
     turn = np.array(TO_Z_UP[axis_of(up)], dtype=np.float64)
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T * metres
-    rests = resting_poses(used)
+    centre = _centre(body, metres)
+    rests = resting_poses(used, centre=None if centre is None else turn @ centre)
     turn, told = (turn, "") if up.source == "given" else standing(turn, rests)
     doubts += [told] if told else []
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T
@@ -193,7 +211,7 @@ def _made(
     # Descriptions are in metres already; their mass is about the placed frame.
     made_of, guessed = _material(settings, like)
     mass, source = _mass(settings, body, metadata)
-    if mass is None and guessed:
+    if mass is None and metadata.density is None and guessed:
         doubts.append(f"mass: by the density of {made_of}, which is a guess; give a material or a mass")
     given = [placing.apply(hull) for hull in body.hulls] if body.hulls and "parts" not in settings else None
     make = partial(
@@ -229,6 +247,8 @@ def _made(
         doubts = [one for one in doubts if not one.startswith("collision:")]
         why = "left some of it out" if fits else "came out larger than it is"
         doubts.append(f"collision: its convex parts {why}, so it is {told}")
+    if mass is None and metadata.density is not None and "material" not in settings:
+        asset, source = weighed(asset, metadata.density / asset.material.density), "density of its metadata"
     asset, wrong = _weighed(asset, body, placing, settings)
     doubts += [f"inertia: {wrong}; that of a uniform body was taken"] if wrong else []
     properties = asset.mass_properties
@@ -273,6 +293,29 @@ def _made(
     return asset, facts, doubts
 
 
+def _centre(body: Body, metres: float) -> Points | None:
+    """Centre of mass [m] in the file's axes: the declared one, else that of what the mesh encloses; None for nothing.
+
+    Args:
+        body: the object.
+        metres: of a unit of its mesh.
+    """
+    used = body.mesh.vertices[np.unique(body.mesh.faces)] * metres
+    low, high = used.min(axis=0), used.max(axis=0)
+    given = body.inertial
+    if given is not None and given.centre is not None and not fault(given, low, high):
+        return given.centre
+    corners = body.mesh.vertices[body.mesh.faces] * metres - low
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    volumes = np.linalg.det(corners) / 6.0
+    # The areas of a closed surface add up to nothing; of an open one the sums below depend on the origin.
+    open_share = np.linalg.norm(areas.sum(axis=0)) / np.linalg.norm(areas, axis=1).sum()
+    if open_share > OPEN or abs(volumes.sum()) < LEAST_FILLED * np.prod(high - low):
+        return None
+    centre = volumes @ corners.sum(axis=1) / (4.0 * volumes.sum())
+    return low + centre if ((centre > 0.0) & (centre < high - low)).all() else None
+
+
 def _missed(hulls: list[Points], points: Points) -> float:
     """How far `points` stick out of the union of the convex `hulls` [m]."""
     return float(outside(points, [convex_part(hull) for hull in hulls])[0].max())
@@ -284,7 +327,7 @@ def _wrapped(points: Points) -> Points:
     return circumscribed(points, np.array([step for step in steps if 1 <= sum(map(abs, step)) <= 2], dtype=np.float64))
 
 
-def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> tuple[Guess, float]:
+def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: Metadata) -> tuple[Guess, float]:
     """The unit, and metres for each of it."""
     if "size" in settings:
         guess = Guess(value="size", reason=f"library.yaml gives {settings['size']:g} m", confidence=1.0, source="given")
@@ -292,11 +335,13 @@ def _unit(body: Body, typical: Typical | None, settings: Mapping[str, Any]) -> t
     if "units" in settings:
         guess = Guess(value=settings["units"], reason="library.yaml says so", confidence=1.0, source="given")
         return guess, METRES[settings["units"]]
+    if body.metres is None and metadata.metres is not None:
+        body = replace(body, metres=metadata.metres, declared="its metadata")
     guess = guess_unit(body, typical)
     return guess, body.metres if body.metres is not None else METRES[unit_of(guess)]
 
 
-def _up(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: names.Metadata) -> Guess:
+def _up(body: Body, typical: Typical | None, settings: Mapping[str, Any], metadata: Metadata) -> Guess:
     """The axis that points up: library.yaml's, the file's, its metadata's, or a guess."""
     if "up" in settings:
         return Guess(value=settings["up"], reason="library.yaml says so", confidence=1.0, source="given")
@@ -313,7 +358,7 @@ def _material(settings: Mapping[str, Any], like: str) -> tuple[str, bool]:
     return (found.material, False) if found is not None else ("plastic", True)
 
 
-def _mass(settings: Mapping[str, Any], body: Body, metadata: names.Metadata) -> tuple[float | None, str]:
+def _mass(settings: Mapping[str, Any], body: Body, metadata: Metadata) -> tuple[float | None, str]:
     if "mass" in settings:
         return float(settings["mass"]), "library.yaml"
     if body.inertial is not None and "material" not in settings:

@@ -20,7 +20,7 @@ from pat3d.scene.cache import data_root
 from pat3d.scene.folder import read_json, write_json
 from pat3d.scene.replacement import replaced_file
 
-VERSION = 2
+VERSION = 3
 """Of what is kept; another one is made again."""
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,39}")
@@ -63,6 +63,8 @@ class Entry:
     """SHA-256 of every file that it was read from, by path relative to the library's folder."""
     settings: Mapping[str, Any] = field(default_factory=dict)
     """What library.yaml says of it."""
+    metadata: str = ""
+    """Checksum of what the library's files say of it beyond its mesh."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """Unit, up axis, poses, mass, places for things, convex parts; JSON data."""
     doubts: tuple[str, ...] = ()

@@ -6,14 +6,15 @@ import hashlib
 import json
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import AnswerError, ModelError
+from pat3d.plan.llm.patience import Found, patiently
 from pat3d.plan.llm.settings import ModelSettings
 from pat3d.scene.cache import cache_root
 from pat3d.scene.replacement import write_text
@@ -26,10 +27,6 @@ if TYPE_CHECKING:
 Message = dict[str, Any]
 """As the protocol has it: {"role": "user", "content": "..."}."""
 
-Found = TypeVar("Found")
-
-FIRST_WAIT, LONGEST_WAIT = 1.0, 60.0
-"""Between requests [s]; every wait is twice the one before unless the server says how long."""
 CORRECTIONS = 2
 """Times that an answer which does not validate goes back with the error."""
 MAX_ANSWER = 10**6
@@ -194,33 +191,22 @@ class Chat:
         Raises:
             ModelError: it fails for good.
         """
-        import openai
 
-        wait, left = FIRST_WAIT, self.settings.retries
-        while True:
-            try:
-                return ask()
-            except openai.APIStatusError as error:
-                if error.status_code in (400, 404, 422) and not self._told_schema and _is_about_schema(error):
-                    self._told_schema = True
-                    continue
-                busy = error.status_code in (408, 409, 429) or error.status_code >= 500
-                asked = _retry_after(error.response.headers)
-                if not busy or not left or (asked or 0.0) > LONGEST_WAIT:
-                    raise self._failed(vision, f"status {error.status_code}: {error.message}") from None
-                pause = wait if asked is None else asked
-            except openai.APITimeoutError:
-                if not left:
-                    raise self._failed(vision, f"no answer in {self.settings.timeout:g} s") from None
-                pause = wait
-            except openai.APIConnectionError as error:
-                if not left:
-                    raise self._failed(vision, f"no connection: {error.__cause__ or error}") from None
-                pause = wait
-            except (openai.OpenAIError, ValueError) as error:
-                raise self._failed(vision, f"{type(error).__name__}: {error}") from None
-            self._sleep(pause)
-            wait, left = min(2.0 * wait, LONGEST_WAIT), left - 1
+        def adapted(error: Any) -> bool:
+            """Whether the schema is told in words from now on."""
+            new = not self._told_schema and _is_about_schema(error)
+            self._told_schema = self._told_schema or new
+            return new
+
+        settings = self.settings
+        return patiently(
+            ask,
+            retries=settings.retries,
+            timeout=settings.timeout,
+            sleep=self._sleep,
+            failed=lambda why: self._failed(vision, why),
+            adapted=adapted,
+        )
 
     def _once(self, talk: Sequence[Message], shape: Shape, vision: bool) -> str:
         more: dict[str, Any] = {}
@@ -274,11 +260,3 @@ def _is_about_schema(error: Any) -> bool:
     """Whether a server refuses because it knows no structured output."""
     said = str(error.message).lower()
     return any(word in said for word in ("response_format", "json_schema", "guided", "structured"))
-
-
-def _retry_after(headers: Mapping[str, str]) -> float | None:
-    """How long a server asks to wait [s]; None where it does not say, or says a date."""
-    try:
-        return max(0.0, float(headers["retry-after"]))
-    except (KeyError, ValueError):
-        return None

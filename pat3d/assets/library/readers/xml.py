@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from pat3d.assets.library.body import Piece, Points, of_mesh
-from pat3d.assets.mesh.load import FORMATS, load_mesh
+from pat3d.assets.mesh.load import FORMATS, GLTF, load_mesh
 from pat3d.errors import AssetError
 from pat3d.geometry.rotations import about
 
 MAX_BYTES = 5_000_000
 GRAY = (0.7, 0.7, 0.7)
+FOLLOWED = "copy the folder with its links followed (cp -rL)."
+"""What to do about links as the cache of Hugging Face has them."""
 _DECLARATION = re.compile(r"^\s*<\?xml[^>]*\?>")
 
 
@@ -80,11 +83,15 @@ def address(said: str, path: Path, root: Path) -> Path:
         target = one.resolve()
         if target.is_file() and target.is_relative_to(root.resolve()):
             return target
+    if any(one.is_symlink() for one in tried):
+        raise AssetError(f'"{said}" is a link to a file outside the library; {FOLLOWED}')
     raise AssetError(f'"{said}" is not there, or lies outside the library.')
 
 
 def mesh_piece(said: str, path: Path, root: Path, notes: list[str]) -> Piece:
-    """The triangles of the mesh file that a description names.
+    """The triangles of the mesh file that a description names, in metres by the unit that the file says.
+
+    Its axes are taken as they stand, as RViz takes COLLADA's.
 
     Raises:
         AssetError: it is not there, or of a format that is not read.
@@ -94,7 +101,9 @@ def mesh_piece(said: str, path: Path, root: Path, notes: list[str]) -> Piece:
         raise AssetError(f'"{said}" is of a format that is not read; valid are {", ".join(FORMATS)}.')
     loaded = load_mesh(target, texture_root=root)
     notes += loaded.notes
-    return of_mesh(loaded)
+    if loaded.up not in (None, "z") and target.suffix.lower().lstrip(".") not in GLTF:
+        notes.append(f'"{said}" says that {loaded.up} points up; in a description its axes are taken as they stand')
+    return of_mesh(replace(loaded, vertices=loaded.vertices * (loaded.metres or 1.0)))
 
 
 def inertia_of(element: ET.Element | None, get) -> Points | None:

@@ -1,0 +1,93 @@
+"""Instructions in other words: several wordings a task, all of which mean the same objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+POLITE = (
+    "please {}",
+    "could you {}?",
+    "robot, {}",
+    "your task: {}",
+    "i need you to {}",
+    "now {}, please",
+)
+
+_PICK = (
+    "pick up {it}{source}",
+    "grab {it}{source}",
+    "lift {it}{source}",
+    "take {it}{source} and hold it up",
+    "get hold of {it}{source} and raise it",
+)
+
+_PLACE = (
+    "put {it} {how} {where}",
+    "place {it} {how} {where}",
+    "move {it} so that it ends up {how} {where}",
+    "take {it} and leave it {how} {where}",
+    "{how} {where} is where {it} belongs; put it there",
+)
+
+_STACK = (
+    "stack {it} on {where}",
+    "put {it} on top of {where}",
+    "set {it} down on {where} so that it stays there",
+    "build a pile: {it} goes on {where}",
+    "{where} should carry {it}",
+)
+
+_SORT = (
+    "sort the objects by colour into {where}",
+    "put every object into the container of its own colour: {where}",
+    "tidy up by colour, with {where} for what matches",
+    "what has the colour of a container goes into it; the containers are {where}",
+)
+
+_UNLOAD = (
+    "take everything {how} {where}",
+    "{verb} {where}",
+    "remove all that is {inside} {where}",
+    "nothing should be left {inside} {where}; set it down beside",
+)
+
+_RETRIEVE = (
+    "take out {it}{source} without knocking anything over",
+    "get {it}{source}, and let nothing fall over",
+    "i want {it}{source}; whatever else is there has to stay upright",
+    "carefully fetch {it}{source} so that nothing else topples",
+)
+
+WORDINGS = {
+    "pick": _PICK,
+    "place": _PLACE,
+    "stack": _STACK,
+    "sort": _SORT,
+    "unload": _UNLOAD,
+    "retrieve": _RETRIEVE,
+}
+"""By kind of task; the first is the instruction itself."""
+
+
+_IN_TURN = (
+    ("first ", ", then ", ", then "),
+    ("", "; after that, ", "; and finally, "),
+    ("", " and then ", " and then "),
+    ("one after the other: ", ", ", ", and "),
+)
+"""Before the first of several things to do, between them, and before the last."""
+
+
+def in_turn(steps: Sequence[str]) -> tuple[str, ...]:
+    """All wordings of several things to do in this order."""
+    return tuple(f"{before}{between.join(steps[:-1])}{last}{steps[-1]}" for before, between, last in _IN_TURN)
+
+
+def worded(kind: str, **words: str) -> tuple[str, ...]:
+    """All wordings of a task of this kind, the plain one first."""
+    return tuple(template.format(**words) for template in WORDINGS[kind])
+
+
+def politely(instruction: str) -> tuple[str, ...]:
+    """The same as one asks a person for it."""
+    return tuple(template.format(instruction) for template in POLITE)
