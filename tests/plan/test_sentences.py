@@ -1,6 +1,7 @@
 """Plain sentences and what a person reads in them: every object by name, every relation, the task.
 
-What a person reads was labelled before the program ran; the table has it in the names of the plan.
+What a person reads was labelled before the program ran, but for the rows behind a remark; the table has it in the
+names of the plan.
 """
 
 from pathlib import Path

@@ -12,7 +12,18 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.places import for_each, parts, shared_out, unplaced, without
 from pat3d.plan.audit.text import Find, Mention, read, singulars
-from pat3d.plan.audit.words import ARTICLES, DEEDS, HEADLESS, ON_DISHES, ORDINALS, PACKETS, POURED, REPEATS, SILENT
+from pat3d.plan.audit.words import (
+    ARTICLES,
+    DEEDS,
+    ENDS,
+    HEADLESS,
+    ON_DISHES,
+    ORDINALS,
+    PACKETS,
+    POURED,
+    REPEATS,
+    SILENT,
+)
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -74,11 +85,16 @@ class _Auditor(Compared):
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
             endless = any(mention.plural and mention.number is None for mention in known)
-            endless = endless or bool((REPEATS | ORDINALS) & set(self.said.words)) or self._headless()
+            endless = endless or self._repeated() or self._headless()
             most = max(least, sum(mention.number or 1 for mention in known))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _repeated(self) -> bool:
+        """Whether a word stands there by which there are more of a thing than its name's number says."""
+        pairs = zip(self.said.words, [*self.said.words[1:], ""], strict=True)
+        return any(word in REPEATS | ORDINALS and after not in ENDS for word, after in pairs)
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""
@@ -87,12 +103,13 @@ class _Auditor(Compared):
     def _made_as(self) -> list[str]:
         """Objects that are told of in no word of their phrase, and what is poured or spread and made in its bottle."""
         made: list[str] = []
+        quoted = " ".join(note for note in self.plan.notes if "no task does" not in note).lower()
         for obj in self.plan.objects:
             words = {each for word in re.findall(r"[\w']+", obj.phrase.lower()) for each in (word, *singulars(word))}
             name = set(re.findall(r"[a-z']+", obj.name.lower()))
             carriers = carriers_of(obj.name, self.plan.relations)
             dish = any(other.noun in ON_DISHES for other in self.plan.objects if other.name in carriers)
-            if words - ARTICLES and not words & (name | REPEATS | HEADLESS) and obj.phrase.lower() not in self.quoted:
+            if words - ARTICLES and not words & (name | REPEATS | HEADLESS) and obj.phrase.lower() not in quoted:
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')

@@ -93,8 +93,14 @@ def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
     children = {obj.name for mention in child for obj in it.which(mention)} or here
     kinds = _KINDS[claim.place]
     tables = {obj.name for obj in it.plan.objects if obj.noun in it.furniture}
+    said = {obj.name: obj.phrase for obj in it.plan.objects}
     return any(
-        kind in kinds and a in children and b in landmarks and not (claim.place == "across" != kind and b in tables)
+        # "One of the shoes is under the bed, the other in front of it": of no shoe.
+        kind in kinds
+        and said.get(a) != said.get(b)
+        and a in children
+        and b in landmarks
+        and not (claim.place == "across" != kind and b in tables)
         for a, kind, b in it.edges
     )
 

@@ -138,6 +138,12 @@ def _led(it: Compared, own: Mention, at: int, before: Sequence[Mention], behind:
     claim = next((claim for claim in it.said.claims if claim.of is own or claim.end == at + 1), None)
     if claim is None:
         return _listed(it, behind)
+    if claim.at < at and not before:
+        # "Beside each bed is a nightstand with a lamp on it"
+        stop = next(
+            (n for n in range(at, len(it.said.words)) if it.said.words[n] in (",", ";", ".")), len(it.said.words)
+        )
+        return [mention for mention in behind if mention.new and mention.end <= stop]
     near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING]
     return near[-1:] if claim.at < at else []
 

@@ -16,7 +16,6 @@ from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.placing import Placing
-from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.world import Item, Step, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
@@ -167,30 +166,6 @@ class Interpreter(Placing):
                 self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
                 self._world.note(f'not understood: "{word}" of "{chunk.text}"')
-
-    def _loose(self) -> float:
-        """What it costs that small things are nowhere, where something is there to carry them."""
-        world = self._world
-        items = world.items()
-        carried = any(world.support(item) is not None for item in items)
-        if not carried or not any(world.is_table(item) for item in items):
-            return 0.0
-        beside = [{edge.child, edge.parent} for edge in world.laterals]
-        # What is beside something small that is nowhere either, is nowhere.
-        placed = {item for item in items if world.support(item) is not None or world.on_floor(item)
-                  or world.is_a(item, lexicon.BY_A_SEAT, LARGE)}  # fmt: skip
-        for _ in beside:
-            placed |= {item for pair in beside if pair & placed for item in pair}
-        related = {item for pair in beside for item in pair if item in placed}
-        related |= {item for each in world.arranged if each.kind == "under" for item in (*each.items, *each.of)}
-        told = {item for each in world.sided for item in each.items}
-        loose = [
-            item for item in items
-            if world.support(item) is None and not world.on_floor(item) and item not in related and item not in told
-            and not world.is_a(item, lexicon.BY_A_SEAT, LARGE)
-            and not (world.is_a(item, lexicon.THIN) and any(world.support(other) is item for other in items))
-        ]  # fmt: skip
-        return 0.5 * len({id(item.group) for item in loose})
 
     def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
         """Phrases of which a bare plural means many, and the generics that list others."""

@@ -61,7 +61,8 @@ def _table() -> dict[tuple[str, ...], Link]:
         Link(kind="next_to"),
         "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to",
         "alongside",
-        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "at the side of",
+        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "on side of",
+        "at the side of",
         "off to the side of", "close by", "with its side to", "across from", "along",
         "opposite", "opposite to", "among", "amongst", "touching", "amidst",
     )  # fmt: skip

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import read_modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
@@ -147,6 +148,30 @@ class Placing:
         if len(there) == 1:
             self._world.place(children, "on", owners, weak=True)
         return there if len(there) == 1 else []
+
+    def _loose(self) -> float:
+        """What it costs that small things are nowhere, where something is there to carry them."""
+        world = self._world
+        items = world.items()
+        carried = any(world.support(item) is not None for item in items)
+        if not carried or not any(world.is_table(item) for item in items):
+            return 0.0
+        beside = [{edge.child, edge.parent} for edge in world.laterals]
+        # What is beside something small that is nowhere either, is nowhere.
+        placed = {item for item in items if world.support(item) is not None or world.on_floor(item)
+                  or world.is_a(item, lexicon.BY_A_SEAT, LARGE)}  # fmt: skip
+        for _ in beside:
+            placed |= {item for pair in beside if pair & placed for item in pair}
+        related = {item for pair in beside for item in pair if item in placed}
+        related |= {item for each in world.arranged if each.kind == "under" for item in (*each.items, *each.of)}
+        told = {item for each in world.sided for item in each.items}
+        loose = [
+            item for item in items
+            if world.support(item) is None and not world.on_floor(item) and item not in related and item not in told
+            and not world.is_a(item, lexicon.BY_A_SEAT, LARGE)
+            and not (world.is_a(item, lexicon.THIN) and any(world.support(other) is item for other in items))
+        ]  # fmt: skip
+        return 0.5 * len({id(item.group) for item in loose})
 
     def _that_holds(self, child: Item, meant: list[Item]) -> list[Item]:
         """What `child` is inside: `meant`, or what was named last that can hold it where that cannot."""

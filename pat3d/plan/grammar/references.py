@@ -14,6 +14,7 @@ from pat3d.plan.grammar.matching import PLACES, SAME, colours_of, line_up, posit
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
@@ -242,7 +243,10 @@ class References(Contrast):
         """One more of what was named first in the sentence, else last."""
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
         groups = [named[0][0].group] if named else self._world.groups[-1:]
-        counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and not group.replaced]
+        if (alike := self._carrier_like(at)) is not None:
+            groups = [alike]
+        counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
+        counted = [group for group in counted if not group.replaced and not alike]
         said = set(phrase.words.lower().split())
         if counted and said & {"more", *lexicon.POSITIONS}:
             # "Five balls in a box and one more on it": one more ball; "two cups, a third one": a third cup.
@@ -254,6 +258,16 @@ class References(Contrast):
         more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
+
+    def _carrier_like(self, at: int) -> Group | None:
+        """What carries in the same way as "another" at chunk `at` is to: "a doll on a chair and a bear on another"."""
+        link = self._chunks[at - 1].link if at else None
+        if link is None or link.kind not in SUPPORT_KINDS:
+            return None
+        before = (head for head in range(at - 2, 0, -1) if self.known.get(head))
+        told = (head for head in before if (piece := self._chunks[head - 1]).link and piece.link.kind == link.kind)
+        head = next(told, None)
+        return None if head is None else self.known[head][0].group
 
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
