@@ -1,9 +1,9 @@
 """What readers of scene formats make of a file, each run in an environment of its own.
 
-    python reader_programs.py READER FILE
+    python reader_programs.py READER FILE ...
 
-Prints one line of JSON: the version, how many bodies can move, and what they weigh together [kg]. Needs the reader's
-own package and nothing else, least of all ours.
+Prints one line of JSON for every file: the version, how many bodies can move, and what they weigh together [kg], or an
+error. Needs the reader's own package and nothing else, least of all ours.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import json
 import math
 import os
 import sys
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -94,6 +95,31 @@ def robosuite(path: Path) -> dict[str, Any]:
     return {"version": metadata.version("robosuite"), "objects": len(files)}
 
 
+def robocasa(path: Path) -> dict[str, Any]:
+    """Every object by RoboCasa's MJCFObject at half its size, asked for its region, compiled; as many as there are."""
+    import shutil
+    import tempfile
+
+    from robocasa.models.objects.objects import MJCFObject  # pyright: ignore[reportMissingImports]
+    from robosuite.models.base import MujocoXML  # pyright: ignore[reportMissingImports]
+
+    files = sorted((path.parent / "robosuite").glob("*.xml"))
+    with tempfile.TemporaryDirectory() as folder:
+        # It writes a file beside the one that it reads.
+        copy = Path(shutil.copytree(path.parent, Path(folder) / "mjcf"))
+        for file in sorted((copy / "robosuite").glob("*.xml")):
+            arena = Path(folder) / "arena.xml"
+            arena.write_text("<mujoco><worldbody/></mujoco>")
+            world, thing = MujocoXML(str(arena)), MJCFObject("thing", str(file), scale=0.5)
+            tall = float(thing.top_offset[2] - thing.bottom_offset[2])
+            if not (tall > 0.0 and thing.horizontal_radius > 0.0 and len(thing.get_bbox_points()) == 8):
+                raise ValueError(f"{file.name}: its region is {tall} m tall")
+            world.merge_assets(thing)
+            world.worldbody.append(thing.get_obj())
+            world.get_model()
+    return {"version": metadata.version("rpent-robocasa365"), "objects": len(files)}
+
+
 def yourdfpy(path: Path) -> dict[str, Any]:
     """Every object's file, with its meshes; no errors."""
     import yourdfpy as package  # pyright: ignore[reportMissingImports]
@@ -128,20 +154,30 @@ def pinocchio(path: Path) -> dict[str, Any]:
 
 
 def sapien(path: Path) -> dict[str, Any]:
-    """Every object's file, loaded with its convex parts."""
+    """Every object's file, without what is seen: SAPIEN's loader makes materials on a graphics device at once."""
+    import tempfile
+    import xml.etree.ElementTree as ET
+
     import sapien as package  # pyright: ignore[reportMissingImports]
 
     scene = package.Scene([package.physx.PhysxCpuSystem()])
 
     def mass(file: Path) -> float:
+        tree = ET.parse(file)
+        for link in tree.getroot().findall("link"):
+            for visual in link.findall("visual"):
+                link.remove(visual)
         loader = scene.create_urdf_loader()
-        loader.fix_root_link = False
-        actor = loader.load(str(file))
-        body = (
-            actor.links[0]
-            if hasattr(actor, "links")
-            else actor.find_component_by_type(package.physx.PhysxRigidDynamicComponent)
-        )
+        with tempfile.TemporaryDirectory() as folder:
+            for beside in file.parent.iterdir():
+                (Path(folder) / beside.name).symlink_to(beside)
+            bare = Path(folder) / "without_visuals.urdf"
+            tree.write(bare)
+            # What has no joints is an actor to it, no articulation.
+            _, (actor,) = loader.load_multiple(str(bare))
+        body = actor.find_component_by_type(package.physx.PhysxRigidDynamicComponent)
+        if not body.collision_shapes:
+            raise ValueError(f"{file.name}: no collision shape was made")
         return float(body.mass)
 
     return _objects(path, mass, metadata.version("sapien"))
@@ -215,6 +251,37 @@ def urdfdom(path: Path) -> dict[str, Any]:
     return _objects(path, mass, metadata.version("cmeel-urdfdom"))
 
 
+def libsdformat(path: Path) -> dict[str, Any]:
+    """The world and every model file by libsdformat, Gazebo's own parser, without an error.
+
+    Version 12 knows SDF 1.9 and warns of the hint that a mesh is convex, which later ones know.
+    """
+    import subprocess
+
+    models = sorted(path.parent.glob("models/*/model.sdf"))
+    done = subprocess.run([_read_sdf(), str(path), *map(str, models)], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise ValueError((done.stderr or done.stdout).strip().splitlines()[-1][-200:])
+    return json.loads(done.stdout.splitlines()[0])
+
+
+@cache
+def _read_sdf() -> str:
+    """read_sdf.cc, compiled for the libsdformat that is installed; it goes when the machine clears its temporaries."""
+    import subprocess
+    import tempfile
+
+    flags = ["pkg-config", "--cflags", "--libs", "sdformat12"]
+    said = subprocess.run(flags, capture_output=True, text=True, check=False)
+    if said.returncode:
+        raise RuntimeError("libsdformat is not installed: apt install g++ pkg-config libsdformat-dev")
+    program = str(Path(tempfile.mkdtemp(prefix="pat3d-")) / "read_sdf")
+    source = str(Path(__file__).with_name("read_sdf.cc"))
+    made = ["g++", "-std=c++17", source, "-o", program, *said.stdout.split()]
+    subprocess.run(made, check=True, capture_output=True)
+    return program
+
+
 def mujoco_usd_converter(path: Path) -> dict[str, Any]:
     """Our MJCF as NVIDIA's converter writes it as USD."""
     import tempfile
@@ -234,13 +301,14 @@ def urdf_usd_converter(path: Path) -> dict[str, Any]:
 
     def mass(file: Path) -> float:
         with tempfile.TemporaryDirectory() as folder:
-            return float(_rigid(package.Converter().convert(str(file), folder).path)["mass"])
+            # The converter fixes the root link of a robot to the world.
+            return float(_rigid(package.Converter().convert(str(file), folder).path, fixed_too=True)["mass"])
 
     return _objects(path, mass, metadata.version("urdf-usd-converter"))
 
 
-def _rigid(path: str) -> dict[str, Any]:
-    """Count and mass of the rigid bodies of a stage that no fixed joint ties to the world."""
+def _rigid(path: str, *, fixed_too: bool = False) -> dict[str, Any]:
+    """Count and mass of the rigid bodies of a stage; those that a fixed joint ties to the world only `fixed_too`."""
     from pxr import Usd, UsdPhysics  # pyright: ignore[reportMissingImports]
 
     stage = Usd.Stage.Open(path)
@@ -248,7 +316,7 @@ def _rigid(path: str) -> dict[str, Any]:
     ends = [[*one.GetBody0Rel().GetTargets(), *one.GetBody1Rel().GetTargets()] for one in joints]
     rigid = {prim.GetPath(): prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)}
     tied = {path for pair in ends for path in pair if sum(end in rigid for end in pair) == 1}
-    moving = [prim for path, prim in rigid.items() if path not in tied]
+    moving = [prim for path, prim in rigid.items() if fixed_too or path not in tied]
     mass = sum(float(UsdPhysics.MassAPI(prim).GetMassAttr().Get()) for prim in moving)
     return {"bodies": len(moving), "mass": mass}
 
@@ -302,12 +370,18 @@ def newton(path: Path) -> dict[str, Any]:
 
 
 def blender(path: Path) -> dict[str, Any]:
-    """Imported by Blender: as many meshes as objects, and as many pictures as assets."""
+    """Imported by Blender: its meshes, and the pictures that differ."""
     import bpy  # pyright: ignore[reportMissingImports]
+    import numpy as np
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(filepath=str(path))
-    pictures = {image.name for image in bpy.data.images if image.size[0] > 0}
+    pictures = set()
+    for image in bpy.data.images:
+        if image.size[0] > 0:
+            values = np.empty(len(image.pixels), dtype=np.float32)
+            image.pixels.foreach_get(values)
+            pictures.add((tuple(image.size), values.tobytes()))
     meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]
     return {"version": bpy.app.version_string, "meshes": len(meshes), "pictures": len(pictures)}
 
@@ -320,6 +394,7 @@ PROGRAMS = {
         mujoco_warp,
         dm_control,
         robosuite,
+        robocasa,
         yourdfpy,
         pinocchio,
         sapien,
@@ -327,6 +402,7 @@ PROGRAMS = {
         urdfdom,
         urdf_usd_converter,
         drake,
+        libsdformat,
         openusd,
         mujoco_usd_converter,
         ovphysx,
@@ -336,5 +412,17 @@ PROGRAMS = {
 }
 
 
+def main(reader: str, files: list[str]) -> None:
+    """Read one file after the other; the line of each tells its name."""
+    for file in files:
+        try:
+            found = PROGRAMS[reader](Path(file).resolve())
+        except Exception as error:
+            # Whatever a reader raises is the answer to whether it reads the file.
+            lines = [line for line in str(error).splitlines() if line.strip()]
+            found = {"error": f"{type(error).__name__}: {lines[-1] if lines else ''}"}
+        print("\n" + json.dumps({"file": file, **found}), flush=True)
+
+
 if __name__ == "__main__":
-    print("\n" + json.dumps(PROGRAMS[sys.argv[1]](Path(sys.argv[2]).resolve())))
+    main(sys.argv[1], sys.argv[2:])

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SELF, checksum_of, checksum_of_document, read_document
+from pat3d.envs.suites.reference import differences
 from pat3d.envs.suites.suite import Entry, Suite
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.errors import Pat3dError, SuiteError, TaskError
@@ -28,7 +29,7 @@ def check_suite(
         workers: processes that do so.
         tell: told how many scenes are done, of how many.
     """
-    lines = check_manifest(suite) + check_splits(suite)
+    lines = check_manifest(suite) + check_splits(suite) + differences(suite.folder, suite.request)[0]
     job = partial(check_scene, suite.folder.path, settle=settle)
     with _mapping(workers if settle else 1) as apply:
         for number, found in enumerate(apply(job, suite.entries)):

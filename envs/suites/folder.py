@@ -4,6 +4,7 @@
     scenes/000123/      a scene folder with record.json (task, split, axes, verification); complete when it appears
     rejected/000123-00.json   why a candidate for a place did not become its scene
     index.html          one page with pictures and numbers
+    README.md           its card: what it is, what it measures and what not, how to cite it
     env.py              make_env, for LeRobot
     log.jsonl           what took how long; the only file that differs between two runs of the same request
     .work/              unfinished scenes; emptied when a run begins and ends

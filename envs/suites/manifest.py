@@ -55,7 +55,8 @@ def begin_manifest(folder: SuiteFolder, request: Request) -> None:
 
 
 def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
-    """Write suite.json, the page and env.py of a suite whose scenes are all there; returns the document."""
+    """Write suite.json, the page, the card and env.py of a suite whose scenes are all there; returns the document."""
+    from pat3d.envs.suites.card import CARD, card
     from pat3d.envs.suites.page import page
 
     scenes = [read_document(folder.scene(place) / RECORD) for place in range(request.scenes)]
@@ -78,6 +79,7 @@ def finish_manifest(folder: SuiteFolder, request: Request) -> dict[str, Any]:
     document[SELF] = checksum_of_document(document)
     write_document(folder.path / MANIFEST, document)
     write_text(folder.path / HUB, _HUB)
+    write_text(folder.path / CARD, card(folder.path.name, document))
     write_text(folder.path / PAGE, page(folder.path.name, document))
     return document
 

@@ -1,8 +1,9 @@
-"""One object of a scene as an MJCF model of its own, for MuJoCo and for robosuite.
+"""One object of a scene as an MJCF model of its own, for MuJoCo, and for robosuite and RoboCasa.
 
 robosuite's MujocoXMLObject wants a body "object" in a nameless one, collision geoms in group 0 and visual ones in
 group 1, paths of files from the file itself, no joint (it makes one), and three sites that say how far the object
-reaches. The same file attaches in dm_control, where the free joint is given to the frame of the attachment.
+reaches. RoboCasa's MJCFObject reads that from a box "reg_bbox" that nothing touches. The same file attaches in
+dm_control, where the free joint is given to the frame of the attachment.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def object_model(asset: Asset, name: str) -> ET.Element:
 
 
 def robosuite_model(asset: Asset, name: str) -> ET.Element:
-    """One object for robosuite's MujocoXMLObject; its files are those of the scene."""
+    """One object for robosuite's MujocoXMLObject and RoboCasa's MJCFObject; its files are those of the scene."""
     root = ET.Element("mujoco", model=name)
     ET.SubElement(root, "compiler", angle="radian", inertiafromgeom="false", autolimits="true")
     assets = ET.SubElement(root, "asset")
@@ -61,7 +62,9 @@ def robosuite_model(asset: Asset, name: str) -> ET.Element:
         else:
             geom.attrib.update(group="0", condim=CONDIM, solref=SOLREF, solimp=SOLIMP, mass="0")
     low, high = asset.bounds
-    middle = (low + high) / 2
+    middle, half = (low + high) / 2, (high - low) / 2
+    box = {"name": "reg_bbox", "type": "box", "pos": text(*middle), "size": text(*half), "rgba": "0 0 0 0"}
+    ET.SubElement(body, "geom", {**box, "group": "1", "contype": "0", "conaffinity": "0", "mass": "0"})
     ET.SubElement(outer, "site", {**_SITE, "name": "bottom_site", "pos": text(middle[0], middle[1], low[2])})
     ET.SubElement(outer, "site", {**_SITE, "name": "top_site", "pos": text(middle[0], middle[1], high[2])})
     # robosuite takes the first coordinate for the radius; its own objects repeat it in the second.

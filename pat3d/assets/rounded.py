@@ -1,8 +1,8 @@
 """Smooth solids with few convex parts: turned bodies, hollow vessels, bent tubes, extrusions.
 
-Each function returns a `Shape` whose picture is fine and whose convex parts are coarse polyhedra
-circumscribed about it, at most 64 vertices and 64 triangles each. A turned body is one part however
-smooth it looks, so that a fruit costs as little as a box, and it rests on the flat base of its part.
+Each function returns a `Shape` whose picture is fine and whose convex parts are coarser polyhedra
+circumscribed about it, at most 64 vertices and 64 faces each. A turned body has few parts, which reach a
+millimetre beyond it at most where six of them suffice (see `turned`), and it rests on the flat base of the lowest.
 """
 
 from __future__ import annotations
@@ -14,10 +14,18 @@ import manifold3d
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
-from scipy.spatial import HalfspaceIntersection
+from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex
+from pat3d.assets.turned import MOST_CORNERS, allowed, between, outline, rings, turned_parts
+from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.normals import enclosed_volume
+
+MOST_PLANES = 34
+"""Of a part: three meet at each of its 64 corners."""
+
+AT_ONCE = 2
+"""Planes that are added to a part before its corners are looked at again."""
 
 Profile = Sequence[tuple[float, float]]
 
@@ -60,35 +68,55 @@ def lump(points: ArrayLike) -> Shape:
     return wrapped(solid, [step for step in steps if 1 <= sum(map(abs, step)) <= 2])
 
 
-def lathe(
-    profile: ArrayLike, cuts: Sequence[float] = (), angles: Sequence[float] = (-45.0, 0.0, 45.0), sides: int = 0
-) -> Shape:
-    """A solid of revolution about z with one convex part between any two heights.
+def lathe(profile: ArrayLike, cuts: Sequence[float] = (), angles: Sequence[float] = (), sides: int = 0) -> Shape:
+    """A solid of revolution about z.
 
     Args:
         profile: (radius, z) [m] from the bottom to the top, shape (n, 2); drawn as it is.
-        cuts: heights [m] that divide the body into convex parts (a bottle's shoulder).
-        angles: slopes of the part's tangent faces [degrees]: 0 is an upright wall, 45 faces up.
-        sides: of the part's rings; 0 for the most that 64 triangles allow.
+        cuts: heights [m] that divide the body into convex parts in any case (a bottle's shoulder).
+        angles: slopes of planes beyond which no part between two cuts reaches [degrees], so that the body can lie on
+            them: 0 is an upright wall, 45 faces up.
+        sides: of the parts' rings, at least; 0 for as few as are allowed.
     """
     points = np.asarray(profile, dtype=np.float64).copy()
     points[:, 0] = np.maximum(points[:, 0], 0.0)
-    sides = sides or 32 // (len(angles) + 1)
-    outline = np.concatenate([[(0.0, points[0, 1])], points, [(0.0, points[-1, 1])]])
+    line = np.concatenate([[(0.0, points[0, 1])], points, [(0.0, points[-1, 1])]])
     heights = [float(points[:, 1].min()), *cuts, float(points[:, 1].max())]
-    hulls = []
-    for low, high in zip(heights, heights[1:], strict=False):
-        piece = _between(points, low, high)
-        hulls.append(_rings(_tangent_polygon(piece, low, high, angles), sides))
-    return Shape(_revolved(outline), tuple(hulls))
+    return Shape(_revolved(line), tuple(turned_parts(points, heights, angles=angles, sides=sides)))
 
 
-def envelope(points: ArrayLike, angles: Sequence[float] = (-45.0, 0.0, 45.0)) -> NDArray[np.float64]:
-    """Corners of a convex part of revolution about z around `points` [m], shape (n, 3), as in `lathe`."""
+def rest_angle(profile: ArrayLike, centre: float | None = None) -> float:
+    """Slope [degrees] of the side of a solid of revolution on which it rests when laid down; 0 is its widest ring.
+
+    Args:
+        profile: (radius, z) [m], shape (n, 2), z increasing.
+        centre: z of the centre of mass [m]; None for that of the solid alone.
+    """
+    points = np.asarray(profile, dtype=np.float64)
+    if centre is None:
+        heights = np.linspace(points[0, 1], points[-1, 1], 200)
+        share = np.interp(heights, points[:, 1], points[:, 0]) ** 2
+        centre = float(share @ heights / share.sum())
+    slopes = np.linspace(-60.0, 60.0, 481)
+    turn = np.radians(slopes)
+    # The centre of mass is lowest where it rests.
+    height = (points @ np.stack([np.cos(turn), np.sin(turn)])).max(axis=0) - centre * np.sin(turn)
+    return float(slopes[np.argmin(height)])
+
+
+def centre_of(shape: Shape) -> NDArray[np.float64]:
+    """Centre of mass of what is seen of a shape, of one density [m], shape (3,)."""
+    mesh = shape.solid.to_mesh64()
+    vertices = np.asarray(mesh.vert_properties)[:, :3]
+    found = mass_properties(vertices, np.asarray(mesh.tri_verts, dtype=np.int32), density=1.0)
+    return np.array(found.centre_of_mass)
+
+
+def envelope(points: ArrayLike) -> NDArray[np.float64]:
+    """Corners of a convex part of revolution about z around `points` [m], shape (n, 3)."""
     array = np.asarray(points, dtype=np.float64)
     reach = np.column_stack([np.hypot(array[:, 0], array[:, 1]), array[:, 2]])
-    low, high = float(reach[:, 1].min()), float(reach[:, 1].max())
-    return _rings(_tangent_polygon(reach, low, high, angles), 32 // (len(angles) + 1))
+    return rings(outline(reach[np.argsort(reach[:, 1], kind="stable")], 0.0, MOST_CORNERS // 16), 16)
 
 
 def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segments: int = 12) -> Shape:
@@ -107,17 +135,21 @@ def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segment
     body = _revolved(np.concatenate([[(0.0, 0.0)], fine_outer, [(0.0, rim)]]))
     mouth = [(fine_inner[-1, 0], rim + 0.01), (0.0, rim + 0.01)]
     solid = body - _revolved(np.concatenate([[(0.0, floor)], fine_inner, mouth]))
-    bottom = _chord(_between(fine_outer, 0.0, floor), outward=True)
-    hulls = [_rings([(bottom[0], 0.0), (bottom[1], floor)], 16)]
+    limit = allowed(max(rim, 2.0 * max(r for r, _ in outer)))
+    hulls = turned_parts(between(fine_outer, 0.0, floor), (0.0, floor))
     heights = [floor, *levels, rim]
     step = 2 * math.pi / segments
     for low, high in zip(heights, heights[1:], strict=False):
-        out = _chord(_between(fine_outer, low, high), outward=True) / math.cos(step / 2)
-        into = _chord(_between(fine_inner, low, high), outward=False)
-        corners = [(into[0], low), (into[1], high), (out[0], low), (out[1], high)]
+        out = outline(between(fine_outer, low, high), 0.5 * limit, 4)
+        into = _chord(between(fine_inner, low, high), outward=False)
+        # The outside has the corners of the picture; the inside is flat.
+        drawn = np.asarray(2 * math.pi / SMOOTH_SEGMENTS * np.arange(SMOOTH_SEGMENTS // segments + 1), dtype=np.float64)
         for k in range(segments):
-            spokes = [(math.cos(a), math.sin(a)) for a in (k * step, (k + 1) * step)]
-            hulls.append(np.array([(r * c, r * s, z) for c, s in spokes for r, z in corners]))
+            corners = [_ring(k * step + drawn, r, z) for r, z in out]
+            corners += [
+                _ring(np.array([k * step, (k + 1) * step]), r, z) for r, z in zip(into, (low, high), strict=True)
+            ]
+            hulls.append(np.concatenate(corners))
     return Shape(solid, tuple(hulls))
 
 
@@ -126,7 +158,7 @@ def clear_radius(inner: Profile, levels: Sequence[float] = (), segments: int = 1
     heights = [inner[0][1], *levels, inner[-1][1]]
     fine = _sampled(_radius_of(inner), inner, heights[0], heights[-1])
     bands = zip(heights, heights[1:], strict=False)
-    narrowest = min(float(_chord(_between(fine, *band), outward=False).min()) for band in bands)
+    narrowest = min(float(_chord(between(fine, *band), outward=False).min()) for band in bands)
     return narrowest * math.cos(math.pi / segments)
 
 
@@ -139,6 +171,7 @@ def tube(
     closed: bool = False,
     sides: int = 8,
     flatness: float = 1.0,
+    loose: bool = False,
 ) -> Shape:
     """A round bar along a planar curve: handles, spouts, bananas, rings.
 
@@ -148,8 +181,9 @@ def tube(
         groups: convex parts along the curve.
         up: normal of the curve's plane.
         closed: joins the last point to the first.
-        sides: of each convex part's section.
+        sides: of each convex part's section, at least; more where a part would reach too far beyond the bar.
         flatness: height of the section along `up` over its width.
+        loose: parts keep to `sides`, however far they reach beyond the bar, as a cover for other things.
     """
     centres = np.asarray(path, dtype=np.float64)
     count, around = len(centres), 16
@@ -162,8 +196,9 @@ def tube(
     across /= np.linalg.norm(across, axis=1)[:, None]
     angle = 2 * np.pi * np.arange(around) / around
     spread = np.cos(angle)[None, :, None] * across[:, None] + flatness * np.sin(angle)[None, :, None] * normal
-    rings = centres[:, None] + radii[:, None, None] * spread
+    circles = centres[:, None] + radii[:, None, None] * spread
     hulls = []
+    limit = allowed(float(np.ptp(circles.reshape(-1, 3), axis=0).max()))
     bounds = np.linspace(0, count if closed else count - 1, groups + 1).round().astype(int)
     for first, last in zip(bounds, bounds[1:], strict=False):
         index = np.arange(first, last + 1) % count
@@ -172,8 +207,9 @@ def tube(
         side = np.cross(normal, along)
         turn = 2 * np.pi * np.arange(sides) / sides
         directions = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * normal
-        hulls.append(circumscribed(rings[index].reshape(-1, 3), np.concatenate([directions, [along, -along]])))
-    return Shape(_skin(rings, centres, closed), tuple(hulls))
+        directions = np.concatenate([directions, [tangents[index[-1]], -tangents[index[0]]]])
+        hulls.append(_snug(circles[index].reshape(-1, 3), directions, math.inf if loose else 0.8 * limit))
+    return Shape(_skin(circles, centres, closed), tuple(hulls))
 
 
 def extruded(outline: ArrayLike, height: float, sides: int = 8) -> Shape:
@@ -249,44 +285,24 @@ def circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) 
     return np.array(kept) * size + centre
 
 
-def _tangent_polygon(
-    piece: NDArray[np.float64], low: float, high: float, angles: Sequence[float]
-) -> list[tuple[float, float]]:
-    """(radius, z) corners of the tangents to `piece` at `angles` [degrees], between two heights."""
-    lines = [(0.0, -1.0, -low)]
-    for angle in np.radians(angles):
-        normal = np.array([math.cos(angle), math.sin(angle)])
-        lines.append((normal[0], normal[1], float((piece @ normal).max())))
-    lines.append((0.0, 1.0, high))
-    corners = []
-    for (a, b, e), (c, d, f) in zip(lines, lines[1:], strict=False):
-        det = a * d - b * c
-        corners.append(((e * d - b * f) / det, (a * f - e * c) / det))
-    corners[0] = (corners[0][0], low)
-    corners[-1] = (corners[-1][0], high)
-    return corners
+def _snug(points: NDArray[np.float64], directions: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
+    """`circumscribed`, with planes of the hull's faces added that cut off corners over `limit` [m] beyond it."""
+    equations = np.unique(np.round(ConvexHull(points).equations, 9), axis=0)
+    while True:
+        corners = circumscribed(points, directions)
+        beyond = corners @ equations[:, :3].T + equations[:, 3]
+        far = np.argsort(-beyond.max(axis=1))
+        far = far[beyond.max(axis=1)[far] > limit]
+        room = min(MOST_PLANES - len(directions), AT_ONCE)
+        if not len(far) or room <= 0:
+            return corners
+        faces = list(dict.fromkeys(beyond.argmax(axis=1)[far].tolist()))[:room]
+        directions = np.concatenate([directions, equations[faces, :3]])
 
 
-def _rings(profile: Sequence[tuple[float, float]], sides: int) -> NDArray[np.float64]:
-    """Corners of regular polygons around circles of (radius, z)."""
-    turn = 2 * np.pi * (np.arange(sides) + 0.5) / sides
-    around = np.stack([np.cos(turn), np.sin(turn)], axis=1) / math.cos(math.pi / sides)
-    distinct: list[tuple[float, float]] = []
-    for point in profile:
-        if not distinct or math.dist(point, distinct[-1]) > 1e-6:
-            distinct.append(point)
-    return np.concatenate([np.column_stack([max(r, 5e-4) * around, np.full(sides, z)]) for r, z in distinct])
-
-
-def _between(points: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
-    """The part of a (radius, z) polyline between two heights, with its points on them."""
-    pieces = [points[(points[:, 1] >= low) & (points[:, 1] <= high)]]
-    for a, b in zip(points, points[1:], strict=False):
-        for z in (low, high):
-            if min(a[1], b[1]) < z < max(a[1], b[1]):
-                part = (z - a[1]) / (b[1] - a[1])
-                pieces.append(np.array([[a[0] + part * (b[0] - a[0]), z]]))
-    return np.concatenate(pieces)
+def _ring(turn: NDArray[np.float64], radius: float, z: float) -> NDArray[np.float64]:
+    """Points [m] of a circle about z at angles [rad]."""
+    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full(len(turn), z)])
 
 
 def _chord(points: NDArray[np.float64], outward: bool) -> NDArray[np.float64]:

@@ -2,7 +2,7 @@
 
 A `Shape` pairs a smooth closed solid (for looks and mass) with convex polyhedra whose union contains
 it (for contact). Round shapes are circumscribed by polyhedra of at most 64 vertices and 64
-triangles; polyhedral shapes are their own part. Shapes are placed with `moved`, `turned` and `scaled`, which keep
+faces; polyhedral shapes are their own part. Shapes are placed with `moved`, `turned` and `scaled`, which keep
 the containment, and joined by listing them: the asset's visual mesh is the boolean union.
 """
 
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from pat3d.assets.turned import sides_of
 from pat3d.errors import AssetError
 from pat3d.geometry.rotations import about, frame_along
 
@@ -25,6 +26,9 @@ Vector = tuple[float, float, float]
 
 SMOOTH_SEGMENTS = 48
 """Segments of a full circle in visual meshes."""
+
+THIN = 5e-4
+"""Corners of bars may be this far beyond the circle [m]: what lies or is held, and stands on nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +120,12 @@ def soft_box(x: float, y: float, z: float, radius: float) -> Shape:
     return Shape(manifold3d.Manifold.hull_points(np.ascontiguousarray(points)), (np.array(chamfered),))
 
 
-def frustum(bottom: float, top: float, height: float, sides: int = 16) -> Shape:
-    """A cone frustum with bottom and top radii [m], standing on z = 0, axis along z."""
+def frustum(bottom: float, top: float, height: float, sides: int = 0) -> Shape:
+    """A cone frustum with bottom and top radii [m], standing on z = 0, axis along z.
+
+    Its part has `sides` sides; 0 for 16 or more, so that it reaches 0.2 mm beyond the circles at most, if 32 suffice.
+    """
+    sides = sides or sides_of(max(bottom, top))
     solid = manifold3d.Manifold.cylinder(height, bottom, top, SMOOTH_SEGMENTS)
     angle = 2.0 * np.pi * np.arange(sides) / sides
     ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(sides)], axis=1) / math.cos(math.pi / sides)
@@ -128,12 +136,12 @@ def frustum(bottom: float, top: float, height: float, sides: int = 16) -> Shape:
     return Shape(solid, (np.concatenate(rings),))
 
 
-def cylinder(radius: float, height: float, sides: int = 16) -> Shape:
+def cylinder(radius: float, height: float, sides: int = 0) -> Shape:
     """An upright cylinder [m] standing on z = 0."""
     return frustum(radius, radius, height, sides)
 
 
-def cone(radius: float, height: float, sides: int = 16) -> Shape:
+def cone(radius: float, height: float, sides: int = 0) -> Shape:
     """An upright cone [m] standing on z = 0."""
     return frustum(radius, 0.0, height, sides)
 
@@ -146,8 +154,9 @@ def ellipsoid(rx: float, ry: float | None = None, rz: float | None = None) -> Sh
     return Shape(solid, (_circumscribed_ball(),)).scaled(rx, ry, rz)
 
 
-def rod(start: Vector, end: Vector, radius: float, end_radius: float | None = None, sides: int = 8) -> Shape:
-    """A round bar between two points [m], tapering to `end_radius`."""
+def rod(start: Vector, end: Vector, radius: float, end_radius: float | None = None, sides: int = 0) -> Shape:
+    """A round bar between two points [m], tapering to `end_radius`; with 8 sides, more where it is thick."""
+    sides = sides or sides_of(max(radius, end_radius or 0.0), THIN, 8)
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     length = float(np.linalg.norm(b - a))
     shape = frustum(radius, radius if end_radius is None else end_radius, length, sides)
@@ -155,7 +164,7 @@ def rod(start: Vector, end: Vector, radius: float, end_radius: float | None = No
     return shape.transformed(frame_along(direction), a)
 
 
-def bent_rod(points: Sequence[Vector], radius: float, sides: int = 8) -> Shape:
+def bent_rod(points: Sequence[Vector], radius: float, sides: int = 0) -> Shape:
     """Rods along a polyline with round joints: handles, lamp arms, tails."""
     pieces = [rod(a, b, radius, sides=sides) for a, b in zip(points, points[1:], strict=False)]
     joints = [ellipsoid(radius).moved(*point) for point in points[1:-1]]
@@ -177,7 +186,7 @@ def prism(outline: Sequence[tuple[float, float]], height: float) -> Shape:
     return Shape(solid, tuple(hulls))
 
 
-def turned_solid(profile: Sequence[tuple[float, float]], sides: int = 16) -> Shape:
+def turned_solid(profile: Sequence[tuple[float, float]], sides: int = 0) -> Shape:
     """A solid of revolution about z from (radius, z) points with z increasing: bottles, vases, chess pieces.
 
     Each pair of neighbouring points is one frustum part.
@@ -218,12 +227,14 @@ def vessel(outer: Sequence[tuple[float, float]], inner: Sequence[tuple[float, fl
     for z0, z1 in zip(levels, levels[1:], strict=False):
         for k in range(segments):
             corners = []
+            drawn = range(k * SMOOTH_SEGMENTS // segments, (k + 1) * SMOOTH_SEGMENTS // segments + 1)
             for z in (z0, z1):
-                # From the inside of a level step the wall must be as thick as the thicker of both sides.
-                inside, outside = _radius_at(inner, z), _radius_at(outer, z)
-                for angle in (2 * math.pi * k / segments, 2 * math.pi * (k + 1) / segments):
-                    for radius in (inside, outside / math.cos(math.pi / segments)):
-                        corners.append((radius * math.cos(angle), radius * math.sin(angle), z))
+                # The outside has the corners of the picture; the inside is flat.
+                spokes = [(_radius_at(outer, z), n) for n in drawn]
+                spokes += [(_radius_at(inner, z), n) for n in (drawn[0], drawn[-1])]
+                for radius, n in spokes:
+                    angle = 2 * math.pi * n / SMOOTH_SEGMENTS
+                    corners.append((radius * math.cos(angle), radius * math.sin(angle), z))
             hulls.append(np.array(corners))
     return Shape(solid, tuple(hulls))
 

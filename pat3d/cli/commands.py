@@ -33,6 +33,7 @@ COMMANDS = {
     "evaluate": ("evaluation", "let a policy do episodes, and report its success rate and failures"),
     "compare": ("evaluation", "compare two policies on the episodes that both did"),
     "leaderboard": ("evaluation", "success rates of several evaluations"),
+    "sign": ("evaluation", "sign an evaluation, so that others can see whose it is and that nothing was changed"),
     "replay": ("evaluation", "do recorded episodes again, compare every state, and film them"),
     "train": ("demonstrations", "train a small policy on demonstrations of the scripted one"),
     "demonstrate": ("demonstrations", "write demonstrations of the scripted policy, for robomimic or LeRobot"),

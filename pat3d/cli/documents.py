@@ -143,6 +143,8 @@ class SuiteFacts:
     intersections: int
     drift_mm: float
     drift_degrees: float
+    reference: str | None
+    bit_for_bit: int | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +153,7 @@ class SpecFacts:
 
     file: str
     episodes: int
+    scenes: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,8 +240,10 @@ def library_object_facts(entry: Entry) -> LibraryObjectFacts:
 
 def suite_facts(suite: Suite, failures: Sequence[str] = ()) -> SuiteFacts:
     """Of a suite, and what a check of it found."""
+    from pat3d.envs.suites.reference import differences, reference_of
     from pat3d.envs.suites.request import SPLITS, in_split
 
+    of = reference_of(suite.request)
     numbers = suite.document["numbers"]
     kinds = {split: [one.kind for one in suite.entries if in_split(one.split, split)] for split in SPLITS}
     return SuiteFacts(
@@ -252,6 +257,8 @@ def suite_facts(suite: Suite, failures: Sequence[str] = ()) -> SuiteFacts:
         intersections=int(numbers["intersections"]),
         drift_mm=float(numbers["largest_drift_mm"]),
         drift_degrees=float(numbers["largest_turn_degrees"]),
+        reference=None if of is None else of.name,
+        bit_for_bit=None if of is None else differences(suite.folder, suite.request)[1],
     )
 
 

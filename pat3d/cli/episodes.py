@@ -17,7 +17,7 @@ EPISODES = (
     option("--scene", "scene folder; may be repeated", action="append", default=[], metavar="FOLDER"),
     option("--task", '"pick:red mug"; may be repeated', action="append", default=[], metavar="TASK"),
     option("--suite", "scenes and tasks of a suite", metavar="FOLDER"),
-    option("--split", "of the suite", default="test"),
+    option("--split", "of the suite; all for every scene", default="test"),
     option("--episodes", "number of episodes", type=int, default=EPISODE_COUNT),
     option("--seed", "the same seed gives the same episodes", type=int, default=0),
     option(
@@ -48,7 +48,8 @@ SETTINGS = fields(
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
     """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
     settings = values(RolloutSettings, options)
-    return RolloutSettings(**settings | {"robot": settings["robot"] or suite_robot(options)})
+    settings["robot"] = settings["robot"] or suite_robot(options)
+    return RolloutSettings(**settings)
 
 
 def suite_robot(options: argparse.Namespace) -> str:
@@ -81,7 +82,7 @@ def episodes_from(
             raise EvaluationError("a suite brings its scenes and tasks; leave out --scene and --task.")
         from pat3d.policies_eval.run.suites import suite_settings
 
-        settings, identity = suite_settings(options.suite, options.split)
+        settings, identity = suite_settings(options.suite, None if options.split == "all" else options.split)
         source |= identity
     else:
         settings = listed.settings_of(options.scene, options.task)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pat3d.cli.console import console, verdict, watch
@@ -134,23 +135,63 @@ def compare(options: argparse.Namespace) -> int:
 
 @command(
     option("folders", "what evaluate wrote", metavar="FOLDER", nargs="+"),
+    option("--page", "write the tables as a web page too", metavar="FILE.html"),
     JSON,
     examples="""
     pat3d leaderboard eval/*
+    pat3d leaderboard eval/* --page leaderboard.html
     """,
+    notes="Signatures are checked. Exit code 1 where one is forged, or records are not those that were signed.",
 )
 def leaderboard(options: argparse.Namespace) -> int:
-    """`pat3d leaderboard`."""
+    """`pat3d leaderboard`: exit code 1 where a signature is wrong."""
+    from pat3d.policies_eval.analysis.board import board_page
     from pat3d.policies_eval.analysis.compare import show_leaderboard
-    from pat3d.policies_eval.run.records import read_evaluation
+    from pat3d.policies_eval.analysis.signing import verify
+    from pat3d.policies_eval.run.records import read_evaluation, write_text
 
     evaluations = [read_evaluation(folder) for folder in options.folders]
+    signatures = {one.folder: verify(one) for one in evaluations}
+    if options.page:
+        write_text(Path(options.page), board_page(evaluations, signatures))
     if options.json:
         from pat3d.cli.evaluation_documents import ranked_facts
 
-        print_facts(ranked_facts(evaluations))
+        print_facts(ranked_facts(evaluations, signatures))
     else:
-        show_leaderboard(console(), evaluations)
+        show_leaderboard(console(), evaluations, signatures)
+    bad = [f"{folder}: {one.state}" for folder, one in signatures.items() if not one.good]
+    return verdict([f"{text} (signature.json does not vouch for these records)." for text in bad])
+
+
+@command(
+    option("folder", "what evaluate wrote", metavar="FOLDER"),
+    option("--key", "private key, Ed25519 in PEM", required=True, metavar="FILE"),
+    option("--new-key", "make the key first; one that is there is never replaced", action="store_true"),
+    JSON,
+    examples="""
+    pat3d sign eval/mine --key mine.pem --new-key
+    pat3d leaderboard eval/*
+    """,
+    notes="signature.json is over the figures and the checksums of the records. The key stays with you; whoever has it "
+    "signs as you.",
+)
+def sign(options: argparse.Namespace) -> int:
+    """`pat3d sign`."""
+    from pat3d.policies_eval.analysis.signing import FILE, make_key
+    from pat3d.policies_eval.analysis.signing import sign as run
+    from pat3d.policies_eval.run.records import read_evaluation
+
+    evaluation = read_evaluation(options.folder)
+    if options.new_key:
+        make_key(options.key)
+    signer, file = run(evaluation, options.key), evaluation.folder / FILE
+    if options.json:
+        from pat3d.cli.evaluation_documents import SignedFacts
+
+        print_facts(SignedFacts(file=str(file), signer=signer))
+    else:
+        console().print(f"{file}: signed by {signer}", markup=False, highlight=False, soft_wrap=True)
     return 0
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pat3d.policies_eval.analysis.compare import PairedResult
     from pat3d.policies_eval.analysis.curves import Level
     from pat3d.policies_eval.analysis.diagnosis import Diagnosis
+    from pat3d.policies_eval.analysis.signing import Signature
     from pat3d.policies_eval.analysis.statistics import Rate
     from pat3d.policies_eval.analysis.summary import Summary
     from pat3d.policies_eval.run.records import Evaluation
@@ -86,6 +87,16 @@ class RankedFacts:
     rate: RateFacts
     wanted: int
     policy_errors: int
+    signature: str
+    signer: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SignedFacts:
+    """A signature that was written beside an evaluation."""
+
+    file: str
+    signer: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -210,8 +221,8 @@ def comparison_facts(found: PairedResult) -> ComparisonFacts:
     )
 
 
-def ranked_facts(evaluations: Sequence[Evaluation]) -> list[RankedFacts]:
-    """Of several evaluations, those of the same episodes and engine together, best first."""
+def ranked_facts(evaluations: Sequence[Evaluation], signatures: Mapping[Path, Signature]) -> list[RankedFacts]:
+    """Of evaluations and their signatures by folder, those of the same episodes and engine together, best first."""
     from pat3d.policies_eval.analysis.compare import comparable, leaderboard
 
     return [
@@ -222,6 +233,8 @@ def ranked_facts(evaluations: Sequence[Evaluation]) -> list[RankedFacts]:
             rate=rate_facts(rate),
             wanted=one.manifest["episodes"],
             policy_errors=errors,
+            signature=signatures[one.folder].state,
+            signer=signatures[one.folder].signer or None,
         )
         for title, group in comparable(evaluations)
         for one, rate, errors in leaderboard(group)

@@ -177,6 +177,14 @@ def _films(folder: Path) -> str:
     return "two frames became a film"
 
 
+def _signature(folder: Path) -> str:
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+    key = Ed25519PrivateKey.generate()
+    key.public_key().verify(key.sign(b"result"), b"result")
+    return "a result signed and verified"
+
+
 def _hdf5(folder: Path) -> str:
     import h5py
 
@@ -198,4 +206,5 @@ PARTS = (
     Part(name="servers", step=_servers, packages=("websockets", "msgpack")),
     Part(name="films", step=_films, packages=("imageio-ffmpeg",)),
     Part(name="HDF5", step=_hdf5, packages=("h5py",)),
+    Part(name="signatures", step=_signature, packages=("cryptography",)),
 )

@@ -7,6 +7,7 @@ import re
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from pat3d.cli.diagnosis import diagnose
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.envs.suites.generate import LIMIT
+from pat3d.envs.suites.reference import REFERENCES, reference
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, Request, in_split
 from pat3d.errors import SuiteError
 from pat3d.scene.folder import finite
@@ -33,7 +35,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     *fields(
         Request,
         {
-            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve"},
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve and chain"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
             "least_tilt": DEGREES,
             "device": {"choices": DEVICES},
@@ -49,6 +51,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         device="where scenes settle; on a GPU, many side by side",
         picture="width of the scenes' pictures; 0 for none",
     ),
+    option("--reference", f"a named suite, as it is published: {', '.join(REFERENCES)}", metavar="NAME"),
     _WORKERS,
     option("--ray", "let a Ray cluster work: HOST:PORT, ray://HOST:PORT or auto", metavar="ADDRESS"),
     option(
@@ -62,6 +65,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     summary="make a suite, or what is missing of it",
     examples="""
     pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+    pat3d suite generate suites/tabletop-v1 --reference tabletop-v1 --workers auto
     """,
     notes="Interrupted or killed, the same command goes on where it stopped. The same seed gives the same suite with "
     "any number of workers (on a GPU, to 1e-9 m).",
@@ -75,6 +79,8 @@ def generate(options: argparse.Namespace) -> int:
     worker_count(options.workers)
     tasks = tuple(name.strip() for name in options.tasks.split(","))
     request = Request(**values(Request, options) | {"tasks": tasks, "objects": _range(options.objects)})
+    if options.reference:
+        request = _of_reference(options.reference, request)
     with _progress() as tell:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
@@ -106,6 +112,7 @@ def generate(options: argparse.Namespace) -> int:
 def check(options: argparse.Namespace) -> int:
     """`pat3d suite check`."""
     from pat3d.envs.suites.check import check_suite
+    from pat3d.envs.suites.reference import differences, reference_of
     from pat3d.envs.suites.suite import Suite
     from pat3d.envs.suites.worker_pool import worker_count
 
@@ -117,6 +124,9 @@ def check(options: argparse.Namespace) -> int:
     how = "files and splits" if options.quick else "files, splits and stillness in MuJoCo"
     if not lines:
         console().print(f"pass  {len(suite.entries)} scenes: {how}", markup=False)
+        if (of := reference_of(suite.request)) is not None:
+            equal = differences(suite.folder, suite.request)[1]
+            console().print(f"pass  the scenes of {of.name}, {equal} of {len(suite.entries)} bit for bit", markup=False)
     return verdict(lines)
 
 
@@ -140,28 +150,40 @@ def show(options: argparse.Namespace) -> int:
     _FOLDER,
     option("--split", "of the episodes", default="train"),
     option("--episodes", "scripted demonstrations for the statistics; 0 for none", type=int, default=10),
+    option("--cameras", "of every scene, and not of the first one alone", action="store_true"),
     option("--seed", "of the episodes", type=int, default=0),
     JSON,
     summary="write spec.json: what actions and observations mean, cameras, and statistics to normalise with",
     examples="""
     pat3d suite spec suites/tabletop --episodes 50
+    pat3d suite spec suites/tabletop --episodes 0 --cameras
     """,
 )
 def spec(options: argparse.Namespace) -> int:
     """`pat3d suite spec`."""
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.datasets.interface import suite_interface, with_statistics, write_interface
+    from pat3d.policies_eval.datasets.interface import (
+        cameras_of_scenes,
+        suite_interface,
+        with_statistics,
+        write_interface,
+    )
 
     suite = Suite.open(options.folder)
     interface = suite_interface(suite)
     if options.episodes:
         episodes, settings = _episodes(options, suite)
         interface = with_statistics(interface, episodes, settings, console(stderr=True))
+    if options.cameras:
+        with _counting("cameras") as tell:
+            interface |= {"cameras_of_scenes": cameras_of_scenes(suite, tell)}
     written = write_interface(suite.folder.path, interface)
     if options.json:
         from pat3d.cli.documents import SpecFacts
 
-        print_facts(SpecFacts(file=str(written), episodes=options.episodes))
+        print_facts(
+            SpecFacts(file=str(written), episodes=options.episodes, scenes=len(suite.entries) if options.cameras else 1)
+        )
     else:
         console().print(str(written), markup=False, soft_wrap=True)
     return 0
@@ -175,6 +197,7 @@ def spec(options: argparse.Namespace) -> int:
     option("--seed", "of the episodes", type=int, default=0),
     option("--steps", "of an episode at most", type=int, metavar="N", shown="until the task is done"),
     option("--obs", "state, rgb or rgbd", default="state"),
+    option("--control", "osc, joint_velocity or joint_position", default="osc"),
     JSON,
     summary="compare a policy's actions with right ones: flipped gripper, Euler angles, degrees, another frame",
     examples="""
@@ -190,7 +213,7 @@ def check_policy(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.analysis.probe import compare_actions
     from pat3d.policies_eval.policies.registry import make_policy
 
-    episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs)
+    episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs, control=options.control)
     compared = compare_actions(make_policy(options.policy), episodes, settings, options.steps)
     found, alike = examine(compared), resemblance(compared)
     failures = [one.text for one in found]
@@ -236,6 +259,16 @@ suite = with_verbs(
     diagnose=diagnose,
     **{"check-policy": check_policy},
 )
+
+
+def _of_reference(name: str, asked: Request) -> Request:
+    """The request of a reference suite, as long as was asked for; nothing else of it may be asked for."""
+    wanted, usual = reference(name).request, Request()
+    own = replace(asked, scenes=usual.scenes, picture=usual.picture)
+    if own != usual:
+        differ = [key for key, value in own.as_dict().items() if value != usual.as_dict().get(key)]
+        raise SuiteError(f"a reference suite decides its {', '.join(differ)}; leave out what says otherwise.")
+    return replace(wanted, scenes=min(asked.scenes, wanted.scenes), picture=asked.picture)
 
 
 def _document(suite: Any, failures: Sequence[str] = ()) -> int:

@@ -44,7 +44,8 @@ _OBJECT = {
             "type": "string",
             "minLength": 1,
             "maxLength": 1000,
-            "description": "OBJ, STL, PLY, OFF, GLB or glTF file instead of a noun, relative to this file.",
+            "description": "OBJ, STL, PLY, OFF, GLB, glTF, DAE, FBX or 3MF file instead of a noun, relative to this "
+            "file.",
         },
         "model": {
             "type": "string",

@@ -17,7 +17,7 @@ from pat3d.assets.mesh.split import allowed, fitted
 from pat3d.assets.mesh.topology import signed_volume
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import ConvexPart, convex_part
-from pat3d.geometry.planes import planes
+from pat3d.geometry.planes import face_count
 from pat3d.progress import CpuBudget
 
 MOST_VERTICES, MOST_FACES = 64, 64
@@ -25,8 +25,6 @@ MOST_VERTICES, MOST_FACES = 64, 64
 
 MOST_PARTS = 400
 """Of one object."""
-
-_SAME_PLANE = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,7 +69,7 @@ def convex_parts(
                 continue
             if not (meant_as_hull(piece) or (lump.is_watertight and _fills(points, np.asarray(lump.faces), hull))):
                 made, cut = _decomposed(points, np.asarray(lump.faces), cache_dir, budget), cut + 1
-            elif len(hull.vertices) <= MOST_VERTICES and _sides(hull) <= MOST_FACES:
+            elif len(hull.vertices) <= MOST_VERTICES and face_count(hull) <= MOST_FACES:
                 made, kept = [hull], kept + 1
             else:
                 limit = allowed(float(np.ptp(points, axis=0).max()))
@@ -92,13 +90,6 @@ def _fills(points: NDArray[np.float64], faces: NDArray[np.int64], hull: ConvexPa
     """Whether a closed mesh fills nearly all of its convex hull."""
     volume = signed_volume(points, faces)
     return abs(volume) >= CONVEX * signed_volume(hull.vertices, hull.faces)
-
-
-def _sides(part: ConvexPart) -> int:
-    """Flat faces of a part, coplanar triangles as one."""
-    size = float(np.ptp(part.bounds, axis=0).max())
-    known = planes(part) / [1.0, 1.0, 1.0, size]
-    return len(np.unique(np.round(known / _SAME_PLANE), axis=0))
 
 
 def _decomposed(

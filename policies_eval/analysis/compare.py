@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from pat3d.errors import EvaluationError
+from pat3d.policies_eval.analysis.signing import Signature, told
 from pat3d.policies_eval.analysis.statistics import Comparison, Rate, compare, wilson
 from pat3d.policies_eval.run.manifest import differences
 from pat3d.policies_eval.run.records import Evaluation
@@ -120,8 +122,14 @@ def comparable(evaluations: Sequence[Evaluation]) -> list[tuple[str, list[Evalua
     return sorted(groups.items())
 
 
-def show_leaderboard(target: Any, evaluations: list[Evaluation]) -> None:
-    """Print a table, one for each set of episodes and engine: rates of different ones are not comparable."""
+def show_leaderboard(target: Any, evaluations: list[Evaluation], signatures: Mapping[Path, Signature]) -> None:
+    """Print a table for each set of episodes and engine, as rates of different ones are not comparable.
+
+    Args:
+        target: a console.
+        evaluations: finished or not.
+        signatures: of every evaluation, by its folder.
+    """
     from rich.table import Table
 
     groups = comparable(evaluations)
@@ -130,13 +138,14 @@ def show_leaderboard(target: Any, evaluations: list[Evaluation]) -> None:
             target.print("")
         target.print(title, markup=False, highlight=False, soft_wrap=True)
         table = Table(box=None, pad_edge=False)
-        for heading in ("policy", "success", "95 % interval", "episodes", "policy errors", "folder"):
-            table.add_column(heading, justify="left" if heading in ("policy", "folder") else "right")
+        for heading in ("policy", "success", "95 % interval", "episodes", "policy errors", "signature", "folder"):
+            table.add_column(heading, justify="left" if heading in ("policy", "signature", "folder") else "right")
         for one, rate, errors in leaderboard(group):
             share = f"{100 * rate.value:.1f} %" if rate.episodes else "-"
             interval = f"[{100 * rate.low:.1f}, {100 * rate.high:.1f}]"
             done = f"{rate.episodes}/{one.manifest['episodes']}"
-            table.add_row(one.manifest["policy"], share, interval, done, str(errors), str(one.folder))
+            vouched = told(signatures[one.folder])
+            table.add_row(one.manifest["policy"], share, interval, done, str(errors), vouched, str(one.folder))
         target.print(table)
     if len(groups) > 1:
         target.print("Tables of different episodes or engines are not comparable.", highlight=False)

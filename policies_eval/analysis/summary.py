@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.tasks.registry import parse_task
 from pat3d.envs.tasks.task import split
 from pat3d.policies_eval.analysis.statistics import INTERVALS, Rate
 from pat3d.policies_eval.run.failures import OUTCOMES
@@ -54,7 +55,7 @@ def summarise(evaluation: Evaluation, interval: str = "wilson") -> Summary:
 
     tables = {
         "task": rates(lambda one: [split(one.episode.task)[0]]),
-        "object": rates(lambda one: split(one.episode.task)[1][:1]),
+        "object": rates(lambda one: parse_task(one.episode.task).names[:1]),
         "scene": rates(lambda one: [one.episode.scene.rsplit("/", 1)[-1] or "shipped scene"]),
         "perturbation": rates(lambda one: one.episode.perturbation.active or ["none"]),
     }

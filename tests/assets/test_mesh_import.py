@@ -305,7 +305,10 @@ def test_textures_of_several_materials_share_an_atlas(tmp_path):
 
 def test_unknown_format_missing_and_broken_files_are_one_line(tmp_path, write):
     (tmp_path / "a.blend").write_bytes(b"x")
-    for name, message in (("a.blend", "Valid: obj, stl, ply, off, glb, gltf"), ("b.stl", "no mesh file")):
+    for name, message in (
+        ("a.blend", "Valid: obj, stl, ply, off, glb, gltf, dae, 3mf, fbx"),
+        ("b.stl", "no mesh file"),
+    ):
         with pytest.raises(AssetError, match=message):
             import_mesh(tmp_path / name)
     whole = write(_box(), "box.glb").read_bytes()

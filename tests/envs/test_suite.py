@@ -387,16 +387,16 @@ def test_a_scene_that_mujoco_cannot_compile_is_rejected_and_its_worker_goes_on(t
 
 @pytest.mark.slow
 def test_a_stable_suite_rejects_what_rests_on_its_round_side(tmp_path):
-    """A lemon lies on the table of this candidate, which is verified, and may roll."""
+    """A pool ball lies on the table of this candidate, which is verified, and may roll."""
     from pat3d.envs.suites.unit import make_unit
 
     request = Request(scenes=20, picture=0, stable=True)
     assert Request.from_dict(request.as_dict(), "here") == request
     folder = SuiteFolder(tmp_path / "one")
-    answer = make_unit(folder, request, 15, 0)
+    answer = make_unit(folder, request, 6, 0)
     assert answer["reason"] == "rolling"
-    assert "lemon" in json.loads(folder.rejection(15, 0).read_text())["message"]
-    assert make_unit(folder, replace(request, stable=False), 15, 0)["reason"] == ""
+    assert "pool ball" in json.loads(folder.rejection(6, 0).read_text())["message"]
+    assert make_unit(folder, replace(request, stable=False), 6, 0)["reason"] == ""
 
 
 def test_a_suite_s_robot_is_the_one_it_was_made_for(made, monkeypatch):
@@ -432,7 +432,14 @@ class Flipped(ScriptedPolicy):
 
 
 def test_the_description_and_a_policy_s_conventions_are_documents(copy, capsys):
-    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0"], SpecFacts)
+    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0", "--cameras"], SpecFacts)
+    told = json.loads((copy / "spec.json").read_text())
+    assert written["scenes"] == len(told["cameras_of_scenes"]) == 4
+    assert set(told["cameras_of_scenes"]["3"]) == {"agentview", "frontview", "closeview"}
+    # Those of the first scene are the suite's own.
+    assert all(told["cameras"][name] == one for name, one in told["cameras_of_scenes"]["0"].items())
+    places = [tuple(one["closeview"]["position"]) for one in told["cameras_of_scenes"].values()]
+    assert len(set(places)) == 4
     assert Path(written["file"]).is_file()
     asked = ["suite", "check-policy", str(copy), "--policy", "scripted", "--episodes", "1", "--steps", "8"]
     found = document_of(capsys, asked, ConventionFacts)

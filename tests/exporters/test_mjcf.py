@@ -350,3 +350,7 @@ def test_objects_load_in_robosuite(tmp_path):
         assert model.body_mass.sum() == pytest.approx(asset.mass_properties.mass, rel=1e-9)
         assert model.njnt == 1
         assert model.ngeom >= len(asset.parts) + 1
+        # RoboCasa reads its size from a box that touches nothing.
+        (box,) = [model.geom(k) for k in range(model.ngeom) if model.geom(k).name == "thing_reg_bbox"]
+        assert 2 * box.size == pytest.approx(asset.bounds[1] - asset.bounds[0])
+        assert (int(box.contype[0]), int(box.conaffinity[0])) == (0, 0)

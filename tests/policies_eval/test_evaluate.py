@@ -22,6 +22,7 @@ from pat3d.errors import EvaluationError
 from pat3d.policies_eval.analysis.charts import axis, interval_bar
 from pat3d.policies_eval.analysis.compare import compare_evaluations, show_leaderboard, verdict
 from pat3d.policies_eval.analysis.report import write_report
+from pat3d.policies_eval.analysis.signing import Signature
 from pat3d.policies_eval.analysis.statistics import Rate
 from pat3d.policies_eval.analysis.summary import summarise
 from pat3d.policies_eval.policies.registry import RandomPolicy
@@ -185,7 +186,7 @@ def test_the_leaderboard_keeps_engines_apart(done, tmp_path, capsys):
 
     other = read_evaluation(done.folder)
     other.manifest["engine"]["mujoco"] = "2.0.0"
-    show_leaderboard(console(), [read_evaluation(done.folder), other])
+    show_leaderboard(console(), [read_evaluation(done.folder), other], {done.folder: Signature(state="unsigned")})
     out = capsys.readouterr().out
     assert out.count("policy errors") == 2
     assert "not comparable" in out

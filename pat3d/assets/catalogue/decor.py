@@ -83,7 +83,8 @@ def flower(style: Style) -> Build:
     """A cut flower lying on its blossom and the end of its stem."""
     n, r = height(style, 0.24), style.vary(0.034)
     blossom = [(shape.moved(z=n), tone) for shape, tone in _daisy(r, style.colour(), (226, 170, 50))]
-    cup = lathe([(0.006, n - 0.012), (0.99 * r, n + 0.09 * r), (0.97 * r, n + 0.24 * r)], angles=(-50.0, 0.0))
+    seen = np.concatenate([np.asarray(shape.solid.to_mesh64().vert_properties)[:, :3] for shape, _ in blossom])
+    cup = Shape(blossom[0][0].solid, (envelope([*seen, (0.006, 0.0, n - 0.012)]),))
     stem = rod((0, 0, 0), (0, 0, n), 0.003, sides=6)
     leaf = convex([(0, -0.001, 0.09), (0, 0.001, 0.09), (0.014, -0.006, 0.112), (0.014, 0.006, 0.112), (0.02, 0, 0.15),
                    (0.0165, 0, 0.112)]).turned("z", 150)  # fmt: skip

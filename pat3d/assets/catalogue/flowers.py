@@ -6,15 +6,14 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import LEAF, height, level_lean
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
-from pat3d.assets.rounded import curve, lathe, merged, ring_of, spot, unseen
+from pat3d.assets.rounded import curve, envelope, lathe, merged, ring_of, spot, unseen
 from pat3d.assets.shapes import Shape, convex, rod
 
 
 def _cup(bloom: list[tuple[Shape, RGB]], n: float) -> Shape:
     """One convex part around a bloom that sits on a stem of length `n` [m] along z."""
     seen = np.concatenate([np.asarray(shape.solid.to_mesh64().vert_properties)[:, :3] for shape, _ in bloom])
-    reach = np.column_stack([np.hypot(seen[:, 0], seen[:, 1]), seen[:, 2]])
-    return lathe([(0.005, n - 0.002), *reach[np.argsort(reach[:, 1])]], angles=(-45.0, 0.0, 40.0))
+    return Shape(bloom[0][0].solid, (envelope([*seen, (0.005, 0.0, n - 0.002)]),))
 
 
 def _cut_flower(n: float, bloom: list[tuple[Shape, RGB]], leaf: Shape) -> Build:

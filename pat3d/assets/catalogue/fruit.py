@@ -6,7 +6,20 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import CREAM, LEAF, STALK, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import arc, covered, curve, lathe, lobed, lump, ring_of, spot, tube, unseen
+from pat3d.assets.rounded import (
+    arc,
+    covered,
+    curve,
+    envelope,
+    lathe,
+    lobed,
+    lump,
+    rest_angle,
+    ring_of,
+    spot,
+    tube,
+    unseen,
+)
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, rod
 
 
@@ -138,7 +151,7 @@ def strawberry(style: Style) -> Build:
     seeds = [ring_of(spot(0.0012).moved(z=z), r, n, 20 + 27 * k) for k, (r, z, n) in enumerate(rows)]
     collar = join(ring_of(ellipsoid(0.009, 0.0042, 0.0075), 0.0125, 6), cylinder(0.012, 0.0035).moved(z=-0.001))
     stalk = rod((0, 0, 0.004), (0.002, 0, -0.007), 0.0014, sides=4)
-    down = -float(body.turned("y", 90 + lean).hulls[0][:, 2].min())
+    down = -float(np.concatenate(body.turned("y", 90 + lean).hulls)[:, 2].min())
 
     def laid(shape: Shape) -> Shape:
         return shape.scaled(s).turned("y", 90 + lean).moved(z=down)
@@ -218,7 +231,7 @@ def carrot(style: Style) -> Build:
     root = lathe(profile, angles=(-45.0, -lean, 45.0))
     stems = [rod((0, 0, n), (0.0085 * np.cos(a), 0.0085 * np.sin(a), n + 0.05), 0.002, sides=4) for a in range(0, 6)]
     greens = covered(stems, lathe([(0.003, n), (0.011, n + 0.051)], angles=(-8.0,), sides=8))
-    down = -float(root.turned("y", 90 - lean).hulls[0][:, 2].min())
+    down = -float(np.concatenate(root.turned("y", 90 - lean).hulls)[:, 2].min())
 
     def laid(shape: Shape) -> Shape:
         return shape.turned("y", 90 - lean).moved(z=down)
@@ -292,10 +305,10 @@ def pineapple(style: Style) -> Build:
         blade = convex([(0, -0.008, 0), (0, 0.008, 0), (0.006, 0, -0.004), (reach, 0, tall), (reach - 0.002, 0, tall)])
         spikes.append(ring_of(blade, 0.008, count, 17 * ring))
     crown = join(*spikes).moved(z=h - 0.003)
-    cover = lathe([(0.02, h - 0.008), (0.061, h + 0.048), (0.02, h + 0.108)], angles=(-40.0, 0.0, 50.0))
+    cover = envelope(np.asarray(crown.solid.to_mesh64().vert_properties)[:, :3])
     # The crown is mostly air between its leaves.
     return Build(
-        parts=((body, style.colour()), (covered([crown], cover)[0], LEAF)),
+        parts=((body, style.colour()), (Shape(crown.solid, (cover,)), LEAF)),
         paint=((unseen(join(*grid)), style.shade(style.colour(), 0.68)),),
         mass=1.1,
     )
@@ -357,6 +370,7 @@ def egg(style: Style) -> Build:
     r, n = style.vary(0.0215, 0.03), style.vary(0.028, 0.03)
     t = np.linspace(-82, 82, 26)
     z = n * np.sin(np.radians(t))
-    body = lathe(np.column_stack([r * np.cos(np.radians(t)) * (1 - 0.12 * z / n - 0.02), z]))
-    shape = body.turned("y", 90)
-    return Build(parts=((shape.moved(z=-float(shape.hulls[0][:, 2].min())), style.colour()),))
+    profile = np.column_stack([r * np.cos(np.radians(t)) * (1 - 0.12 * z / n - 0.02), z])
+    lean = rest_angle(profile)
+    shape = lathe(profile, angles=(lean,)).turned("y", 90 + lean)
+    return Build(parts=((shape.moved(z=-float(np.concatenate(shape.hulls)[:, 2].min())), style.colour()),))

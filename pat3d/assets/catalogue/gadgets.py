@@ -25,7 +25,7 @@ def _coil(radius: float, thick: float, turns: int) -> tuple[Shape, ...]:
     tall = thick * (1 + 0.9 * (turns - 1))
     path = np.column_stack([radius * np.cos(turn), 0.7 * radius * np.sin(turn), np.full(48, tall / 2)])
     # Four sides make a box of each stretch, which holds the rounds above one another.
-    hulls = tube(path, thick / 2, 12, closed=True, sides=4, flatness=tall / thick).hulls
+    hulls = tube(path, thick / 2, 12, closed=True, sides=4, flatness=tall / thick, loose=True).hulls
     tie = box(0.012, 2.4 * thick, tall).moved(0.0, -0.7 * radius)
     return Shape(join(*rings).solid, hulls), tie
 

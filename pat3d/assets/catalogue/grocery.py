@@ -199,7 +199,7 @@ SHAKERS = (
 
 def _details(style: Style) -> tuple[RGB, RGB]:
     """Colours of the title and the picture, both unlike the main colour."""
-    main, others = style.colour(), [*style.colours[1:], (240, 238, 233), (60, 60, 66)]
+    main, others = style.colour(), [*style.colours[1:], (240, 238, 233), (60, 60, 66), (150, 152, 158)]
     different = [colour for colour in others if colour != main]
     return different[0], different[1]
 

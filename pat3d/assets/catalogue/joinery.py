@@ -12,12 +12,13 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, HalfspaceIntersection
-from scipy.spatial.transform import Rotation
+from scipy.spatial import HalfspaceIntersection
 
 from pat3d.assets.catalogue.registry import RGB, Style
 from pat3d.assets.colours import COLOURS
-from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, frustum, join, soft_box, turned_solid
+from pat3d.assets.rounded import arc, lathe
+from pat3d.assets.shapes import THIN, Shape, box, convex, cylinder, frustum, join, soft_box, turned_solid
+from pat3d.assets.turned import sides_of
 from pat3d.scene.asset import Region
 
 Range = tuple[float, float]
@@ -63,7 +64,7 @@ def padded(x: float, y: float, z: float, radius: float) -> Shape:
 
 
 def puck(radius: float, height: float, edge: float) -> Shape:
-    """A round pad whose rim looks rounded by `edge` [m], simulated as one 16-sided prism."""
+    """A round pad whose rim looks rounded by `edge` [m], simulated as one prism."""
     steps = [math.radians(angle) for angle in (0, 22.5, 45, 67.5, 90)]
     side = [(radius - edge + edge * math.sin(a), edge - edge * math.cos(a)) for a in steps]
     top = [(r, height - z) for r, z in reversed(side)]
@@ -113,14 +114,16 @@ def splayed_legs(x: float, y: float, height: float, half: float, splay: float) -
     )
 
 
-def lying(radius: float, length: float, end_radius: float | None = None, sides: int = 12) -> Shape:
+def lying(radius: float, length: float, end_radius: float | None = None, sides: int = 0) -> Shape:
     """A round bar along x [m], centred on x = 0, lying on z = 0 with a flat of its convex part below."""
+    sides = sides or sides_of(max(radius, end_radius or 0.0), THIN, 12)
     bar = frustum(radius, radius if end_radius is None else end_radius, length, sides)
     return bar.turned("z", 180 / sides).turned("y", 90).moved(x=-length / 2, z=radius)
 
 
-def dial(radius: float, length: float, sides: int = 12) -> Shape:
+def dial(radius: float, length: float, sides: int = 0) -> Shape:
     """A round bar along y [m], from y = 0 towards the front, centred on x = z = 0."""
+    sides = sides or sides_of(radius, THIN, 12)
     return cylinder(radius, length, sides).turned("z", 180 / sides).turned("x", 90)
 
 
@@ -155,13 +158,8 @@ def trimmed(shape: Shape, floor: float = 0.0) -> Shape:
 
 
 def resting_ball(radius: float, x: float = 0.0, y: float = 0.0) -> Shape:
-    """A ball on z = 0 whose convex part lies on one of its faces."""
-    ball = ellipsoid(radius)
-    down = ConvexHull(ball.hulls[0]).equations[0, :3]
-    turn = Rotation.align_vectors([[0.0, 0.0, -1.0]], [down])[0].as_matrix()
-    points = ball.hulls[0] @ turn.T
-    points[points[:, 2] < -radius + 1e-9, 2] = -radius
-    return Shape(ball.solid, (points,)).moved(x, y, radius)
+    """A ball on z = 0, lying on the flat base of its lowest part."""
+    return lathe(arc(radius, -90, 90, 49)).moved(x, y, radius)
 
 
 def blade(points: NDArray[np.float64] | Sequence[Sequence[float]], thickness: float) -> Shape:

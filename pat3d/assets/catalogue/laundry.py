@@ -204,7 +204,7 @@ def ink_bottle(style: Style) -> Build:
     """A square glass bottle of ink with a round cap and a label."""
     x, z = style.vary(0.055), style.vary(0.045)
     body = slab(x, x, z, 0.01)
-    neck, cap = cylinder(0.016, 0.008, 12).moved(z=z - 0.001), cylinder(0.02, 0.02, 16).moved(z=z + 0.006)
+    neck, cap = cylinder(0.016, 0.008, 12).moved(z=z - 0.001), cylinder(0.02, 0.02).moved(z=z + 0.006)
     other = next(colour for colour in style.colours[1:] if colour != style.colour())
     label = unseen(box(0.66 * x, 1, 0.5 * z)).moved(0.0, -0.5, 0.24 * z)
     return Build(parts=((join(body, neck), style.colour()), (cap, other)), paint=((label, (240, 234, 214)),), mass=0.18)

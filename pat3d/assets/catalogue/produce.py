@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.assets.catalogue.common import CREAM, LEAF, STALK, length
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import curve, lathe, lobed, lump, merged, ring_of, spot, tube, unseen
+from pat3d.assets.rounded import (
+    centre_of,
+    curve,
+    lathe,
+    lobed,
+    lump,
+    merged,
+    rest_angle,
+    ring_of,
+    spot,
+    tube,
+    unseen,
+)
 from pat3d.assets.shapes import Shape, box, cone, ellipsoid, join, rod
+
+
+def _egg_profile(rx: float, ry: float, blunt: float = 0.0) -> NDArray[np.float64]:
+    angle = np.radians(np.linspace(-80.0, 80.0, 24))
+    return np.column_stack([ry * np.cos(angle) * (1 - blunt * np.sin(angle)), rx * np.sin(angle)])
 
 
 def _egg(rx: float, ry: float, rz: float, blunt: float = 0.0) -> Shape:
     """An ellipsoid of semi-axes [m] lying on a small flat, thicker at its left end by `blunt`."""
-    angle = np.radians(np.linspace(-80.0, 80.0, 24))
-    profile = np.column_stack([ry * np.cos(angle) * (1 - blunt * np.sin(angle)), rx * np.sin(angle)])
-    shape = lathe(profile).turned("y", 90).scaled(1, 1, rz / ry)
+    profile = _egg_profile(rx, ry, blunt)
+    lean = rest_angle(profile)
+    shape = lathe(profile, angles=(lean,)).turned("y", 90 + lean).scaled(1, 1, rz / ry)
     return shape.moved(z=-float(np.concatenate(shape.hulls)[:, 2].min()))
 
 
@@ -219,11 +237,16 @@ def chili_pepper(style: Style) -> Build:
 def radish(style: Style) -> Build:
     """A round root lying on its side, its root to the left, its stalks to the right."""
     k = style.vary(1.0)
-    body = _egg(0.025, 0.021, 0.021)
-    root = rod((-0.02, 0, 0.021), (-0.052, 0, 0.012), 0.004, 0.0012, sides=6)
+    profile = _egg_profile(0.025, 0.021)
+    root = rod((-0.02, 0, 0.0), (-0.052, 0, -0.009), 0.004, 0.0012, sides=6)
     stalks = join(
-        *(rod((0.018, 0.3 * y, 0.021), (0.062, y, 0.016 + abs(y)), 0.0025, sides=6) for y in (-0.012, 0.0, 0.012))
+        *(rod((0.018, 0.3 * y, 0.0), (0.062, y, abs(y) - 0.005), 0.0025, sides=6) for y in (-0.012, 0.0, 0.012))
     )
+    whole = join(lathe(profile).turned("y", 90), root, stalks)
+    lean = rest_angle(profile, float(centre_of(whole)[0]))
+    body = lathe(profile, angles=(lean,)).turned("y", 90)
+    down = -float(np.concatenate(body.turned("y", lean).hulls)[:, 2].min())
+    body, root, stalks = (shape.turned("y", lean).moved(z=down) for shape in (body, root, stalks))
     white = unseen(box(0.1, 1, 1)).moved(x=-0.072, z=-0.5)
     return Build(
         parts=((body.scaled(k), style.colour()), (root.scaled(k), CREAM), (stalks.scaled(k), LEAF)),

@@ -6,7 +6,20 @@ import numpy as np
 
 from pat3d.assets.catalogue.common import CREAM, WHITE, disc, height, length, rectangle
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.rounded import arc, curve, extruded, lathe, lump, merged, slab, spot, tube, unseen
+from pat3d.assets.rounded import (
+    arc,
+    centre_of,
+    curve,
+    extruded,
+    lathe,
+    lump,
+    merged,
+    rest_angle,
+    slab,
+    spot,
+    tube,
+    unseen,
+)
 from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box, tray
 
 FAT = (240, 222, 206)
@@ -210,10 +223,12 @@ def chicken_leg(style: Style) -> Build:
     k = style.vary(1.0)
     t = np.linspace(-80, 62, 24)
     meat = np.column_stack([0.032 * np.cos(np.radians(t)), 0.05 * np.sin(np.radians(t))])
-    meat = lathe(np.concatenate([meat, [(0.0085, 0.066)]]), angles=(-40.0, 0.0, 35.0)).turned("y", 90)
+    profile = np.concatenate([meat, [(0.0085, 0.066)]])
     bone = lathe([(0.0062, 0.055), (0.0055, 0.09)], angles=(0.0,), sides=8).turned("y", 90)
     ends = join(*(ellipsoid(0.0095).moved(0.094, s * 0.007) for s in (-1, 1)))
-    shape = _settled(join(meat, bone, ends))
+    whole = join(lathe(profile).turned("y", 90), bone, ends)
+    lean = rest_angle(profile, float(centre_of(whole)[0]))
+    shape = _settled(join(lathe(profile, angles=(lean,)).turned("y", 90), bone, ends).turned("y", lean))
     white = unseen(box(0.1, 1, 1)).moved(x=0.119, z=-0.5)
     return Build(parts=((shape.scaled(k), style.colour()),), paint=((white, CREAM),), mass=0.12)
 

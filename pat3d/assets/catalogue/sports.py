@@ -9,12 +9,13 @@ import numpy as np
 
 from pat3d.assets.catalogue.creature import DARK, WHITE, finish
 from pat3d.assets.catalogue.registry import Build, Style, entry
-from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, prism, rod, turned_solid
+from pat3d.assets.rounded import arc, lathe
+from pat3d.assets.shapes import Shape, box, convex, cylinder, join, prism, rod, turned_solid
 
 
 def _ball(radius: float) -> Shape:
     """A ball [m] flattened a little where it stands on z = 0, so that it stays where it is put."""
-    return ellipsoid(radius).moved(z=0.975 * radius).cut_below(0.0)
+    return lathe(arc(radius, -math.degrees(math.asin(0.975)), 90, 48)).moved(z=0.975 * radius)
 
 
 def _seam(radius: float, width: float, bend: float = 0.25) -> Shape:

@@ -221,11 +221,10 @@ def tape(style: Style) -> Build:
     """A roll of tape lying on its side, open through its core."""
     outer, inner, z = style.vary(0.05), style.vary(0.035), style.vary(0.032, 0.15)
     ring = vessel([(outer, 0.0), (outer, z)], [(inner, 0.0), (inner, z)], segments=12)
-    pieces = tuple(part for part in ring.hulls if len(part) == 8)
     hollow = cylinder(outer, z).solid - cylinder(inner, 3 * z).moved(z=-z).solid
     core = cylinder(inner + 0.003, 3 * z).moved(z=-z)
     return Build(
-        parts=((Shape(hollow, pieces), style.colour()),), paint=((core, style.colour(1)),), mass=style.vary(0.12)
+        parts=((Shape(hollow, ring.hulls), style.colour()),), paint=((core, style.colour(1)),), mass=style.vary(0.12)
     )
 
 

@@ -17,7 +17,7 @@ DESCRIPTIONS = {
 }  # fmt: skip
 """Kind of description by the end of the file's name."""
 
-MESHES = ("glb", "gltf", "obj", "ply", "off", "stl")
+MESHES = ("glb", "gltf", "obj", "dae", "fbx", "3mf", "ply", "off", "stl")
 """Mesh formats, those that carry most first."""
 
 _WORDS = re.compile(r"[^a-z0-9]+")

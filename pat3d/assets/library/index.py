@@ -121,7 +121,8 @@ def add_library(
     found = discover(root, name)
     if not found:
         raise AssetError(
-            f"{root} holds no object: OBJ, STL, PLY, OFF, GLB, glTF, USD, URDF, SDF or MJCF files. Nothing was written."
+            f"{root} holds no object: OBJ, STL, PLY, OFF, GLB, glTF, DAE, FBX, 3MF, USD, URDF, SDF or MJCF files. "
+            "Nothing was written."
         )
     overrides = read_overrides(folder, root)
     objects = folder / "objects"

@@ -15,9 +15,10 @@ GENERIC = frozenset({
     "textured",
     "nontextured", "scene", "untitled", "base", "body", "geometry", "simple", "reoriented", "google", "16k", "64k",
     "512k", "poisson", "tsdf", "clouds", "normalized", "watertight", "final", "optimized", "decimated", "download",
-    "downloads", "glb", "gltf", "stl", "ply", "off", "usd", "usdz", "usda", "usdc", "urdf", "sdf", "mjcf", "xml",
-    "material", "materials", "texture", "textures", "low", "high", "poly", "lod", "lod0", "lod1", "lod2", "raw", "out",
-    "output", "default", "root", "node", "world", "description", "mobility", "partnet", "link", "baselink", "vhacd",
+    "downloads", "dae", "fbx", "glb", "gltf", "stl", "ply", "off", "usd", "usdz", "usda", "usdc", "urdf", "sdf",
+    "mjcf", "xml", "material", "materials", "texture", "textures", "low", "high", "poly", "lod", "lod0", "lod1",
+    "lod2", "raw", "out", "output", "default", "root", "node", "world", "description", "mobility", "partnet", "link",
+    "baselink", "vhacd",
 })  # fmt: skip
 """Words of file and folder names that say how it is stored, not what it is."""
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.materials import material as find_material
-from pat3d.assets.mesh.load import LoadedMesh, files_beside, load_mesh
+from pat3d.assets.mesh.load import LoadedMesh, UpAxis, files_beside, load_mesh
 from pat3d.assets.mesh.parts import (
     DECOMPOSITION_SECONDS,
     MAX_HULLS,
@@ -32,7 +32,6 @@ from pat3d.progress import CpuBudget
 from pat3d.scene.asset import Asset, Material, VisualMesh
 
 Units = Literal["m", "cm", "mm", "in"]
-UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
 
 METRES: dict[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254}
 
@@ -97,13 +96,13 @@ def import_mesh(
     The same file with the same arguments is the same asset, whose files a scene and its exports hold once.
 
     Args:
-        path: an OBJ, STL, PLY, OFF, GLB or glTF file.
+        path: an OBJ, STL, PLY, OFF, GLB, glTF, COLLADA, FBX or 3MF file.
         name: noun of the asset; the file's stem where None.
-        units: unit of the file's coordinates; metres where None.
+        units: unit of the file's coordinates; where None what the file says (COLLADA, FBX, 3MF), else metres.
         scale: further factor on the coordinates.
         size: target size [m] instead of units and scale: the longest side, or (x, y, z) with None for
             sides that follow. One side given scales uniformly, more stretch.
-        up: axis of the file that points up; y for glTF (by its standard) and z otherwise where None.
+        up: axis of the file that points up; where None what the file says, y for glTF (by its standard), else z.
         density: [kg/m^3] of the closed surface; the material's where neither this nor `mass` is given.
         mass: [kg] of the object.
         material: name of a material, for density and friction.
@@ -133,7 +132,7 @@ def import_mesh(
         return _imported[key]
     budget = CpuBudget(cpu_limit)
     loaded = load_mesh(path, texture_root=texture_root)
-    axis = up or ("y" if path.suffix.lower() in (".glb", ".gltf") else "z")
+    axis = up or loaded.up or "z"
     try:
         placing = _placing(loaded, axis, units, scale, size)
         made = asset_of(
@@ -264,8 +263,9 @@ def _placing(
     if size is not None:
         factors = _factors(size, extents)
     else:
-        factors = np.full(3, METRES[units or "m"] * (1.0 if scale is None else scale))
-        if units is None and scale is None and not PLAUSIBLE[0] <= longest <= PLAUSIBLE[1]:
+        unit = METRES[units] if units else loaded.metres or 1.0
+        factors = np.full(3, unit * (1.0 if scale is None else scale))
+        if units is None and scale is None and not PLAUSIBLE[0] <= unit * longest <= PLAUSIBLE[1]:
             likely = [unit for unit in ("cm", "mm", "in") if PLAUSIBLE[0] <= longest * METRES[unit] <= 2.0]
             hint = f'units="{likely[0]}" would make it {longest * METRES[likely[0]]:.3g} m; ' if likely else ""
             raise AssetError(

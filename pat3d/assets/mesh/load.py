@@ -10,17 +10,22 @@ import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.assets.mesh import convert
 from pat3d.assets.mesh.texture import Patch, pack, surface_said
 from pat3d.errors import AssetError
 
-FORMATS = ("obj", "stl", "ply", "off", "glb", "gltf")
+UpAxis = Literal["x", "-x", "y", "-y", "z", "-z"]
+
+FORMATS = ("obj", "stl", "ply", "off", "glb", "gltf", *convert.FORMATS)
 MAX_BYTES = 200_000_000
 MAX_FACES = 2_000_000
+GLTF = ("glb", "gltf")
+"""Formats in metres with y up, by their standard."""
 _SIDE_FILES = (".mtl", ".bin", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".webp")
 
 
@@ -40,6 +45,10 @@ class LoadedMesh:
     """As those of `VisualMesh`."""
     surface: Mapping[str, float] = field(default_factory=dict)
     """Roughness, metallic and opacity [-] of the largest piece, as far as the file says."""
+    metres: float | None = None
+    """[m] of the file's unit, where the file or its format says it."""
+    up: UpAxis | None = None
+    """Axis that points up, where the file or its format says it."""
     notes: tuple[str, ...] = field(default=())
     """What was left out or changed while reading."""
     files: tuple[Path, ...] = ()
@@ -47,7 +56,7 @@ class LoadedMesh:
 
 
 def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[str] | None = None) -> LoadedMesh:
-    """Read an OBJ, STL, PLY, OFF, GLB or glTF file and merge its scene graph.
+    """Read a mesh file of a format of FORMATS and merge its scene graph.
 
     Args:
         path: the file.
@@ -58,12 +67,12 @@ def load_mesh(path: str | os.PathLike[str], *, texture_root: str | os.PathLike[s
         AssetError: no such file, an unknown format, over the limits, or no usable triangles.
     """
     path = Path(path)
-    scene, resolver = _read(path, texture_root)
+    scene, resolver, said = _read(path, texture_root)
     notes = list(resolver.refused)
     patches = [patch for _, patch in _patches(path, scene, notes, resolver)]
     pieces = [one for one in scene.geometry.values() if len(getattr(one, "faces", ()))]
     surface = surface_said(max(pieces, key=lambda one: len(one.faces)), notes) if pieces else {}
-    return replace(_merged(path, patches, notes, resolver), surface=surface)
+    return replace(_merged(path, patches, notes, resolver), surface=surface, **said)
 
 
 def load_objects(path: str | os.PathLike[str]) -> list[tuple[str, LoadedMesh]]:
@@ -76,7 +85,7 @@ def load_objects(path: str | os.PathLike[str]) -> list[tuple[str, LoadedMesh]]:
         AssetError: as for `load_mesh`.
     """
     path = Path(path)
-    scene, resolver = _read(path, None)
+    scene, resolver, said = _read(path, None)
     notes = list(resolver.refused)
     objects: dict[str, list[tuple[NDArray[np.float64], NDArray[np.int64], Patch]]] = {}
     for node, patch in _patches(path, scene, notes, resolver):
@@ -86,11 +95,12 @@ def load_objects(path: str | os.PathLike[str]) -> list[tuple[str, LoadedMesh]]:
         objects.setdefault(parent if primitive else node, []).append(patch)
     if not objects:
         raise AssetError(f'"{path}" holds no triangles.')
-    return [(name, _merged(path, patches, notes, resolver)) for name, patches in sorted(objects.items())]
+    merged = [(name, _merged(path, patches, notes, resolver)) for name, patches in sorted(objects.items())]
+    return [(name, replace(mesh, **said)) for name, mesh in merged]
 
 
-def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any, Any]:
-    """The scene graph of a file, and the reader of the files beside it."""
+def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any, Any, dict[str, Any]]:
+    """The scene graph of a file, the reader of the files beside it, and the `metres` and `up` that it says."""
     kind = path.suffix.lower().lstrip(".")
     if kind not in FORMATS:
         raise AssetError(f'"{path}" is not of a known mesh format. Valid: {", ".join(FORMATS)}.')
@@ -99,8 +109,16 @@ def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any,
     _check_size(path, kind)
     import trimesh
 
-    resolver = _make_resolver(path, texture_root)
-    data = path.read_bytes()
+    resolver = make_resolver(path, texture_root)
+    said: dict[str, Any] = {"metres": 1.0, "up": "y"} if kind in GLTF else {}
+    if kind in convert.FORMATS:
+        made = convert.as_glb(path, resolver.root)
+        resolver.refused += made.notes
+        resolver.opened += made.opened
+        said = {"metres": made.metres, "up": cast(UpAxis, made.up)}
+        data, kind = made.glb, "glb"
+    else:
+        data = path.read_bytes()
     if kind == "obj":
         data = _in_utf8(data)
     elif kind == "stl":
@@ -113,7 +131,7 @@ def _read(path: Path, texture_root: str | os.PathLike[str] | None) -> tuple[Any,
         # Parsers raise whatever a malformed file makes them hit; the user needs one line.
         text = " ".join(str(error).split())[:200]
         raise AssetError(f'"{path}" cannot be read as {kind.upper()}: {type(error).__name__} {text}.') from error
-    return scene, resolver
+    return scene, resolver, said
 
 
 def _merged(
@@ -238,7 +256,7 @@ def _count_faces(path: Path, kind: str, size: int) -> int | None:
             length = struct.unpack_from("<I", head, 12)[0]
             file.seek(20)
             return _count_gltf(file.read(min(length, MAX_BYTES)))
-        return _count_gltf(head + file.read(MAX_BYTES)) if size <= MAX_BYTES else None
+        return _count_gltf(head + file.read(MAX_BYTES)) if kind == "gltf" and size <= MAX_BYTES else None
 
 
 def _count(file: io.BufferedReader, pattern: bytes, size: int) -> int | None:
@@ -259,7 +277,7 @@ def _count_gltf(text: bytes) -> int:
     return max(faces, max(accessors, default=0) // 6)
 
 
-def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> Any:
+def make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> Any:
     """Reader of the files that a mesh file refers to, kept inside one folder."""
     from trimesh.resolvers import Resolver
 
@@ -273,6 +291,7 @@ def _make_resolver(path: Path, texture_root: str | os.PathLike[str] | None) -> A
             self.refused: list[str] = []
             self.opened: list[Path] = []
             self.file_name = path.name
+            self.root = root
 
         def get(self, name: str) -> bytes:
             """Contents of the file called `name`, relative to the mesh file's folder."""

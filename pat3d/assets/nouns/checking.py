@@ -12,6 +12,7 @@ from pat3d.assets.mesh.topology import signed_volume
 from pat3d.assets.nouns.program import Program
 from pat3d.assets.variant import Variant
 from pat3d.errors import Pat3dError
+from pat3d.geometry.planes import face_count
 from pat3d.scene.asset import Asset
 
 SEEDS = (0, 1, 2)
@@ -20,7 +21,7 @@ STICKS_OUT = 1e-4
 SIZES = (0.002, 5.0)
 """Longest sides [m] of things in scenes."""
 MOST_CORNERS = 64
-"""Of a convex part, and of its triangles."""
+"""Of a convex part, and of its faces, coplanar triangles as one."""
 
 
 def faults_of(program: Program) -> tuple[list[str], list[str], Asset | None]:
@@ -49,9 +50,9 @@ def _faults(made: Asset) -> list[str]:
     if not SIZES[0] <= longest <= SIZES[1]:
         found.append(f"it is {longest:.3g} m long; {SIZES[0]:g} to {SIZES[1]:g} m can be. Lengths are in metres.")
     for number, part in enumerate(made.parts):
-        if max(len(part.vertices), len(part.faces)) > MOST_CORNERS:
+        if max(len(part.vertices), face_count(part)) > MOST_CORNERS:
             found.append(
-                f"convex part {number} has {len(part.vertices)} corners and {len(part.faces)} triangles; at most "
+                f"convex part {number} has {len(part.vertices)} corners and {face_count(part)} faces; at most "
                 f"{MOST_CORNERS} each. Give fewer sides or points."
             )
         if signed_volume(part.vertices, part.faces) < 1e-3 * float(np.prod(np.ptp(part.vertices, axis=0))) * 1e-2:

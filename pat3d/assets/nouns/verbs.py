@@ -61,9 +61,7 @@ def _lathe(said: Mapping[str, Any]) -> Shape:
     profile = np.array(_pairs(said["profile"]))
     if said.get("smooth"):
         profile = rounded.curve(profile, int(said["smooth"]))
-    return rounded.lathe(
-        profile, said.get("cuts", ()), said.get("angles", (-45.0, 0.0, 45.0)), sides=int(said.get("sides", 0))
-    )
+    return rounded.lathe(profile, said.get("cuts", ()), said.get("angles", ()), sides=int(said.get("sides", 0)))
 
 
 MADE: Mapping[str, Callable[[Any], Shape]] = {
@@ -71,21 +69,21 @@ MADE: Mapping[str, Callable[[Any], Shape]] = {
     "soft_box": lambda said: shapes.soft_box(*_three(said), radius=said["radius"]),
     "slab": lambda said: rounded.slab(*_three(said), corner=said["corner"]),
     "taper": lambda said: rounded.taper(tuple(said["bottom"]), tuple(said["top"]), said["height"]),
-    "frustum": lambda said: shapes.frustum(said["bottom"], said["top"], said["height"], _sides(said, 16)),
-    "cylinder": lambda said: shapes.cylinder(said["radius"], said["height"], _sides(said, 16)),
-    "cone": lambda said: shapes.cone(said["radius"], said["height"], _sides(said, 16)),
+    "frustum": lambda said: shapes.frustum(said["bottom"], said["top"], said["height"], _sides(said, 0)),
+    "cylinder": lambda said: shapes.cylinder(said["radius"], said["height"], _sides(said, 0)),
+    "cone": lambda said: shapes.cone(said["radius"], said["height"], _sides(said, 0)),
     "ellipsoid": lambda said: shapes.ellipsoid(*said),
     "spot": lambda said: rounded.spot(*said),
     "rod": lambda said: shapes.rod(
-        _triple(said["from"]), _triple(said["to"]), said["radius"], said.get("end_radius"), _sides(said, 8)
+        _triple(said["from"]), _triple(said["to"]), said["radius"], said.get("end_radius"), _sides(said, 0)
     ),
-    "bent_rod": lambda said: shapes.bent_rod(_triples(said["points"]), said["radius"], _sides(said, 8)),
+    "bent_rod": lambda said: shapes.bent_rod(_triples(said["points"]), said["radius"], _sides(said, 0)),
     "tube": _tube,
     "hull": lambda said: shapes.convex(_triples(said)),
     "lump": lambda said: rounded.lump(_triples(said)),
     "prism": lambda said: shapes.prism(_pairs(said["outline"]), said["height"]),
     "extruded": lambda said: rounded.extruded(_pairs(said["outline"]), said["height"], _sides(said, 8)),
-    "revolve": lambda said: shapes.turned_solid(_rising(said["profile"]), _sides(said, 16)),
+    "revolve": lambda said: shapes.turned_solid(_rising(said["profile"]), _sides(said, 0)),
     "lathe": _lathe,
     "vessel": lambda said: shapes.vessel(_rising(said["outer"]), _rising(said["inner"]), int(said.get("segments", 16))),
     "hollow": lambda said: rounded.hollow(

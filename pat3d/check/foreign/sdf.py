@@ -110,7 +110,7 @@ def _collision(
         mesh = load_mesh(_resolved(shape.findtext("uri"), folder))
         scale = numbers(shape.findtext("scale") or "1 1 1", 3, where)
         notes.append("meshes that collide were taken as their convex hulls, as MuJoCo takes them.")
-        add_hull(spec, body, name, mesh.vertices * scale, pose, friction)
+        add_hull(spec, body, name, mesh.vertices * (mesh.metres or 1.0) * scale, pose, friction)
     else:
         notes.append(f"{where}: a collision of type <{shape.tag}> was left out.")
 

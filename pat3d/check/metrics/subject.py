@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.assets.mesh.load import FORMATS, load_mesh, load_objects
+from pat3d.assets.mesh.importing import TO_Z_UP
+from pat3d.assets.mesh.load import FORMATS, LoadedMesh, load_mesh, load_objects
 from pat3d.assets.mesh.repair import repair
 from pat3d.errors import AssetError, SpecError
 from pat3d.geometry.hulls import ConvexPart
@@ -121,9 +122,9 @@ def load_subject(path: str | Path) -> Subject:
         files = sorted(file for file in path.iterdir() if file.suffix.lower().lstrip(".") in FORMATS)
         if not files:
             raise SpecError(f'"{path}" is no scene folder and holds no meshes ({", ".join(FORMATS)}).')
-        found = [(file.stem, _upright(load_mesh(file), file)) for file in files[: MOST_OBJECTS + 1]]
+        found = [(file.stem, _upright(load_mesh(file))) for file in files[: MOST_OBJECTS + 1]]
     elif path.suffix.lower() in (".glb", ".gltf"):
-        found = [(name, _upright(mesh, path)) for name, mesh in load_objects(path)]
+        found = [(name, _upright(mesh)) for name, mesh in load_objects(path)]
     else:
         raise SpecError(f'"{path}" is no scene folder, no GLB or glTF file and no folder of meshes.')
     if not 1 <= len(found) <= MOST_OBJECTS:
@@ -187,11 +188,9 @@ def scaled(subject: Subject, factor: float) -> Subject:
     return replace(subject, bodies=tuple(map(body, subject.bodies)), joints=joints)
 
 
-def _upright(mesh: Any, path: Path) -> VisualMesh:
-    """A loaded mesh with z up; glTF has y up."""
-    vertices = mesh.vertices
-    if path.suffix.lower() in (".glb", ".gltf"):
-        vertices = np.stack([vertices[:, 0], -vertices[:, 2], vertices[:, 1]], axis=1)
+def _upright(mesh: LoadedMesh) -> VisualMesh:
+    """A loaded mesh with z up, in metres, as far as its file says its axes and its unit."""
+    vertices = mesh.vertices @ np.array(TO_Z_UP[mesh.up or "z"], dtype=np.float64).T * (mesh.metres or 1.0)
     return VisualMesh(
         vertices=np.ascontiguousarray(vertices),
         faces=np.ascontiguousarray(mesh.faces, dtype=np.int32),

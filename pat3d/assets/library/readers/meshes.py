@@ -5,21 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 
 from pat3d.assets.library.body import Body
-from pat3d.assets.mesh.load import load_mesh
+from pat3d.assets.mesh.load import GLTF, load_mesh
 
 
 def read_mesh(path: Path, root: Path) -> Body:
-    """The object of an OBJ, STL, PLY, OFF, GLB or glTF file; textures come from anywhere below `root`.
+    """The object of a mesh file of any format that is read; textures come from anywhere below `root`.
 
     Raises:
         AssetError: as `load_mesh`.
     """
     loaded = load_mesh(path, texture_root=root)
-    gltf = path.suffix.lower() in (".glb", ".gltf")
+    gltf = path.suffix.lower().lstrip(".") in GLTF
     return Body(
         mesh=loaded,
-        metres=1.0 if gltf else None,
-        up="y" if gltf else None,
-        declared="the glTF standard" if gltf else "",
+        metres=loaded.metres,
+        up=loaded.up,
+        declared="the glTF standard" if gltf else "the file" if loaded.metres else "",
         files=loaded.files,
     )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from pat3d.assets.library.body import Piece, Points, of_mesh
-from pat3d.assets.mesh.load import FORMATS, load_mesh
+from pat3d.assets.mesh.load import FORMATS, GLTF, load_mesh
 from pat3d.errors import AssetError
 from pat3d.geometry.rotations import about
 
@@ -88,7 +89,9 @@ def address(said: str, path: Path, root: Path) -> Path:
 
 
 def mesh_piece(said: str, path: Path, root: Path, notes: list[str]) -> Piece:
-    """The triangles of the mesh file that a description names.
+    """The triangles of the mesh file that a description names, in metres by the unit that the file says.
+
+    Its axes are taken as they stand, as RViz takes COLLADA's.
 
     Raises:
         AssetError: it is not there, or of a format that is not read.
@@ -98,7 +101,9 @@ def mesh_piece(said: str, path: Path, root: Path, notes: list[str]) -> Piece:
         raise AssetError(f'"{said}" is of a format that is not read; valid are {", ".join(FORMATS)}.')
     loaded = load_mesh(target, texture_root=root)
     notes += loaded.notes
-    return of_mesh(loaded)
+    if loaded.up not in (None, "z") and target.suffix.lower().lstrip(".") not in GLTF:
+        notes.append(f'"{said}" says that {loaded.up} points up; in a description its axes are taken as they stand')
+    return of_mesh(replace(loaded, vertices=loaded.vertices * (loaded.metres or 1.0)))
 
 
 def inertia_of(element: ET.Element | None, get) -> Points | None:
