@@ -218,8 +218,9 @@ class _Session:
             self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
             try:
                 path.parent.mkdir(parents=True, exist_ok=True)
+                kept: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
                 with replaced_file(path) as fresh, fresh.open("wb") as file:
-                    np.savez_compressed(file, told=np.array(json.dumps(told)), **arrays)
+                    np.savez_compressed(file, **kept)
             except OSError:
                 # A cache that cannot be written costs the next run its time, and this one nothing.
                 return arrays, told
