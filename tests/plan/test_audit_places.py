@@ -24,7 +24,7 @@ def plan(prompt: str, phrases: dict[str, str], *edges: str, arrangements: tuple[
     for edge in edges:
         kind = next(word for word in edge.split() if word in ("on", "in", "next_to", "left_of", "right_of", "behind"))
         child, parent = edge.split(f" {kind} ")
-        relations.append(Relation(child=child, kind=kind, parent=parent))
+        relations.append(Relation(child=child, kind=kind, parent=parent))  # type: ignore[arg-type]
     return ScenePlan(
         prompt=prompt, objects=tuple(made), relations=tuple(relations), arrangements=arrangements
     )  # fmt: skip
