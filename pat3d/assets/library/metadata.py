@@ -114,7 +114,6 @@ def _rows(file: Path) -> Iterator[tuple[str, Metadata]]:
     """Identifier and row of every object of a table; nothing of what is none."""
     text = _text(file, MAX_TABLE_BYTES)
     if file.suffix == ".csv":
-        # A cell of any length is no name; csv's own limit is for one cell.
         try:
             records: list[Any] = list(csv.DictReader(io.StringIO(text)))
         except csv.Error:
@@ -170,7 +169,7 @@ def _said(raw: Mapping[str, Any]) -> Metadata:
         mass=_positive(raw.get("mass")),
         density=_positive(raw.get("density")),
         metres=_positive(raw.get("unit")),
-        up=up_said(raw),
+        up=_up(raw),
     )
 
 
@@ -184,7 +183,7 @@ def _positive(said: object) -> float | None:
     return float(cast(float, said)) if good else None
 
 
-def up_said(raw: Mapping[str, Any]) -> UpAxis | None:
+def _up(raw: Mapping[str, Any]) -> UpAxis | None:
     """The axis that points up, where one of the usual keys names it."""
     for key in ("up", "up_axis", "upAxis", "upaxis"):
         if (axis := _axis(raw.get(key))) is not None:

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from pat3d.assets.library.body import Points
+from pat3d.assets.library.body import Body, Points
+from pat3d.assets.library.readers.inertials import fault
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import mass_properties
@@ -24,14 +25,20 @@ MOST_POINTS = 400
 TOGETHER = 10.0
 """Poses whose up axes differ by less [degrees] are one."""
 
-STEADY = 2.0 * LEAST_TILT
-"""Tilt of the ground [degrees] that a pose stands at least to be preferred: scenes have to stand half of it."""
+STEADY = 2.5 * LEAST_TILT
+"""Tilt of the ground [degrees] that a pose stands at least to be preferred. Scenes have to stand less, yet with
+the few contact points that engines keep: of scanned lumps one of 1.3 degrees was refused, those of 1.7 stood."""
 
 FLAT = 3e-4
 """Share of the longest side within which what is lowest carries."""
 
 LEVEL, LEANING = 0.1, 30.0
 """Tilts [degrees] below which an object counts as resting as it is, and as leaning towards its nearest rest."""
+
+
+LEAST_FILLED, OPEN = 0.01, 0.01
+"""A mesh's centre of mass is known where it encloses this share of its bounding box at least, and its area vectors
+add up to this share of its area at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +107,29 @@ def resting_poses(points: Points, least: float = 0.01, centre: Points | None = N
                 Rest(rotation=turn.tolist(), quat_wxyz=quat_of(turn), tilt=tilt, probability=share, margin=margin)
             )
     return tuple(sorted(found, key=lambda rest: -rest.probability))
+
+
+def centre_of_mass(body: Body, metres: float) -> Points | None:
+    """Centre of mass [m] in the file's axes: the declared one, else that of what the mesh encloses; None for nothing.
+
+    Args:
+        body: the object.
+        metres: of a unit of its mesh.
+    """
+    used = body.mesh.vertices[np.unique(body.mesh.faces)] * metres
+    low, high = used.min(axis=0), used.max(axis=0)
+    given = body.inertial
+    if given is not None and given.centre is not None and not fault(given, low, high):
+        return given.centre
+    corners = body.mesh.vertices[body.mesh.faces] * metres - low
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    volumes = np.linalg.det(corners) / 6.0
+    # The areas of a closed surface add up to nothing; of an open one the sums below depend on the origin.
+    open_share = np.linalg.norm(areas.sum(axis=0)) / np.linalg.norm(areas, axis=1).sum()
+    if open_share > OPEN or abs(volumes.sum()) < LEAST_FILLED * np.prod(high - low):
+        return None
+    centre = volumes @ corners.sum(axis=1) / (4.0 * volumes.sum())
+    return low + centre if ((centre > 0.0) & (centre < high - low)).all() else None
 
 
 def standing(turn: Points, rests: Sequence[Rest]) -> tuple[Points, str]:
