@@ -68,7 +68,10 @@ def bordered(seen: Observation, lost: int) -> Observation:
         return seen
     from scipy.ndimage import distance_transform_edt
 
-    away, nearest = map(np.asarray, distance_transform_edt(seen.instances == 0, return_indices=True))
+    away, nearest = (
+        np.asarray(distance_transform_edt(seen.instances == 0, return_distances=not indices, return_indices=indices))
+        for indices in (False, True)
+    )
     depth = np.where(seen.known, seen.depth, 0.0).astype(np.float64)
     inner = _nearest_mean(depth, (seen.instances > 0) & seen.known)
     hidden = seen.known & (seen.smooth_depth < (1.0 - NEARER) * inner)
