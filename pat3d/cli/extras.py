@@ -13,6 +13,7 @@ from importlib import metadata
 ENABLES = {
     "torch": "the optimisation of layouts, losses and gradients in PyTorch",
     "usd": "USD files",
+    "meshes": "COLLADA, FBX and 3MF meshes",
     "envs": "Gymnasium environments",
     "robots": "robots and controllers",
     "eval": "policy evaluation: records, servers, films, demonstrations",

@@ -72,7 +72,7 @@ def _hidden(seen: Observation, name: str) -> tuple[tuple[slice, slice], NDArray[
     own = mask[crop]
     nearer = seen.smooth_depth[crop] < np.nanmedian(seen.depth[mask & seen.known])
     hidden = (seen.instances[crop] > 0) & ~own & nearer
-    border = np.asarray(binary_dilation(own, iterations=2), dtype=bool) & ~own
+    border = np.asarray(binary_dilation(own, iterations=2), dtype=np.bool_) & ~own
     if np.count_nonzero(hidden & border) < COVERED * np.count_nonzero(border):
         return crop, None
     return crop, hidden

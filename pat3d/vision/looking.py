@@ -217,9 +217,9 @@ class _Looking:
             self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
             try:
                 path.parent.mkdir(parents=True, exist_ok=True)
-                packed: dict[str, Any] = {"told": np.array(json.dumps(told)), **arrays}
+                kept: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
                 with replaced_file(path) as fresh, fresh.open("wb") as file:
-                    np.savez_compressed(file, **packed)
+                    np.savez_compressed(file, **kept)
             except OSError:
                 # A cache that cannot be written costs the next run its time, and this one nothing.
                 return arrays, told
