@@ -6,6 +6,7 @@ What models find is kept by its inputs, so that a run that stopped goes on from 
 from __future__ import annotations
 
 import hashlib
+import json
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
@@ -97,7 +98,7 @@ class Looked:
 
 
 @dataclass
-class _Session:
+class _Looking:
     """One photograph being looked at."""
 
     photograph: Photograph
@@ -203,8 +204,6 @@ class _Session:
         make: Callable[[], tuple[Arrays, dict[str, Any]]],
     ) -> tuple[Arrays, dict[str, Any]]:
         """What `make` makes, or what an earlier run made of the same."""
-        import json
-
         path = cache_root() / "looked" / f"{content_key(shown, {**said, 'weights': _weights(name)})}.npz"
         begin = time.monotonic()
         try:
@@ -240,29 +239,29 @@ def look(photograph: Photograph, lookers: Lookers, *, prompt: str, progress: Pro
         SpecError: a file cannot be used, or neither a file nor a model says something that is needed.
         ModelError: a model gives no valid answer.
     """
-    session = _Session(photograph, lookers, prompt, progress)
-    picture, angle = session.picture()
+    looking = _Looking(photograph, lookers, prompt, progress)
+    picture, angle = looking.picture()
     given = None if photograph.labels is None else read_labels(photograph.labels)
-    values, labels = session.masks(picture, given)
-    depth, measured = session.depth(picture)
+    values, labels = looking.masks(picture, given)
+    depth, measured = looking.depth(picture)
     if labels is None:
-        labels = session.labels(picture, values)
+        labels = looking.labels(picture, values)
     instances = instances_of(values, labels)
     height, width = depth.shape
     if photograph.camera is not None:
         camera = read_camera(photograph.camera, width, height)
     else:
         camera, note = usual_camera(width, height, angle or measured)
-        session.notes.append(note)
+        looking.notes.append(note)
     seen = observed(picture=picture, depth=depth, instances=instances, labels=labels, camera=camera)
     if lookers.completes:
-        seen = session.completed(seen)
+        seen = looking.completed(seen)
     return Looked(
         seen=seen,
         labels=labels,
         picture=picture,
-        notes=tuple(session.notes),
-        record=session.record,
+        notes=tuple(looking.notes),
+        record=looking.record,
     )
 
 

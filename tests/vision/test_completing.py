@@ -5,11 +5,12 @@ import pytest
 
 from pat3d.assets.shapes import box
 from pat3d.geometry.pose import Pose
-from pat3d.vision.caster import Caster
+from pat3d.vision.caster import Caster, Placement
 from pat3d.vision.completing import AROUND, completed
 from pat3d.vision.detection import Found
 from pat3d.vision.fitting import fit
 from pat3d.vision.observation import Observation
+from pat3d.vision.window import Window
 from tests.scenes import asset_of
 from tests.vision.seen import camera_at, see
 
@@ -63,15 +64,11 @@ def test_the_whole_mask_is_the_one_without_what_hides_it(whole):
 
 def test_the_whole_mask_decides_between_sizes_that_the_visible_part_leaves_open(whole):
     """A third of the board is behind the screen: of a longer one of the same height, nothing more would be seen."""
-    from pat3d.vision.window import Window
-
     long = Caster(asset_of(box(0.48, 0.04, 0.1)).visual)
     true = Caster(BOARD.visual)
 
     def costs(seen):
         window = Window(seen, CAMERA, "board", 1500)
-        from pat3d.vision.caster import Placement
-
         return [
             window.cost(caster.ranges(window.origin, window.rays,
                                       Placement(scale=1.0, rotation=np.eye(3), position=np.array([x, 0.1, 0.0]))))
