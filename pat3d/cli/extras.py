@@ -13,6 +13,7 @@ from importlib import metadata
 ENABLES = {
     "torch": "the optimisation of layouts, losses and gradients in PyTorch",
     "usd": "USD files",
+    "meshes": "COLLADA, FBX and 3MF meshes",
     "envs": "Gymnasium environments",
     "robots": "robots and controllers",
     "eval": "policy evaluation: records, servers, films, demonstrations",
@@ -31,7 +32,7 @@ ENABLES = {
 DEVELOPMENT = "dev"
 """The extra of those who work on PAT3D itself."""
 
-_MODULES = {"pxr": "usd-core", "PIL": "pillow", "yaml": "pyyaml"}
+_MODULES = {"pxr": "usd-core", "collada": "pycollada", "PIL": "pillow", "yaml": "pyyaml"}
 """Modules whose distribution has another name."""
 
 _LINE = re.compile(r"(?P<name>[\w.-]+)(?:\[[^\]]*\])?(?P<version>[^;]*)(?:;(?P<marker>.*))?")
