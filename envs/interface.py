@@ -111,9 +111,14 @@ def describe(env: TabletopEnv) -> dict[str, Any]:
             "parts": [part for arm in world.arms for part in _action(env, arm)],
         },
         "observation": {kind: _observation(env, kind) for kind in ("state", "rgbd")},
-        "cameras": {name: _camera(env, name) for name in _names(env)},
+        "cameras": cameras(env),
         "instruction": "text: info['instruction'] after a reset",
     }
+
+
+def cameras(env: TabletopEnv) -> dict[str, dict[str, Any]]:
+    """Intrinsics and poses of all cameras in the present scene, by name."""
+    return {name: _camera(env, name) for name in _names(env)}
 
 
 def _action(env: TabletopEnv, arm: Mounted) -> list[dict[str, Any]]:

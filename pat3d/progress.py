@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from pat3d.errors import CpuLimitError
 
@@ -27,6 +28,8 @@ class Event:
     """Largest motion of any point in the step [m]."""
     loss: float | None = None
     """Semantic loss of an optimisation's step [m^2]."""
+    places: Callable[[], Mapping[str, Any]] | None = field(default=None, compare=False, repr=False)
+    """What finds where the objects are in this step, a pose by name; only for whoever calls it before the next step."""
 
 
 Progress = Callable[[Event], None]

@@ -71,16 +71,32 @@ def tint_of(model: Any, geom: int) -> Array:
     return np.ones(3, dtype=np.float32) if material < 0 else model.mat_rgba[material][:3].astype(np.float32)
 
 
-def paint_sky(model: Any, colour: NDArray[Any]) -> None:
-    """Give the sky of a world another colour, shape (3,); renderers have to be made anew."""
-    import mujoco
+class Sky:
+    """The sky of a world as it is made, which may be painted over; renderers have to be made anew then."""
 
-    model.vis.rgba.fog[:3] = colour
-    for number in np.flatnonzero(model.tex_type == int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)).tolist():
-        first, channels = int(model.tex_adr[number]), int(model.tex_nchannel[number])
-        count = int(model.tex_height[number]) * int(model.tex_width[number])
-        texels = model.tex_data[first : first + count * channels].reshape(count, channels)
-        texels[:, :3] = np.round(255.0 * np.asarray(colour)).astype(np.uint8)
+    def __init__(self, model: Any) -> None:
+        import mujoco
+
+        self._model, self._texels = model, []
+        for number in np.flatnonzero(model.tex_type == int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)).tolist():
+            first, channels = int(model.tex_adr[number]), int(model.tex_nchannel[number])
+            count = int(model.tex_height[number]) * int(model.tex_width[number])
+            self._texels.append(model.tex_data[first : first + count * channels].reshape(count, channels))
+        self.colour = np.array(model.vis.rgba.fog[:3])
+        """Shape (3,)."""
+        self._own = [texels.copy() for texels in self._texels]
+
+    def paint(self, colour: NDArray[Any]) -> None:
+        """Give it another colour, shape (3,)."""
+        self._model.vis.rgba.fog[:3] = colour
+        for texels in self._texels:
+            texels[:, :3] = np.round(255.0 * np.asarray(colour)).astype(np.uint8)
+
+    def restore(self) -> None:
+        """Give it its own colour back, to the bit."""
+        self._model.vis.rgba.fog[:3] = self.colour
+        for texels, own in zip(self._texels, self._own, strict=True):
+            texels[:] = own
 
 
 class Lights:

@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 ANGLES = {"agentview": (40.0, 60.0), "frontview": (20.0, 45.0), "closeview": (50.0, 45.0)}
 """Height above the horizon and opening angle of each fixed camera [degrees]."""
 
-NEAREST = 0.13
-"""Around every object of the task the close camera shows at least so much [m]."""
+NEAREST = 0.15
+"""Around the middle of what the task is about the close camera shows at least so much [m]."""
 
 MARGIN = 0.02
 """Free on every side of a square picture, as a share of it; wider ones have more at the sides."""
@@ -62,18 +62,11 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
         if obj.name in placement.shown
         for part in obj.asset.parts
     ]
-    task = [
-        obj.pose.apply(obj.asset.mass_properties.centre_of_mass) + NEAREST * _CORNERS
-        for obj in scene.objects
-        if obj.name in placement.grasps
-    ]
-    task += [
-        obj.pose.apply(part.vertices)
-        for obj in scene.objects
-        if obj.name in placement.grasps
-        for part in obj.asset.parts
-    ]
-    task += [np.array(placement.visit, dtype=np.float64).reshape(-1, 3)]
+    moved = [obj for obj in scene.objects if obj.name in placement.grasps]
+    visited = np.array(placement.visit, dtype=np.float64).reshape(-1, 3)
+    task = [*(obj.pose.apply(part.vertices) for obj in moved for part in obj.asset.parts), visited]
+    middle = np.concatenate([points.mean(axis=0, keepdims=True) for points in task if len(points)]).mean(axis=0)
+    task.append(middle + NEAREST * _CORNERS)
     bench = []
     if placement.bench is not None:
         (low_x, low_y), (high_x, high_y) = placement.bench

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from pat3d.envs.suites.composer import STACKED_WIDTH, Composer
 from pat3d.envs.suites.pools import COLOURS, FLAT, HOME_WIDTH, STANDING
+from pat3d.envs.tasks.chain import AND_THEN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,6 +132,36 @@ def _retrieve(height: int) -> Callable[[Composer], str]:
     return build
 
 
+def _chain_into(kind: str, count: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        where = c.container(kind, capacity=count, place=True)
+        steps = [f"place:{c.item(moved=True, width=where[1].width)}:{where[0]}" for _ in range(count)]
+        return f"chain:{AND_THEN.join(steps)}"
+
+    return build
+
+
+def _chain_apart(c: Composer) -> str:
+    """One thing into something, another onto something else."""
+    inside, onto = c.container("in", place=True), c.container("on", place=True)
+    steps = [f"place:{c.item(moved=True, width=one[1].width)}:{one[0]}" for one in (inside, onto)]
+    return f"chain:{AND_THEN.join(steps)}"
+
+
+def _chain_tower(c: Composer) -> str:
+    base = c.tower(1)
+    c.places.append(base)
+    middle = c.item(moved=True, groups=(FLAT,), width=STACKED_WIDTH)
+    top = c.item(moved=True, groups=(FLAT, STANDING), width=STACKED_WIDTH)
+    return f"chain:stack:{middle}:{base}{AND_THEN}stack:{top}:{middle}"
+
+
+def _chain_then_pick(c: Composer) -> str:
+    where = c.container("in", place=True)
+    first = c.item(moved=True, width=where[1].width)
+    return f"chain:place:{first}:{where[0]}{AND_THEN}pick:{c.item(moved=True)}"
+
+
 def _core(name: str, size: int, build: Callable[[Composer], str]) -> Core:
     return Core(name=name, size=size, build=build)
 
@@ -169,6 +200,14 @@ CORES: dict[str, tuple[Core, ...]] = {
         _core("two from a carrier", 3, _unload("on", 2)),
         _core("three from a container", 4, _unload("in", 3)),
         _core("three from a carrier", 4, _unload("on", 3)),
+    ),
+    "chain": (
+        _core("two into a container", 3, _chain_into("in", 2)),
+        _core("two onto a carrier", 3, _chain_into("on", 2)),
+        _core("three onto a carrier", 4, _chain_into("on", 3)),
+        _core("into one and onto another", 4, _chain_apart),
+        _core("a tower of three", 3, _chain_tower),
+        _core("into a container, then a pick", 3, _chain_then_pick),
     ),
     "retrieve": (_core("under one", 2, _retrieve(1)), _core("under two", 3, _retrieve(2))),
 }

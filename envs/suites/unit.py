@@ -152,7 +152,7 @@ def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
 
     parsed = parse_task(task)
     parsed.check(scene)
-    for name in task.split(":")[1:]:
+    for name in parsed.names:
         if called(scene, name) is None:
             raise TaskError(f'no words tell "{name}" from what is like it.')
     return rehearse(scene, mjcf / "scene.xml", parsed, robot).describe()

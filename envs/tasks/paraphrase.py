@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 POLITE = (
     "please {}",
     "could you {}?",
@@ -65,6 +67,20 @@ WORDINGS = {
     "retrieve": _RETRIEVE,
 }
 """By kind of task; the first is the instruction itself."""
+
+
+_IN_TURN = (
+    ("first ", ", then ", ", then "),
+    ("", "; after that, ", "; and finally, "),
+    ("", " and then ", " and then "),
+    ("one after the other: ", ", ", ", and "),
+)
+"""Before the first of several things to do, between them, and before the last."""
+
+
+def in_turn(steps: Sequence[str]) -> tuple[str, ...]:
+    """All wordings of several things to do in this order."""
+    return tuple(f"{before}{between.join(steps[:-1])}{last}{steps[-1]}" for before, between, last in _IN_TURN)
 
 
 def worded(kind: str, **words: str) -> tuple[str, ...]:

@@ -7,12 +7,13 @@ from dataclasses import fields
 from typing import Any
 
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
+from pat3d.envs.tasks.chain import AND_THEN, Chain
 from pat3d.envs.tasks.manipulate import Pick, Place, Stack
 from pat3d.envs.tasks.task import Task, split
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
-TASKS: dict[str, type[Task]] = {kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve)}
+TASKS: dict[str, type[Task]] = {kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve, Chain)}
 """Every kind of task by the first word of its specification."""
 
 
@@ -25,6 +26,8 @@ def parse_task(spec: str) -> Task:
     kind, arguments = split(spec)
     if kind not in TASKS:
         raise TaskError(f'no task "{kind}". Tasks: {", ".join(task.form for task in TASKS.values())}.')
+    if kind == Chain.kind:
+        return Chain(steps=tuple(_step(text) for text in ":".join(arguments).split(AND_THEN)))
     task: Any = TASKS[kind]
     names = [field.name for field in fields(task)]
     if len(arguments) != len(names) or not all(arguments):
@@ -32,10 +35,19 @@ def parse_task(spec: str) -> Task:
     return task(**dict(zip(names, arguments, strict=True)))
 
 
+def _step(spec: str) -> Task:
+    """One step of a chain."""
+    if split(spec)[0] == Chain.kind:
+        raise TaskError("a chain is no step of a chain.")
+    return parse_task(spec)
+
+
 def possible_tasks(scene: Scene) -> Iterator[Task]:
-    """Every task that the scene's tree and sizes allow; whether a robot reaches it is decided by its placement."""
+    """Every task that the scene's tree and sizes allow, but for chains; its placement says what is in reach."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
+        if kind is Chain:
+            continue
         count = len(fields(kind))
         combinations = (
             [()] if count == 0 else [(a,) for a in names] if count == 1 else [(a, b) for a in names for b in names]

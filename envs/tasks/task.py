@@ -131,6 +131,11 @@ class Task(ABC):
         """The text from which `parse_task` makes this task again."""
         return ":".join((self.kind, *(str(getattr(self, one.name)) for one in fields(self))))
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Objects that the specification names, what is moved first."""
+        return tuple(str(getattr(self, one.name)) for one in fields(self))
+
     @abstractmethod
     def wordings(self, scene: Scene) -> tuple[str, ...]:
         """The task as one tells it to a person, in several ways; the first is the usual one."""

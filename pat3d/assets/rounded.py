@@ -24,7 +24,7 @@ from pat3d.geometry.normals import enclosed_volume
 MOST_PLANES = 34
 """Of a part: three meet at each of its 64 corners."""
 
-AT_ONCE = 4
+AT_ONCE = 2
 """Planes that are added to a part before its corners are looked at again."""
 
 Profile = Sequence[tuple[float, float]]
@@ -143,7 +143,7 @@ def hollow(outer: Profile, inner: Profile, levels: Sequence[float] = (), segment
         out = outline(between(fine_outer, low, high), 0.5 * limit, 4)
         into = _chord(between(fine_inner, low, high), outward=False)
         # The outside has the corners of the picture; the inside is flat.
-        drawn = 2 * math.pi / SMOOTH_SEGMENTS * np.arange(SMOOTH_SEGMENTS // segments + 1)
+        drawn = np.asarray(2 * math.pi / SMOOTH_SEGMENTS * np.arange(SMOOTH_SEGMENTS // segments + 1), dtype=np.float64)
         for k in range(segments):
             corners = [_ring(k * step + drawn, r, z) for r, z in out]
             corners += [
@@ -208,7 +208,7 @@ def tube(
         turn = 2 * np.pi * np.arange(sides) / sides
         directions = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * normal
         directions = np.concatenate([directions, [tangents[index[-1]], -tangents[index[0]]]])
-        hulls.append(_snug(circles[index].reshape(-1, 3), directions, math.inf if loose else 0.5 * limit))
+        hulls.append(_snug(circles[index].reshape(-1, 3), directions, math.inf if loose else 0.8 * limit))
     return Shape(_skin(circles, centres, closed), tuple(hulls))
 
 

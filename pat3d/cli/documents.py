@@ -153,6 +153,7 @@ class SpecFacts:
 
     file: str
     episodes: int
+    scenes: int
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -48,7 +48,8 @@ SETTINGS = fields(
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
     """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
     settings = values(RolloutSettings, options)
-    return RolloutSettings(**settings | {"robot": settings["robot"] or suite_robot(options)})
+    settings["robot"] = settings["robot"] or suite_robot(options)
+    return RolloutSettings(**settings)
 
 
 def suite_robot(options: argparse.Namespace) -> str:

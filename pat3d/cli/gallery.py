@@ -16,8 +16,8 @@ from pat3d.scene.replacement import replaced_file, write_text
 
 _STYLE = """
 body{font:14px/1.45 system-ui,sans-serif;margin:2em;color:#222;background:#fafafa}
-main{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:1em}
-article{background:#fff;border:1px solid #ddd;border-radius:6px;padding:.8em}
+main{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:1em;align-items:start}
+article{min-width:0;overflow-wrap:anywhere;background:#fff;border:1px solid #ddd;border-radius:6px;padding:.8em}
 img{width:100%;background:#eee}h2{font-size:15px;margin:.3em 0}
 dl{display:grid;grid-template-columns:6em 1fr;gap:.1em .6em;margin:.4em 0}dt{color:#777}dd{margin:0}
 .doubt{background:#fff3d6;border-left:3px solid #d99a00;padding:.2em .5em;margin:.3em 0}
@@ -35,7 +35,9 @@ def write_gallery(library: Library, *, pictures: bool, progress: Progress) -> Pa
                 draw(library.asset(entry.key), _picture(library, entry))
             except Pat3dError:
                 continue
-    cards = "\n".join(_card(library, entry) for entry in library.entries)
+    # What asks for an answer comes first, what cannot be used last.
+    order = sorted(library.entries, key=lambda entry: (entry.state != "ready", not entry.doubts))
+    cards = "\n".join(_card(library, entry) for entry in order)
     counts = f"{len(library.ready)} of {len(library.entries)} objects are ready"
     page = library.folder / "index.html"
     write_text(

@@ -35,7 +35,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     *fields(
         Request,
         {
-            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve"},
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve and chain"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
             "least_tilt": DEGREES,
             "device": {"choices": DEVICES},
@@ -150,28 +150,40 @@ def show(options: argparse.Namespace) -> int:
     _FOLDER,
     option("--split", "of the episodes", default="train"),
     option("--episodes", "scripted demonstrations for the statistics; 0 for none", type=int, default=10),
+    option("--cameras", "of every scene, and not of the first one alone", action="store_true"),
     option("--seed", "of the episodes", type=int, default=0),
     JSON,
     summary="write spec.json: what actions and observations mean, cameras, and statistics to normalise with",
     examples="""
     pat3d suite spec suites/tabletop --episodes 50
+    pat3d suite spec suites/tabletop --episodes 0 --cameras
     """,
 )
 def spec(options: argparse.Namespace) -> int:
     """`pat3d suite spec`."""
     from pat3d.envs.suites.suite import Suite
-    from pat3d.policies_eval.datasets.interface import suite_interface, with_statistics, write_interface
+    from pat3d.policies_eval.datasets.interface import (
+        cameras_of_scenes,
+        suite_interface,
+        with_statistics,
+        write_interface,
+    )
 
     suite = Suite.open(options.folder)
     interface = suite_interface(suite)
     if options.episodes:
         episodes, settings = _episodes(options, suite)
         interface = with_statistics(interface, episodes, settings, console(stderr=True))
+    if options.cameras:
+        with _counting("cameras") as tell:
+            interface |= {"cameras_of_scenes": cameras_of_scenes(suite, tell)}
     written = write_interface(suite.folder.path, interface)
     if options.json:
         from pat3d.cli.documents import SpecFacts
 
-        print_facts(SpecFacts(file=str(written), episodes=options.episodes))
+        print_facts(
+            SpecFacts(file=str(written), episodes=options.episodes, scenes=len(suite.entries) if options.cameras else 1)
+        )
     else:
         console().print(str(written), markup=False, soft_wrap=True)
     return 0
@@ -185,6 +197,7 @@ def spec(options: argparse.Namespace) -> int:
     option("--seed", "of the episodes", type=int, default=0),
     option("--steps", "of an episode at most", type=int, metavar="N", shown="until the task is done"),
     option("--obs", "state, rgb or rgbd", default="state"),
+    option("--control", "osc, joint_velocity or joint_position", default="osc"),
     JSON,
     summary="compare a policy's actions with right ones: flipped gripper, Euler angles, degrees, another frame",
     examples="""
@@ -200,7 +213,7 @@ def check_policy(options: argparse.Namespace) -> int:
     from pat3d.policies_eval.analysis.probe import compare_actions
     from pat3d.policies_eval.policies.registry import make_policy
 
-    episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs)
+    episodes, settings = _episodes(options, Suite.open(options.folder), obs=options.obs, control=options.control)
     compared = compare_actions(make_policy(options.policy), episodes, settings, options.steps)
     found, alike = examine(compared), resemblance(compared)
     failures = [one.text for one in found]

@@ -88,11 +88,17 @@ def settle_scenes(
     model = builder.finalize(device)
     options = SettleOptions(friction=scenes[0].settling_friction)
 
+    runs = []
+
+    def places() -> Mapping[str, Pose]:
+        return dict(zip(model.labels, poses_from_states(model, runs[-1].state()), strict=True))
+
     def tell(phase: str, step: int, motion: float) -> None:
-        progress(Event(stage=phase, step=step, motion=motion))
+        # Scenes side by side may have objects of the same name.
+        progress(Event(stage=phase, step=step, motion=motion, places=places if len(scenes) == 1 else None))
 
     progress(Event(stage="settling", step=0))
-    found = settle(model, options, tell, throw=False, near_rest=near_rest)
+    found = settle(model, options, tell, throw=False, near_rest=near_rest, watch=runs.append)
     poses = poses_from_states(model, found.q)
     states = np.concatenate([found.trajectory, found.q[None].astype(np.float32)])
     settled = []

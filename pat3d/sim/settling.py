@@ -8,6 +8,7 @@ again with stiffer ones (`pat3d.sim.straightening`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,6 +64,7 @@ def settle(
     *,
     throw: bool = True,
     near_rest: bool = False,
+    watch: Callable[[Run], None] = lambda _: None,
 ) -> Settled:
     """Let the bodies of every world of `model` come to rest from its initial state.
 
@@ -73,6 +75,7 @@ def settle(
         throw: whether worlds that do not come to rest raise; else their `status` tells, and their state is safe.
         near_rest: the bodies touch as they did when they last settled; only the end of the polish is done, in which
             they move by micrometres where loads have not changed.
+        watch: called once before the first step, with the run whose state can be read whenever `progress` is called.
 
     Raises:
         SimulationError: bodies intersect at the start, or a world can never move on.
@@ -83,6 +86,7 @@ def settle(
     with threadpool_limits(limits=1, user_api="blas"):
         run = Run(model, options, progress)
         run.throw = throw
+        watch(run)
         run.refuse_intersections()
         run.set_d_hat(options.final_d_hat if near_rest else options.d_hat)
         if not near_rest:

@@ -15,7 +15,7 @@ from pat3d.studio.gallery import ANY
 from pat3d.studio.player import Player
 from pat3d.studio.session import Session
 from pat3d.studio.status import StatusLine
-from pat3d.studio.view import ground, look
+from pat3d.studio.surroundings import Surroundings, look
 from pat3d.studio.workbench import Watch, Workbench
 from pat3d.studio.worker import Run
 
@@ -64,7 +64,7 @@ class Episodes:
         self._charts: list[Any] = []
         gui: Any = server.gui
         self._gui = gui
-        ground(server)
+        self._surroundings = Surroundings(server)
         bench.changed = status.show
         outcomes = sorted({one.outcome for every in evaluations for one in every.results})
         self._folder = gui.add_folder("Episodes")
@@ -162,6 +162,7 @@ class Episodes:
     def _look(self, recordings: tuple[Recording, ...], places: Sequence[np.ndarray]) -> None:
         bounds = [np.array(_bounds(one)) + place for one, place in zip(recordings, places, strict=True)]
         low, high = np.min([one[0] for one in bounds], axis=0), np.max([one[1] for one in bounds], axis=0)
+        self._surroundings.around(low, high)
         middle, size = (low + high) / 2, float(np.linalg.norm(high - low))
         # The panel covers the right side of the page.
         middle[0] += 0.15 * size

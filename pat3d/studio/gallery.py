@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pat3d.studio.view import look
+from pat3d.studio.surroundings import look
 
 if TYPE_CHECKING:
     import viser

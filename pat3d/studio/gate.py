@@ -11,6 +11,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import threading
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
@@ -22,6 +23,8 @@ MAX_HEAD = 16 * 1024
 """Longest head of a request [bytes]."""
 PATIENCE = 10.0
 """[s] for the head of a request to arrive."""
+Page = Callable[[], bytes]
+"""What makes a page, as HTML compressed by gzip."""
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 
@@ -33,15 +36,16 @@ def is_loopback(host: str) -> bool:
 class Gate:
     """Listens until `close`."""
 
-    def __init__(self, host: str, port: int, *, inner: int, token: str | None) -> None:
+    def __init__(self, host: str, port: int, *, inner: int, token: str | None, page: Page | None = None) -> None:
         """Let those with `token` from `host`:`port` through to the port `inner` of this machine.
 
-        Where `token` is None, `host` is this machine's own, and everybody on it passes.
+        Where `token` is None, `host` is this machine's own, and everybody on it passes. Browsers that ask for "/"
+        get `page` instead of that of `inner`, where there is one.
 
         Raises:
             EnvironmentSetupError: nothing can listen there.
         """
-        self.inner, self._token = inner, token
+        self.inner, self._token, self._page = inner, token, page
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True, name="pat3d studio gate")
         self._thread.start()
@@ -112,13 +116,24 @@ class Gate:
         if self._token is None:
             # A name that somebody else's server gave out for this machine is not the studio's page either.
             named = urlsplit(f"//{headers.get('host', '')}").hostname
-            return b"" if named in _LOOPBACK else _response("403 Forbidden", "open the address that the studio printed")
+            return (
+                self._passed(words, headers)
+                if named in _LOOPBACK
+                else _response("403 Forbidden", "open the address that the studio printed")
+            )
         if self._is_token(_cookie(headers.get("cookie", ""))):
-            return b""
+            return self._passed(words, headers)
         if self._is_token(parse_qs(urlsplit(words[1]).query).get("token", [""])[0]):
             cookie = f"Set-Cookie: {COOKIE}={self._token}; HttpOnly; SameSite=Strict; Path=/\r\n"
             return _response("303 See Other", "", f"Location: /\r\n{cookie}")
         return _response("401 Unauthorized", "open the address that the studio printed, with its token")
+
+    def _passed(self, words: list[str], headers: Mapping[str, str]) -> bytes:
+        """What to answer those who pass: the page, or nothing where they are let through."""
+        asked = words[0] == "GET" and urlsplit(words[1]).path == "/" and "upgrade" not in headers
+        if self._page is None or not asked or "gzip" not in headers.get("accept-encoding", ""):
+            return b""
+        return _response("200 OK", self._page(), "Content-Encoding: gzip\r\n", kind="text/html")
 
     def _is_token(self, said: str) -> bool:
         return hmac.compare_digest(said.encode(), (self._token or "").encode()) and bool(said)
@@ -137,10 +152,10 @@ def _cookie(header: str) -> str:
     return found.value if found is not None else ""
 
 
-def _response(status: str, text: str, more: str = "") -> bytes:
-    body = text.encode()
+def _response(status: str, text: str | bytes, more: str = "", *, kind: str = "text/plain") -> bytes:
+    body = text.encode() if isinstance(text, str) else text
     return (
-        f"HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {len(body)}\r\n"
+        f"HTTP/1.1 {status}\r\nContent-Type: {kind}; charset=utf-8\r\nContent-Length: {len(body)}\r\n"
         f"{more}Connection: close\r\n\r\n"
     ).encode() + body
 

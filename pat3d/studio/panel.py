@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pat3d.errors import Pat3dError
 from pat3d.exporters.formats import FORMATS, NEED_USD, VIEWS, has_usd
 from pat3d.geometry.pose import Pose
+from pat3d.progress import Event
 from pat3d.studio import facts
 from pat3d.studio.session import Session
 from pat3d.studio.settling import SettlingFolder
@@ -109,7 +110,7 @@ class Panel:
                 "forces": gui.add_checkbox("Contact forces", False),
                 "ghost": gui.add_checkbox("Initial layout", False),
                 "before": gui.add_checkbox("Before the edits", False),
-                "shadows": gui.add_checkbox("Shadows", False),
+                "shadows": gui.add_checkbox("Shadows, reflections", False),
             }
             for box in self._boxes.values():
                 box.on_update(lambda _: self._toggle())
@@ -220,7 +221,7 @@ class Panel:
         self._bench.do(lambda now: now, "too many sentences wait already.")
 
     def _settled(self, now: Session | None, progress: Watch) -> tuple[Session, str]:
-        session = needed(now).settled(progress, run=self._run)
+        session = needed(now).settled(progress.followed(self._follow), run=self._run)
         changes = session.current.changes
         farthest = None if changes is None else changes.farthest
         if changes is None or farthest is None:
@@ -228,6 +229,12 @@ class Panel:
         name, motion = farthest
         moved = f'settled and verified. Moved farthest: "{name}" by {motion.mm:.1f} mm.'
         return session, " ".join((moved, *changes.notes, *changes.broke))
+
+    def _follow(self, event: Event) -> None:
+        """Show where the objects are while they settle."""
+        if event.places is not None and not self._veiled:
+            with self._drawing:
+                self._view.pose(event.places())
 
 
 def _told(session: Session) -> str:

@@ -18,6 +18,7 @@ from pat3d.studio.episodes import MOST, Episodes, listed
 from pat3d.studio.gallery import Gallery
 from pat3d.studio.gate import Gate, is_loopback
 from pat3d.studio.jobs import warmed
+from pat3d.studio.page import page
 from pat3d.studio.panel import Panel
 from pat3d.studio.session import Session
 from pat3d.studio.status import StatusLine
@@ -82,14 +83,14 @@ def opened(
         server.gui.configure_theme(control_width="large", show_logo=False)
         if kind != "evaluations":
             server.on_client_connect(_once(lambda: worker.warm(warmed)))
-        page = _page(kind, server, folders, bench, store, worker.run)
+        shown_page = _page(kind, server, folders, bench, store, worker.run)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
-        gate = Gate(host, port, inner=server.get_port(), token=token)
+        gate = Gate(host, port, inner=server.get_port(), token=token, page=page)
         stack.callback(gate.close)
         named = socket.gethostname() if host in ("0.0.0.0", "::", "") else host
         where = f"http://{f'[{named}]' if ':' in named else named}:{gate.port}/"
         address = where if token is None else f"{where}?token={token}"
-        yield Studio(address=address, bench=bench, store=store, page=page)
+        yield Studio(address=address, bench=bench, store=store, page=shown_page)
 
 
 def _once(act: Callable[[], None]) -> Callable[[Any], None]:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pat3d.exporters.glb.writer import textured_mesh
 from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Scene, SceneObject
+from pat3d.studio import shapes
 from pat3d.studio.session import Session
+from pat3d.studio.surroundings import Surroundings, look
 
 if TYPE_CHECKING:
     import viser
@@ -35,7 +36,7 @@ class Shown:
     ghost: bool = False
     before: bool = False
     shadows: bool = False
-    """Without a graphics card they make a frame take three times as long."""
+    """And reflections: much to draw where there is no graphics card."""
 
 
 class View:
@@ -52,13 +53,14 @@ class View:
         self._extras: dict[str, tuple[Any, list[Any]]] = {}
         """What was drawn of hulls, names and so on, and what it was drawn for."""
         self._gizmo: Any = None
-        self._made, self._shadows = 0, False
-        ground(server)
+        self._made = 0
+        self._surroundings = Surroundings(server)
 
     def look_at(self, scene: Scene) -> None:
         """Have everybody see all of `scene`, from the front."""
         low, high = _bounds(scene)
         middle, size = (low + high) / 2, float(np.linalg.norm(high - low))
+        self._surroundings.around(low, high)
         look(self._server, middle, middle + 0.95 * size * np.array([0.35, -0.85, 0.55]))
 
     def draw(self, session: Session | None, shown: Shown) -> None:
@@ -72,9 +74,7 @@ class View:
         starts = tuple((obj.name, obj.initial_pose, id(obj.asset)) for obj in objects.values())
         scene = None if session is None else session.scene
         at_rest = session is not None and session.at_rest
-        if shown.shadows != self._shadows:
-            self._shadows = shown.shadows
-            self._scene.configure_default_lights(cast_shadow=shown.shadows)
+        self._surroundings.light(shown.shadows)
         self._extra("names", shown.names and scene, poses, self._names)
         self._extra("hulls", shown.hulls and scene, poses, self._hulls)
         self._extra("ghost", shown.ghost and scene, starts, self._ghost)
@@ -92,7 +92,11 @@ class View:
 
     def _place(self, obj: SceneObject) -> None:
         if obj.name not in self._objects:
-            handle = self._scene.add_mesh_trimesh(self._path("objects"), textured_mesh(obj.asset, obj.asset.noun))
+            # One instance of a batch: single meshes have no levels of detail.
+            handle = self._scene.add_batched_glb(
+                self._path("objects"), shapes.glb(obj.asset), ((1.0, 0.0, 0.0, 0.0),), ((0.0, 0.0, 0.0),),
+                lod=shapes.levels(obj.asset) or "off",
+            )  # fmt: skip
             handle.on_click(lambda _, name=obj.name: self._clicked(name))
             self._objects[obj.name] = obj.asset, handle
         _put(self._objects[obj.name][1], obj.pose)
@@ -121,40 +125,29 @@ class View:
 
     def _hulls(self, scene: Scene) -> list[Any]:
         made = []
-        for obj in scene.objects:
-            for number, part in enumerate(obj.parts):
-                handle = self._scene.add_mesh_simple(
-                    self._path("hulls"),
-                    part.vertices.astype(np.float32),
-                    part.faces,
-                    color=HULL_COLOURS[number % len(HULL_COLOURS)],
-                    opacity=0.45,
-                    flat_shading=True,
-                    cast_shadow=False,
-                )
-                _put(handle, obj.pose)
-                made.append(handle)
+        for number, colour in enumerate(HULL_COLOURS):
+            parts = [(obj.pose, one) for obj in scene.objects for one in obj.parts[number :: len(HULL_COLOURS)]]
+            if parts:
+                mesh = shapes.joined((pose, one.vertices, one.faces) for pose, one in parts)
+                made.append(self._see_through("hulls", mesh, colour, 0.45, flat_shading=True))
         return made
 
     def _ghost(self, scene: Scene) -> list[Any]:
-        return [self._shade(obj, obj.initial_pose, GHOST_COLOUR) for obj in scene.objects]
+        return [self._shade([(obj, obj.initial_pose) for obj in scene.objects], GHOST_COLOUR)]
 
     def _before(self, scene: Scene) -> list[Any]:
-        return [self._shade(obj, obj.pose, BEFORE_COLOUR) for obj in scene.objects]
+        return [self._shade([(obj, obj.pose) for obj in scene.objects], BEFORE_COLOUR)]
 
-    def _shade(self, obj: SceneObject, pose: Pose, colour: tuple[int, int, int]) -> Any:
-        """An object that one sees through, at `pose`."""
-        mesh = obj.asset.visual
-        handle = self._scene.add_mesh_simple(
-            self._path("shades"),
-            mesh.vertices.astype(np.float32),
-            mesh.faces,
-            color=colour,
-            opacity=0.3,
-            cast_shadow=False,
+    def _shade(self, objects: list[tuple[SceneObject, Pose]], colour: tuple[int, int, int]) -> Any:
+        mesh = shapes.joined((pose, obj.asset.visual.vertices, obj.asset.visual.faces) for obj, pose in objects)
+        return self._see_through("shades", mesh, colour, 0.3)
+
+    def _see_through(
+        self, what: str, mesh: shapes.Mesh, colour: tuple[int, int, int], opacity: float, **more: Any
+    ) -> Any:
+        return self._scene.add_mesh_simple(
+            self._path(what), *mesh, color=colour, opacity=opacity, cast_shadow=False, **more
         )
-        _put(handle, pose)
-        return handle
 
     def _forces(self, scene: Scene) -> list[Any]:
         from pat3d.check.forces import contact_forces
@@ -212,22 +205,6 @@ class View:
         # Names of objects may have slashes, and a name that comes back must not meet the old one's messages.
         self._made += 1
         return f"/{what}/{self._made}"
-
-
-def ground(server: viser.ViserServer) -> None:
-    """Light, and a grid at height 0 with a line every 0.1 m."""
-    server.scene.set_up_direction("+z")
-    server.scene.configure_default_lights(cast_shadow=False)
-    server.scene.add_grid(
-        "/ground", width=20.0, height=20.0, cell_size=0.1, section_size=1.0, fade_distance=6.0, infinite_grid=True
-    )
-
-
-def look(server: viser.ViserServer, at: np.ndarray, position: np.ndarray) -> None:
-    """Have everybody look from `position` to `at` [m], those who open the page later too."""
-    for camera in (server.initial_camera, *(client.camera for client in server.get_clients().values())):
-        camera.position = position
-        camera.look_at = at
 
 
 def _turned(start: Pose, gizmo: Any) -> Pose:

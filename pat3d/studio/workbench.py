@@ -39,6 +39,15 @@ class Watch:
         self.check()
         self._tell(event)
 
+    def followed(self, hear: Callable[[Event], None]) -> Watch:
+        """One that tells `hear` as well."""
+
+        def tell(event: Event) -> None:
+            self._tell(event)
+            hear(event)
+
+        return Watch(tell, self._cancelled)
+
     def check(self) -> None:
         """Raise CancelledError where the work is to end."""
         if self._cancelled():

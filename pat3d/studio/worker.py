@@ -8,8 +8,9 @@ import tempfile
 import threading
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, Protocol
@@ -67,7 +68,7 @@ class Worker:
                         kind, *said = self._pipe.recv()
                         if kind != "event":
                             break
-                        progress(said[0])
+                        progress(_with_places(*said))
             except (EOFError, BrokenPipeError, ConnectionResetError) as error:
                 self._stop()
                 raise SimulationError(f"the process that did it ended by itself ({job.__name__}).") from error
@@ -144,6 +145,10 @@ def _done(job: Job, arguments: tuple[Any, ...], progress: Progress) -> tuple[str
         return "fault", f"{type(error).__name__}: {error}"
 
 
+def _with_places(event: Event, places: Mapping[str, Any] | None) -> Event:
+    return event if places is None else replace(event, places=lambda: places)
+
+
 class _Told:
     """Sends events, of one stage not more than one a beat."""
 
@@ -154,7 +159,8 @@ class _Told:
         now = time.monotonic()
         if event.stage != self._stage or now - self._last >= BEAT:
             self._stage, self._last = event.stage, now
-            self._pipe.send(("event", event))
+            places = None if event.places is None else event.places()
+            self._pipe.send(("event", replace(event, places=None), places))
 
 
 def _interrupt(*_: Any) -> None:

@@ -178,8 +178,13 @@ def _turned_about(window: Window, caster: Caster, found: list[tuple[_Guess, floa
     best, cost = found[0]
     if cost < window.perfect:
         return found
-    others = [replace(best, yaw=best.yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
-    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in others]
+    quarters = [best.yaw + quarter * math.pi / 2 for quarter in (1, 2, 3)]
+    others = [replace(best, yaw=yaw) for yaw in quarters]
+    if cost > window.expected + EXPLAINED:
+        # Turned by a quarter, what is longer than wide has another size too: only the mask tells which.
+        others += [_aligned(window, caster, start, yaw=yaw) for start in STARTS for yaw in (best.yaw, *quarters)]
+    rough = [_refined(window, caster, other, steps=ROUGH_STEPS, blur=HALFWAY)[0] for other in others]
+    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in rough]
     return sorted([*found, *tried], key=lambda one: one[1])
 
 
@@ -193,6 +198,9 @@ def _judged(
     costs = sorted(((_cost(sharp, caster, one), k) for k, one in enumerate(rivals)))
     closest = [rivals[k] for cost, k in costs if cost < costs[0][0] + NEARLY / 3][:2]
     tried = [_refined(sharp, caster, one, leans=leans, steps=ROUGH_STEPS) for one in closest]
+    if len(tried) > 1 and sharp.expected >= EXPLAINED:
+        # Between noise and noise, what is not quite at its best is worse than its rival.
+        tried = [_settled(sharp, caster, one, leans=leans) for one in tried]
     return min(tried, key=lambda one: one[1])
 
 

@@ -1,7 +1,8 @@
 """What a policy's actions mean, found by comparing them with actions that are known to be right in the same states.
 
 Each part of an action is explained by readings of the right action: as it is, with the gripper flipped, the rotation
-as Euler angles or in degrees, in the frame of the hand, of the world or of the camera, in other units. A reading other
+as Euler angles or in degrees, in the frame of the hand, of the world or of the camera, in other units; of joints, as
+their positions, in degrees, or the other way round. A reading other
 than "as it is" that explains a policy much better is what is connected wrongly. Where no reading explains it, nothing
 is said about it: an untrained policy has no wrong convention.
 """
@@ -9,7 +10,7 @@ is said about it: an untrained policy has no wrong convention.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,13 +42,27 @@ class Compared:
     """Actions of one arm, of a policy and right ones, in the same states."""
 
     given: Array
-    """The policy's, before anything is clipped, shape (n, 7): position, rotation, gripper."""
+    """The policy's, before anything is clipped, shape (n, size): position, rotation, gripper; or joints, gripper."""
     right: Array
-    """The right ones, in [-1, 1], shape (n, 7)."""
+    """The right ones, in [-1, 1], of the same shape."""
     frames: dict[str, Array]
-    """Orientation of other frames in that of the base, shape (n, 3, 3) each."""
-    scale: tuple[float, float]
-    """What an action of 1 asks for [m], [rad]."""
+    """Orientation of other frames in that of the base, shape (n, 3, 3) each; of no use for joints."""
+    scale: tuple[float, ...]
+    """What an action of 1 asks for [m], [rad]; of joints [rad] or [rad/s]."""
+    joints: Array | None = None
+    """Positions of joints that the right actions lead to [rad], shape (n, size - 1); None for control of the hand."""
+    velocity: bool = False
+    """Whether the right actions are velocities of joints."""
+    rate: float = 20.0
+    """Actions a second."""
+
+    @property
+    def parts(self) -> dict[str, slice]:
+        """Where the parts of an action are."""
+        last = self.right.shape[1] - 1
+        if self.joints is not None:
+            return {"joints": slice(0, last), "gripper": slice(last, last + 1)}
+        return {"position": slice(0, 3), "rotation": slice(3, 6), "gripper": slice(6, 7)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +70,7 @@ class Finding:
     """Something that looks wrong."""
 
     part: str
-    """"position", "rotation", "gripper" or "values"."""
+    """"position", "rotation", "joints" or "gripper"."""
     fault: str
     """What it looks like: "flipped", "euler", "degrees", "hand frame", ..."""
     text: str
@@ -69,22 +84,21 @@ Reading = tuple[str, str, Array]
 def examine(compared: Compared) -> list[Finding]:
     """What looks wrong with a policy's actions; nothing where they are as they should be, or like nothing known."""
     found = [
-        *_part("position", compared.given[:, :3], compared.right[:, :3], _positions(compared)),
-        *_part("rotation", compared.given[:, 3:6], compared.right[:, 3:6], _rotations(compared)),
-        *_part("gripper", compared.given[:, 6:], compared.right[:, 6:], _grippers(compared)),
+        finding
+        for name, part in compared.parts.items()
+        for finding in _part(name, compared.given[:, part], compared.right[:, part], _READINGS[name](compared))
     ]
     parts = {one.part for one in found}
-    beyond = np.abs(compared.given) > FAR_OUT
-    names = np.array(["position"] * 3 + ["rotation"] * 3 + ["gripper"])
-    for part in ("position", "rotation", "gripper"):
-        own = beyond[:, names == part].any(axis=1)
+    for part, place in compared.parts.items():
+        given = np.abs(compared.given[:, place])
+        own = (given > FAR_OUT).any(axis=1)
         if part not in parts and own.mean() > OFTEN:
             found.append(
                 Finding(
                     part=part,
                     fault="range",
                     text=f"{part}: {100 * own.mean():.0f} % of the actions are beyond {FAR_OUT:g}, up to "
-                    f"{np.abs(compared.given[:, names == part]).max():.3g}; actions are in [-1, 1]. Is the policy's "
+                    f"{given.max():.3g}; actions are in [-1, 1]. Is the policy's "
                     "output still to be normalised by this suite's scales?",
                 )
             )
@@ -93,10 +107,7 @@ def examine(compared: Compared) -> list[Finding]:
 
 def resemblance(compared: Compared) -> dict[str, float]:
     """Share of each part's values that the right actions explain as they are; 1 for the right actions themselves."""
-    return {
-        name: _explained(compared.given[:, part], compared.right[:, part])
-        for name, part in (("position", slice(0, 3)), ("rotation", slice(3, 6)), ("gripper", slice(6, 7)))
-    }
+    return {name: _explained(compared.given[:, part], compared.right[:, part]) for name, part in compared.parts.items()}
 
 
 def _part(name: str, given: Array, right: Array, readings: Sequence[Reading]) -> list[Finding]:
@@ -170,10 +181,38 @@ def _rotations(compared: Compared) -> list[Reading]:
 
 
 def _grippers(compared: Compared) -> list[Reading]:
-    right = compared.right[:, 6:]
+    right = compared.right[:, -1:]
     told = "positive closes, negative opens"
     return [
         ("flipped", f"flipped; {told}", -right),
         ("0 to 1, closed", f"from 0 (open) to 1 (closed); here {told}, and 0 holds still", (right + 1.0) / 2.0),
         ("0 to 1, open", f"from 0 (closed) to 1 (open); here {told}, and 0 holds still", (1.0 - right) / 2.0),
     ]
+
+
+def _joints(compared: Compared) -> list[Reading]:
+    right, largest, reached = compared.right[:, :-1], compared.scale[0], compared.joints
+    if reached is None:
+        return []
+    told = f"a change of every joint's position, of which 1 is {largest:g} rad"
+    other, way = ("velocities in rad/s", right * largest * compared.rate), "velocities"
+    if compared.velocity:
+        told = f"a velocity of every joint, of which 1 is {largest:g} rad/s"
+        other, way = ("changes of position in rad", right * largest / compared.rate), "changes"
+    return [
+        ("positions", f"positions of the joints in rad; right is {told}", reached),
+        ("positions in degrees", f"positions of the joints in degrees; right is {told}", np.degrees(reached)),
+        ("radians", f"not divided by the scale; right is {told}", right * largest),
+        ("degrees", f"in degrees; right is {told}", np.degrees(right * largest)),
+        (way, f"{other[0]}; right is {told}", other[1]),
+        ("opposite", f"the other way round; right is {told}", -right),
+        ("order", f"in the opposite order of the joints; right is {told}", right[:, ::-1]),
+    ]
+
+
+_READINGS: dict[str, Callable[[Compared], list[Reading]]] = {
+    "position": _positions,
+    "rotation": _rotations,
+    "gripper": _grippers,
+    "joints": _joints,
+}

@@ -7,6 +7,7 @@ them. Robots start with their joints further from home than in evaluations, so t
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,8 +24,7 @@ from pat3d.policies_eval.run.settings import RolloutSettings
 START_NOISE = 0.1
 """Of the robot's posture [rad]."""
 
-SIZE = 7
-"""Values of an action of one arm with control="osc"."""
+CONTROLS = ("osc", "joint_velocity", "joint_position")
 
 
 def compare_actions(
@@ -32,75 +32,104 @@ def compare_actions(
 ) -> Compared:
     """Ask a policy in the states of scripted episodes.
 
+    The scripted policy moves the hand. For control of the joints, right is what moves them as they then move. Of two
+    arms, the actions of the one that does the task are compared.
+
     Args:
         policy: who is asked.
         episodes: whose tasks the scripted policy does.
-        settings: of the environment; control is "osc", and the robot has one arm.
+        settings: of the environment that the policy is for.
         steps: of each episode at most; None for as many as the scripted policy takes.
 
     Raises:
-        EvaluationError: another control, two arms, or a policy that fails or gives no actions.
+        EvaluationError: another control, or a policy that fails or gives no actions.
     """
-    if settings.control != "osc":
-        raise EvaluationError(f'actions are compared with control="osc", not "{settings.control}".')
-    given: list[Any] = []
-    right: list[Any] = []
-    frames: dict[str, list[Any]] = {"hand": [], "world": [], "camera": []}
+    if settings.control not in CONTROLS:
+        raise EvaluationError(f'no control "{settings.control}". Controls: {", ".join(CONTROLS)}.')
+    asked = _Asked(settings)
     for episode in episodes:
-        env = settings.make_env(episode.scene, episode.task, start_noise=START_NOISE)
+        env = replace(settings, control="osc").make_env(episode.scene, episode.task, start_noise=START_NOISE)
         try:
-            if len(env.simulation.world.arms) > 1:
-                raise EvaluationError("actions are compared for robots of one arm.")
-            _ask(env, policy, episode, settings, steps, given, right, frames)
+            asked.ask(env, policy, episode, steps)
         finally:
             env.close()
-    return Compared(
-        given=np.array(given),
-        right=np.array(right),
-        frames={name: np.array(found) for name, found in frames.items()},
-        scale=(LARGEST["osc"][0], LARGEST["osc"][3]),
-    )
+    largest = LARGEST[settings.control]
+    common: dict[str, Any] = {
+        "given": np.array(asked.given),
+        "frames": {name: np.array(found) for name, found in asked.frames.items()},
+        "rate": settings.control_freq,
+    }
+    right, reached = np.array(asked.right), np.array(asked.reached)
+    if settings.control == "osc":
+        return Compared(right=right, scale=(largest[0], largest[3]), **common)
+    velocity = settings.control == "joint_velocity"
+    moved = reached - np.array(asked.joints)
+    moved = np.clip(moved * (settings.control_freq if velocity else 1.0) / largest[0], -1.0, 1.0)
+    right = np.hstack([moved, right[:, -1:]])
+    return Compared(right=right, scale=(largest[0],), joints=reached, velocity=velocity, **common)
 
 
-def _ask(
-    env: Any,
-    policy: Policy,
-    episode: Episode,
-    settings: RolloutSettings,
-    steps: int | None,
-    given: list[Any],
-    right: list[Any],
-    frames: dict[str, list[Any]],
-) -> None:
-    """One episode."""
-    observation, info = env.reset(seed=episode.seed)
-    scripted, world = ScriptedPolicy(), env.simulation.world
-    told: dict[str, Any] = {
-        "instruction": info["instruction"], "task": info["task"], "seed": episode.seed, "robot": settings.robot,
-        "control": settings.control, "action_size": SIZE, "control_freq": settings.control_freq,
-    }  # fmt: skip
-    scripted.reset(EpisodeStart(**told, env=env))
-    _asked(policy.reset, EpisodeStart(**told, env=env if getattr(policy, "privileged", False) else None))
-    data, arm = env.simulation.data, world.arms[0]
-    base = env.simulation.model.site(arm.prefix + arm.robot.base_site).id
-    hand = env.simulation.model.site(arm.prefix + arm.robot.grip_site).id
-    camera = env.simulation.model.camera(CAMERAS[0]).id
-    pending: list[Any] = []
-    success = broken = False
-    for _ in range(steps or env.horizon):
-        if not pending:
-            pending = list(_numbers(_asked(policy.act, observation)))[: settings.replan]
-        given.append(pending.pop(0))
-        action = scripted.act(observation)
-        right.append(np.asarray(action, dtype=np.float64))
-        ours = data.site_xmat[base].reshape(3, 3)
-        frames["hand"].append(ours.T @ data.site_xmat[hand].reshape(3, 3))
-        frames["world"].append(ours.T)
-        # x to the right of the picture, y down, z ahead.
-        frames["camera"].append(ours.T @ data.cam_xmat[camera].reshape(3, 3) @ np.diag([1.0, -1.0, -1.0]))
-        observation, _, success, broken, _ = env.step(action)
-        if success or broken:
-            return
+class _Asked:
+    """What a policy answered, and what would have been right."""
+
+    def __init__(self, settings: RolloutSettings) -> None:
+        self._settings = settings
+        self.given: list[Any] = []
+        self.right: list[Any] = []
+        """For control of the hand."""
+        self.frames: dict[str, list[Any]] = {"hand": [], "world": [], "camera": []}
+        self.joints: list[Any] = []
+        """Before every action [rad]."""
+        self.reached: list[Any] = []
+        """After it [rad]."""
+
+    def ask(self, env: Any, policy: Policy, episode: Episode, steps: int | None) -> None:
+        """One episode, which the scripted policy does."""
+        observation, info = env.reset(seed=episode.seed)
+        scripted, world, simulation = ScriptedPolicy(), env.simulation.world, env.simulation
+        working = world.arm(world.placement.side)
+        size, own = self._sizes(env)
+        told: dict[str, Any] = {
+            "instruction": info["instruction"], "task": info["task"], "seed": episode.seed,
+            "robot": self._settings.robot, "control_freq": self._settings.control_freq,
+        }  # fmt: skip
+        whole = simulation.controller.size
+        scripted.reset(EpisodeStart(**told, control="osc", action_size=whole, env=env))
+        privileged = env if getattr(policy, "privileged", False) else None
+        start = EpisodeStart(**told, control=self._settings.control, action_size=size, env=privileged)
+        _asked(policy.reset, start)
+        data = simulation.data
+        base = simulation.model.site(working.prefix + working.robot.base_site).id
+        hand = simulation.model.site(working.prefix + working.robot.grip_site).id
+        camera = simulation.model.camera(CAMERAS[0]).id
+        pending: list[Any] = []
+        for _ in range(steps or env.horizon):
+            if not pending:
+                pending = list(_numbers(_asked(policy.act, observation), size))[: self._settings.replan]
+            self.given.append(pending.pop(0)[own])
+            action = scripted.act(observation)
+            self.right.append(np.asarray(action, dtype=np.float64)[simulation.part()])
+            ours = data.site_xmat[base].reshape(3, 3)
+            self.frames["hand"].append(ours.T @ data.site_xmat[hand].reshape(3, 3))
+            self.frames["world"].append(ours.T.copy())
+            # x to the right of the picture, y down, z ahead.
+            self.frames["camera"].append(ours.T @ data.cam_xmat[camera].reshape(3, 3) @ np.diag([1.0, -1.0, -1.0]))
+            self.joints.append(simulation.arm.copy())
+            observation, _, success, broken, _ = env.step(action)
+            self.reached.append(simulation.arm.copy())
+            if success or broken:
+                return
+
+    def _sizes(self, env: Any) -> tuple[int, slice]:
+        """Values of a whole action under the policy's control, and where those of the working arm are."""
+        if self._settings.control == "osc":
+            return env.simulation.controller.size, env.simulation.part()
+        at, own = 0, slice(0, 0)
+        for arm in env.simulation.world.arms:
+            size = len(arm.robot.arm_joints) + 1
+            own = slice(at, at + size) if arm.side == env.placement.side else own
+            at += size
+        return at, own
 
 
 def _asked(method: Callable[[Any], Any], value: Any) -> Any:
@@ -113,14 +142,14 @@ def _asked(method: Callable[[Any], Any], value: Any) -> Any:
         raise EvaluationError(f"the policy failed: {type(error).__name__}: {error}") from error
 
 
-def _numbers(answer: Any) -> Any:
-    """A policy's answer as it is, out of range or not, shape (n, 7)."""
+def _numbers(answer: Any, size: int) -> Any:
+    """A policy's answer as it is, out of range or not, shape (n, size)."""
     if hasattr(answer, "detach"):
         answer = answer.detach().cpu().numpy()
     values = np.atleast_2d(np.asarray(answer, dtype=np.float64))
-    if values.ndim != 2 or values.shape[1] != SIZE or not len(values):
+    if values.ndim != 2 or values.shape[1] != size or not len(values):
         raise EvaluationError(
-            f"the policy gives actions of shape {np.shape(answer)}; valid are ({SIZE},) and (n, {SIZE})."
+            f"the policy gives actions of shape {np.shape(answer)}; valid are ({size},) and (n, {size})."
         )
     if not np.isfinite(values).all():
         raise EvaluationError("the policy gives actions that hold NaN or infinite values.")

@@ -46,7 +46,9 @@ class Surveyed:
     @staticmethod
     def from_json(data: dict[str, Any]) -> Surveyed:
         """From what `to_json` gave."""
-        kept = {name: tuple(value) if isinstance(value, list) else value for name, value in data.items()}
+        kept: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value for name, value in data.items()
+        }
         return Surveyed(**kept)
 
     def least_seen(self, camera: str) -> float:
@@ -90,7 +92,7 @@ def look(suite: Suite, entry: Entry) -> Surveyed:
         env.reset(seed=0)
         scene = env.scene
         moved = tuple(env.task.needs(scene).grasp)
-        named = tuple(dict.fromkeys((*moved, *(name for name in entry.task.split(":")[1:]))))
+        named = tuple(dict.fromkeys((*moved, *env.task.names)))
         kinds = {rel.child: rel.kind for rel in scene.relations if rel.supports}
         seen = {camera: _shares(env, camera, named) for camera in VIEWS}
         best = [env.placement.grasps[name][0] for name in moved]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,30 @@ def suite_interface(suite: Suite) -> dict[str, Any]:
             **describe(env),
             "statistics": None,
         }
+    finally:
+        env.close()
+
+
+def cameras_of_scenes(
+    suite: Suite, tell: Callable[[int, int], None] = lambda done, of: None
+) -> dict[str, dict[str, Any]]:
+    """The fixed cameras of every scene, by its place in the suite; each stands where its task is in view.
+
+    Args:
+        suite: a complete one.
+        tell: told how many scenes are done, of how many.
+    """
+    from pat3d.envs.env import TabletopEnv
+    from pat3d.envs.interface import cameras
+
+    env = TabletopEnv(suite=suite.folder.path, max_objects=suite.most_objects)
+    found = {}
+    try:
+        for number, entry in enumerate(suite.entries):
+            env.reset(seed=0, options={"index": number})
+            found[str(entry.place)] = {name: one for name, one in cameras(env).items() if one["moves_between_scenes"]}
+            tell(number + 1, len(suite.entries))
+        return found
     finally:
         env.close()
 

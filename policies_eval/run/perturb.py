@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.envs.physics.lights import paint_sky
+from pat3d.envs.physics.lights import Sky
 from pat3d.envs.physics.world import FLOOR, SUPPORT
 from pat3d.envs.tasks.paraphrase import politely
 from pat3d.errors import EvaluationError
@@ -121,7 +121,7 @@ class Perturber:
     def __init__(self, env: Any) -> None:
         self._env = env
         self._kept: tuple[Any, dict[str, Array], dict[str, Any]] | None = None
-        self._sky: Array | None = None
+        self._sky: Sky | None = None
         """Of a model whose background was changed."""
 
     def apply(self, perturbation: Perturbation, seed: int) -> dict[str, Any]:
@@ -145,7 +145,7 @@ class Perturber:
             return
         model, values, statistics = self._kept
         if self._sky is not None:
-            paint_sky(model, self._sky)
+            self._sky.restore()
             self._env.close()
             self._sky = None
         for name, value in values.items():
@@ -206,11 +206,11 @@ class Perturber:
 
     def _background(self, strength: float, random: np.random.Generator) -> dict[str, list[float]]:
         model, drawn = self._env.simulation.model, {}
-        self._sky = np.array(model.vis.rgba.fog[:3], dtype=np.float64)
+        self._sky = Sky(model)
         for name in BACKDROP:
             drawn[name] = random.uniform(size=3).tolist()
             if name == "sky":
-                paint_sky(model, (1.0 - strength) * self._sky + strength * np.array(drawn[name]))
+                self._sky.paint((1.0 - strength) * self._sky.colour + strength * np.array(drawn[name]))
             elif (number := _material(model, name)) >= 0:
                 colour = model.mat_rgba[number, :3]
                 model.mat_rgba[number, :3] = (1.0 - strength) * colour + strength * np.array(drawn[name])

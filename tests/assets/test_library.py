@@ -298,6 +298,22 @@ def test_a_sentence_names_library_objects_before_the_catalogues(home):
     assert all("/" not in obj.noun for obj in plain.objects)
 
 
+def test_names_with_adjectives_are_names_and_kinds_are_nouns(tmp_path, monkeypatch):
+    """The large clamp of a set is not made larger still; a salad bowl has an inside, since the catalogue's has."""
+    monkeypatch.setenv("PAT3D_DATA", str(tmp_path / "data"))
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "objects").mkdir()
+    for name in ("large_clamp", "small_salad_bowl"):
+        textured_box(tmp_path / "objects" / name)
+    add_library(tmp_path / "objects", "lab", workers=1)
+    planner = GrammarPlanner(vocabulary=known_names(["lab"]))
+    plan = planner.plan("a large clamp beside an apple in a small salad bowl on a table")
+    found = {one.noun: one for one in plan.objects}
+    assert found["lab/large_clamp"].scale == found["lab/small_salad_bowl"].scale == 1.0
+    assert not any("inside" in note for note in plan.notes)
+    assert planner.plan("a small dog on a table").objects[0].scale < 1.0
+
+
 def test_sources_answer_alike(home):
     found = sources.find("cracker box", sources.sources(["lab"]))
     assert [one.noun for one in found[:2]] == ["lab/cracker_box", "cracker box"]

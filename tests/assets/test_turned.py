@@ -57,7 +57,7 @@ def test_base_keeps_its_outline():
     hulls = parts_of(BOTTLE)
     points = np.concatenate(hulls)
     base = points[points[:, 2] < 1e-9]
-    assert np.hypot(base[:, 0], base[:, 1]).max() - 0.030 <= 2.2 * EXACT
+    assert np.hypot(base[:, 0], base[:, 1]).max() - 0.030 <= EXACT
     (can,) = parts_of(CAN)
     assert np.hypot(can[:, 0], can[:, 1]).max() - 0.033 <= EXACT
 

@@ -1,11 +1,14 @@
 """Which axis of a bare mesh points up: by rest, proportions, hollows and origin; what is unsure is flagged."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
 
-from pat3d.assets.library.body import Body, of_mesh
+from pat3d.assets.library.body import Body, Inertial, of_mesh
 from pat3d.assets.library.guess import SURE, Typical
+from pat3d.assets.library.indexing import _centre
 from pat3d.assets.library.metadata import _axis
 from pat3d.assets.library.resting import resting_poses, standing
 from pat3d.assets.library.upright import guess_up
@@ -92,3 +95,27 @@ def test_what_stands_on_too_little_is_laid_where_it_stands_steadily():
 def test_the_margin_of_a_box_is_its_closed_form():
     upright = next(rest for rest in resting_poses(trimesh.creation.box((0.1, 0.06, 0.3)).vertices) if rest.tilt < 1.0)
     assert upright.margin == pytest.approx(np.degrees(np.arctan2(0.03, 0.15)), rel=1e-9)
+
+
+def test_what_an_object_rests_on_depends_on_where_its_own_mass_is():
+    """A plate with a heavy block under one end: the hull's centre of mass is over the block's edge, its own is not."""
+    block, plate = trimesh.creation.box((0.04, 0.04, 0.08)), trimesh.creation.box((0.14, 0.04, 0.004))
+    plate.apply_translation((0.05, 0.0, 0.042))
+    mesh = trimesh.util.concatenate([block, plate])
+    body = body_of(mesh, "z")
+    volumes = np.array([block.volume, plate.volume])
+    centre = _centre(body, 1.0)
+    assert centre == pytest.approx(volumes @ [[0.0, 0.0, 0.0], [0.05, 0.0, 0.042]] / volumes.sum(), abs=1e-12)
+    points = np.asarray(mesh.vertices)
+    assert min(rest.tilt for rest in resting_poses(points)) > 10.0
+    upright = min(resting_poses(points, centre=centre), key=lambda rest: rest.tilt)
+    assert upright.tilt < 1e-6
+    assert upright.margin == pytest.approx(np.degrees(np.arctan2(0.02 - centre[0], centre[2] + 0.04)), rel=1e-6)
+    said = replace(body, inertial=Inertial(mass=1.0, centre=np.array([0.01, 0.0, 0.0])))
+    assert _centre(said, 1.0) == pytest.approx([0.01, 0.0, 0.0])
+    assert _centre(replace(body, inertial=Inertial(mass=1.0, centre=np.full(3, 9.0))), 1.0) == pytest.approx(centre)
+
+
+def test_an_open_sheet_has_no_centre_of_mass():
+    sheet = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0.01)], [(0, 1, 2), (1, 3, 2)], process=False)
+    assert _centre(body_of(sheet, "z"), 1.0) is None

@@ -6,7 +6,8 @@ import pytest
 
 from pat3d.assets.shapes import box
 from pat3d.envs.tasks.naming import called, spoken
-from pat3d.envs.tasks.registry import parse_task
+from pat3d.envs.tasks.paraphrase import POLITE, WORDINGS, politely
+from pat3d.envs.tasks.registry import TASKS, parse_task
 from pat3d.scene.model import Relation, Scene
 from tests.scenes import asset_of, placed, scene_of
 
@@ -75,3 +76,41 @@ def test_no_words_mean_two_objects():
 )
 def test_instructions_use_them(here: Scene, task: str, instruction: str):
     assert parse_task(task).instruction(here) == instruction
+
+
+TRAY = scene(("cup 1", "on", "tray"), others=("cup 2", "lid"))
+
+
+@pytest.mark.parametrize(
+    ("task", "named"),
+    [
+        ("pick:cup 1", ("the cup on the tray",)),
+        ("place:lid:tray", ("the lid", "the tray")),
+        ("stack:lid:cup 1", ("the lid", "the cup on the tray")),
+        ("unload:tray", ("the tray",)),
+    ],
+)
+def test_every_wording_names_the_same_objects_in_other_words(task: str, named: tuple[str, ...]):
+    wordings = parse_task(task).wordings(TRAY)
+    assert wordings[0] == parse_task(task).instruction(TRAY)
+    assert len(set(wordings)) == len(wordings) >= 4
+    for text in wordings:
+        assert all(text.count(words) >= 1 for words in named), text
+        assert "{" not in text
+
+
+def test_no_wording_of_one_task_is_a_wording_of_another():
+    """Of tasks that a scene allows side by side: what is said means one of them."""
+    tasks = ["pick:cup 1", "pick:lid", "place:lid:tray", "stack:lid:cup 1", "unload:tray", "retrieve:tray"]
+    said = [text for task in tasks for text in parse_task(task).wordings(TRAY)]
+    assert len(set(said)) == len(said)
+
+
+@pytest.mark.parametrize("kind", sorted(WORDINGS))
+def test_every_kind_of_task_is_said_in_four_ways_at_least(kind: str):
+    assert len(set(WORDINGS[kind])) >= 4
+    assert len(set(politely("go"))) == len(POLITE)
+
+
+def test_every_kind_of_task_has_wordings():
+    assert {*WORDINGS, "chain"} == set(TASKS)

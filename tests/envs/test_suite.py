@@ -432,7 +432,14 @@ class Flipped(ScriptedPolicy):
 
 
 def test_the_description_and_a_policy_s_conventions_are_documents(copy, capsys):
-    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0"], SpecFacts)
+    written = document_of(capsys, ["suite", "spec", str(copy), "--episodes", "0", "--cameras"], SpecFacts)
+    told = json.loads((copy / "spec.json").read_text())
+    assert written["scenes"] == len(told["cameras_of_scenes"]) == 4
+    assert set(told["cameras_of_scenes"]["3"]) == {"agentview", "frontview", "closeview"}
+    # Those of the first scene are the suite's own.
+    assert all(told["cameras"][name] == one for name, one in told["cameras_of_scenes"]["0"].items())
+    places = [tuple(one["closeview"]["position"]) for one in told["cameras_of_scenes"].values()]
+    assert len(set(places)) == 4
     assert Path(written["file"]).is_file()
     asked = ["suite", "check-policy", str(copy), "--policy", "scripted", "--episodes", "1", "--steps", "8"]
     found = document_of(capsys, asked, ConventionFacts)

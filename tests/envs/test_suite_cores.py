@@ -11,8 +11,15 @@ from pat3d.envs.suites import check
 from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.structures import CORES, Core
+from pat3d.envs.tasks.registry import parse_task
 
 KNOWN = [(kind, core) for kind, cores in CORES.items() for core in cores]
+
+
+def named(spec: str) -> list[str]:
+    """The kind of a task and the objects that it names."""
+    task = parse_task(spec)
+    return [task.kind, *task.names]
 
 
 def built(core: Core, count: int = 8) -> list[tuple[Composer, list[str]]]:
@@ -22,7 +29,7 @@ def built(core: Core, count: int = 8) -> list[tuple[Composer, list[str]]]:
     for seed in range(10 * count):
         composer = Composer(np.random.default_rng(seed), moved=nouns, others=nouns)
         try:
-            found.append((composer, core.build(composer).split(":")))
+            found.append((composer, named(core.build(composer))))
         except ExhaustedError:
             continue
         if len(found) == count:

@@ -63,3 +63,26 @@ def test_links_that_have_nothing_but_what_collides_are_drawn(arm):
     of_robot = (world.owner == ROBOT) & (model.geom_bodyid > 0)
     assert set(model.geom_bodyid[of_robot]) == set(model.geom_bodyid[of_robot & (model.geom_group < DRAWN_GROUPS)])
     env.close()
+
+
+@pytest.mark.parametrize("task", ["place:green apple:blue bowl"])
+def test_what_a_task_is_about_is_large_in_the_close_camera(arm, task):
+    """Half a percent of the picture at least, many times what the agent's camera shows of it, and nothing cut off."""
+    env = TabletopEnv(robot=arm, task=task)
+    env.reset(seed=0)
+    names = [obj.name for obj in env.scene.objects]
+
+    def shares(camera):
+        labels = env.pictures.take(camera, SIDE, SIDE, segmentation=True).segmentation
+        assert labels is not None
+        return labels, {name: float((labels == 2 + names.index(name)).mean()) for name in task.split(":")[1:]}
+
+    labels, close = shares("closeview")
+    _, wide = shares("agentview")
+    for name, share in close.items():
+        assert share >= 0.005
+        assert share > 2 * wide[name]
+    target = labels == 2 + names.index(task.split(":")[1])
+    assert not target[[0, -1]].any()
+    assert not target[:, [0, -1]].any()
+    env.close()

@@ -69,7 +69,7 @@ PLANTED = [
     ("urdf", MUG, r'<drake:mu_dynamic value="(\S+)"', "friction"),
     ("urdf", "objects/wooden_table/part_000.obj", r"v (\S+) ", "volume of hulls"),
     ("sdf", "scene.sdf", r'<model name="wooden_table".*?<collision.*?<size>(\S+) ', "volume of hulls"),
-    ("urdf", "objects/ball/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("urdf", "objects/ball/part_003.obj", r"v (\S+) ", "volume of hulls"),
     ("urdf", "manifest.json", r'"position": \[\s*(0\.1),', "stands elsewhere"),
     ("urdf", "scene.dmd.yaml", r"translation: \[(0\.1),", "stands elsewhere"),
     (

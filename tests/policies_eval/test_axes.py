@@ -144,16 +144,20 @@ def test_another_background_is_seen_and_taken_back(runner, episode):
         return runner.env.pictures.take("frontview", 64, 64, segmentation=True)
 
     runner.start(episode)
-    before = picture()
+    model = runner.env.simulation.model
+    before, texels, fog = picture(), model.tex_data.copy(), np.array(model.vis.rgba.fog)
     plain = before.segmentation == 0
     _, _, drawn = runner.start(replace(episode, perturbation=Perturbation(background=1.0)))
     assert set(drawn["background"]) == {"bench", "ground", "sky"}
     changed = picture()
+    assert (model.tex_data != texels).any(), "the sky that OpenGL draws"
     differ = np.abs(changed.image.astype(int) - before.image).max(axis=2)
     assert (differ[plain] > 10).mean() > 0.9
     assert differ[~plain].max() == 0
     runner.start(episode)
     np.testing.assert_array_equal(picture().image, before.image)
+    np.testing.assert_array_equal(model.tex_data, texels)
+    np.testing.assert_array_equal(model.vis.rgba.fog, fog)
 
 
 def test_one_command_evaluates_along_axes(tmp_path, capsys, monkeypatch):

@@ -139,8 +139,8 @@ def test_values_that_are_not_normalised_are_told_with_how_large_they_are(right):
 
 
 def test_what_cannot_be_compared_is_refused(settings):
-    with pytest.raises(EvaluationError, match='control="osc"'):
-        compare_actions(RandomPolicy(), EPISODES, replace(settings, control="joint_position"))
+    with pytest.raises(EvaluationError, match="Controls: osc, joint_velocity, joint_position"):
+        compare_actions(RandomPolicy(), EPISODES, replace(settings, control="torque"))
 
     class Short:
         def reset(self, episode): ...
@@ -162,3 +162,83 @@ def test_what_cannot_be_compared_is_refused(settings):
 def test_still_actions_say_nothing():
     still = Compared(given=np.zeros((20, 7)), right=np.zeros((20, 7)), frames={}, scale=(0.05, 0.5))
     assert examine(still) == []
+
+
+class Joints:
+    """Moves the joints as the scripted hand does, which is known from the run before; changed by a fault."""
+
+    def __init__(self, known: Compared, change) -> None:
+        assert known.joints is not None
+        self._answers = iter(change(known.right.copy(), known.joints))
+
+    def reset(self, episode) -> None:
+        self.size = episode.action_size
+
+    def act(self, observation):
+        answer = next(self._answers)
+        assert answer.shape == (self.size,)
+        return answer
+
+
+def scaled(factor):
+    return lambda right, joints: np.hstack([factor * right[:, :-1], right[:, -1:]])
+
+
+JOINT_FAULTS = {
+    "joint_position": [
+        (scaled(1.0), set()),
+        (lambda right, joints: np.hstack([joints, right[:, -1:]]), {("joints", "positions")}),
+        (lambda right, joints: np.hstack([np.degrees(joints), right[:, -1:]]), {("joints", "positions in degrees")}),
+        (scaled(0.05), {("joints", "radians")}),
+        (scaled(-1.0), {("joints", "opposite")}),
+        (
+            lambda right, joints: np.hstack([right[:, -2::-1], -right[:, -1:]]),
+            {("joints", "order"), ("gripper", "flipped")},
+        ),
+    ],
+    "joint_velocity": [
+        (scaled(1.0), set()),
+        (scaled(0.5 / 20.0), {("joints", "changes")}),
+        (scaled(np.degrees(0.5)), {("joints", "degrees")}),
+    ],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("control", sorted(JOINT_FAULTS))
+def test_faults_of_actions_of_joints_are_recognised(settings, control):
+    asked = replace(settings, control=control)
+    joints = len(RandomJoints.known(settings))
+    known = compare_actions(RandomJoints(joints + 1), EPISODES[:1], asked)
+    assert known.right.shape[1] == joints + 1
+    assert np.abs(known.right).max() <= 1.0
+    for change, expected in JOINT_FAULTS[control]:
+        compared = compare_actions(Joints(known, change), EPISODES[:1], asked)
+        np.testing.assert_array_equal(compared.right, known.right)
+        assert {(one.part, one.fault) for one in examine(compared)} == expected
+
+
+class RandomJoints(RandomPolicy):
+    """As many values as there are joints."""
+
+    def __init__(self, size: int) -> None:
+        self.wanted = size
+
+    def reset(self, episode) -> None:
+        assert (episode.action_size, episode.control != "osc") == (self.wanted, True)
+        super().reset(episode)
+
+    @staticmethod
+    def known(settings) -> tuple[str, ...]:
+        """Joints of the arm."""
+        from pat3d.envs.robots.arms import make_robot
+
+        return make_robot(settings.robot).arm_joints
+
+
+def test_of_two_arms_the_one_that_does_the_task_is_compared(settings):
+    """The other one holds still, whatever its values would mean."""
+    pair = replace(settings, robot=f"{settings.robot}+{settings.robot}")
+    compared = compare_actions(RandomPolicy(), EPISODES[:1], pair, 5)
+    assert compared.right.shape == compared.given.shape == (5, 7)
+    assert np.abs(compared.right).max() > 0.01

@@ -69,6 +69,14 @@ def test_a_sentence_becomes_a_scene(studio, browser, shot):
     assert {"red mug", "cutting board"} <= {obj.name for obj in needed(studio.bench.session).scene.objects}
 
 
+def test_where_the_processor_draws_edges_are_not_smoothed(browser):
+    wishes = browser.evaluate(
+        "document.querySelector('canvas[data-engine]').getContext('webgl2').getContextAttributes()"
+    )
+    assert wishes["antialias"] is False
+    assert wishes["preserveDrawingBuffer"] is True
+
+
 def test_a_click_selects_what_is_under_it(studio, browser, shot):
     scene = needed(studio.bench.session).scene
     # The camera is told of in its own time.
@@ -80,7 +88,7 @@ def test_a_click_selects_what_is_under_it(studio, browser, shot):
     browser.get_by_text("asked for as").wait_for()
 
 
-def test_a_drag_moves_it_and_settling_proves_it_again(studio, browser, shot):
+def test_a_drag_moves_it_and_settling_proves_it_again(studio, browser, shot, monkeypatch):
     session = needed(studio.bench.session)
     mug = session.scene["red mug"]
     before = np.array(mug.pose.position)
@@ -95,8 +103,13 @@ def test_a_drag_moves_it_and_settling_proves_it_again(studio, browser, shot):
     until(lambda: not needed(studio.bench.session).at_rest or studio.bench.status.failed)
     assert not studio.bench.status.failed, studio.bench.status.said
     browser.get_by_text("1 edit to be settled").wait_for()
+    seen, view = [], studio.page._view
+    show = view.pose
+    monkeypatch.setattr(view, "pose", lambda poses: (seen.append(poses["red mug"].position), show(poses)))
     browser.get_by_role("button", name="Settle").click()
     browser.get_by_text("settled and verified").wait_for()
+    # It was shown on its way.
+    assert len({round(position[2], 7) for position in seen}) > 1
     after = np.array(needed(studio.bench.session).scene["red mug"].pose.position)
     assert 0.01 < before[0] - after[0] < 0.06
     assert abs(before[1] - after[1]) < 0.01

@@ -1,5 +1,6 @@
 """Nobody passes the gate without the token, and with its cookie everything passes."""
 
+import gzip
 import http.client
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -7,6 +8,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 
 from pat3d.studio.gate import COOKIE, Gate, is_loopback
+from pat3d.studio.page import LOADING, PLAINER, page
 
 TOKEN = "a-token-that-is-secret"
 
@@ -104,3 +106,28 @@ def test_without_a_token_only_its_own_page_passes(open_gate):
 @pytest.mark.parametrize(("host", "local"), [("127.0.0.1", True), ("localhost", True), ("0.0.0.0", False), ("", False)])
 def test_only_the_loopback_needs_no_token(host, local):
     assert is_loopback(host) is local
+
+
+@pytest.fixture(scope="module")
+def paged(gate):
+    made = Gate("127.0.0.1", 0, inner=gate.inner, token=TOKEN, page=lambda: gzip.compress(b"the page"))
+    yield made
+    made.close()
+
+
+def test_who_passes_gets_the_page_and_everything_else_from_within(paged):
+    known = {"Cookie": f"{COOKIE}={TOKEN}", "Accept-Encoding": "gzip"}
+    answer, body = get(paged, "/?fixedDpr=1", **known)
+    assert (answer.status, answer.headers["Content-Encoding"]) == (200, "gzip")
+    assert gzip.decompress(body) == b"the page"
+    assert get(paged, "/else.js", **known)[1] == b"x" * 300_000
+    # A program that does not know gzip gets what is within.
+    assert get(paged, "/", Cookie=known["Cookie"])[1] == b"x" * 300_000
+    assert get(paged, "/", **{"Accept-Encoding": "gzip"})[0].status == 401
+
+
+def test_the_page_is_that_of_viser_and_two_things_more():
+    pytest.importorskip("viser")
+    html = gzip.decompress(page()).decode()
+    assert html.count(PLAINER) == html.count(LOADING) == 1
+    assert html.index(PLAINER) < html.index("</head>") < html.index(LOADING)

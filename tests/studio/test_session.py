@@ -1,5 +1,6 @@
 """Sessions are values: every step gives another one, and undo gives back the very state before."""
 
+import numpy as np
 import pytest
 
 from pat3d.errors import EditError
@@ -84,7 +85,13 @@ def test_a_drag_into_something_is_refused_with_the_reason(session):
 def test_settling_verifies_and_can_be_undone(session):
     edited = session.edited("move", "brick: 2 cm left")
     assert edited.verification == {}
-    settled = edited.settled()
+    places = []
+    settled = edited.settled(lambda event: places.append(event.places()) if event.places else None)
+    # Whoever watches sees the brick come down from where it was put to where it stays.
+    heights = [poses["brick"].position[2] for poses in places]
+    assert edited.scene["brick"].pose.position[2] > heights[0] > heights[-1]
+    for name in ("board", "brick", "block"):
+        assert np.allclose(places[-1][name].position, settled.scene[name].pose.position, atol=1e-5)
     assert settled.at_rest
     assert settled.verification["passed"]
     assert settled.verification["certificate"]["worst"] < 1e-3

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from pat3d.errors import EditError, SimulationError
+from pat3d.geometry.pose import Pose
 from pat3d.progress import Event
 from pat3d.studio.session import Session
 from pat3d.studio.workbench import CancelledError, Watch, Workbench, needed
@@ -17,6 +18,12 @@ from tests.studio.bricks import bricks_in
 def number(*, progress):
     progress(Event(stage="counting", step=0, steps=1))
     return os.getpid()
+
+
+def moving(*, progress):
+    height = 2.0
+    progress(Event(stage="falling", step=0, places=lambda: {"brick": Pose(position=(0.0, 0.0, height))}))
+    height = 1.0
 
 
 def endless(folder, *, progress):
@@ -51,6 +58,13 @@ def lives(pid: int) -> bool:
     except ProcessLookupError:
         return False
     return True
+
+
+def test_where_objects_are_in_a_step_comes_with_its_event(worker):
+    heard = []
+    worker.run(moving, progress=heard.append)
+    (event,) = heard
+    assert event.places() == {"brick": Pose(position=(0.0, 0.0, 2.0))}
 
 
 def test_a_job_is_done_in_another_process_which_stays(worker):

@@ -1,4 +1,4 @@
-"""Masks that end early, measured by the depth beside them, against masks that were eroded by a known number of pixels."""
+"""Masks that end early, measured by the depth beside them, against masks eroded by a known number of pixels."""
 
 from dataclasses import replace
 

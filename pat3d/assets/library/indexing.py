@@ -52,6 +52,10 @@ DENSITIES = (15.0, 12_000.0)
 MISSED = 0.05
 """Share of the longest side by which a picture may reach beyond its collision shapes for them to be meant for it."""
 
+LEAST_FILLED, OPEN = 0.01, 0.01
+"""A mesh's centre of mass is known where it encloses this share of its bounding box at least, and its area vectors
+add up to this share of its area at most."""
+
 STICKS_OUT = 1e-4
 """By how much [m] a picture may stick out of the convex parts."""
 
@@ -91,6 +95,8 @@ def index_object(
         said = tuple(each.lower() for each in settings["names"])
         name, synonyms = said[0], tuple(dict.fromkeys((*said[1:], *synonyms)))
         like = next((each for each in (*said, like) if each in known), "")
+    # What the reader of sentences knows of kinds it knows by nouns, not by synonyms: a salad bowl is a fruit bowl.
+    like = kind.noun if like and (kind := lookup.find(like)) is not None else like
     base = Entry(
         key=key, name=name, synonyms=synonyms, like=like, path=str(found.path.relative_to(root)), kind=found.kind,
         state="refused", settings=dict(settings), metadata=metadata.digest, files=hashes([found.path], root),
@@ -191,7 +197,8 @@ def _made(
     ]
     turn = np.array(TO_Z_UP[axis_of(up)], dtype=np.float64)
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T * metres
-    rests = resting_poses(used)
+    centre = _centre(body, metres)
+    rests = resting_poses(used, centre=None if centre is None else turn @ centre)
     turn, told = (turn, "") if up.source == "given" else standing(turn, rests)
     doubts += [told] if told else []
     used = body.mesh.vertices[np.unique(body.mesh.faces)] @ turn.T
@@ -284,6 +291,29 @@ def _made(
         "notes": [*record["notes"], *body.notes, *record["repairs"]],
     }  # fmt: skip
     return asset, facts, doubts
+
+
+def _centre(body: Body, metres: float) -> Points | None:
+    """Centre of mass [m] in the file's axes: the declared one, else that of what the mesh encloses; None for nothing.
+
+    Args:
+        body: the object.
+        metres: of a unit of its mesh.
+    """
+    used = body.mesh.vertices[np.unique(body.mesh.faces)] * metres
+    low, high = used.min(axis=0), used.max(axis=0)
+    given = body.inertial
+    if given is not None and given.centre is not None and not fault(given, low, high):
+        return given.centre
+    corners = body.mesh.vertices[body.mesh.faces] * metres - low
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    volumes = np.linalg.det(corners) / 6.0
+    # The areas of a closed surface add up to nothing; of an open one the sums below depend on the origin.
+    open_share = np.linalg.norm(areas.sum(axis=0)) / np.linalg.norm(areas, axis=1).sum()
+    if open_share > OPEN or abs(volumes.sum()) < LEAST_FILLED * np.prod(high - low):
+        return None
+    centre = volumes @ corners.sum(axis=1) / (4.0 * volumes.sum())
+    return low + centre if ((centre > 0.0) & (centre < high - low)).all() else None
 
 
 def _missed(hulls: list[Points], points: Points) -> float:

@@ -13,6 +13,7 @@ from pat3d.assets.library.body import Points
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import mass_properties
+from pat3d.geometry.planes import planes
 from pat3d.geometry.rotations import quat_of
 from pat3d.scene.physics import LEAST_TILT
 
@@ -48,8 +49,10 @@ class Rest:
     """Tilt of the ground that upsets it [degrees]."""
 
 
-def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
-    """Stable poses of a body of uniform density that fills the hull of `points` [m], shape (n, 3), likeliest first.
+def resting_poses(points: Points, least: float = 0.01, centre: Points | None = None) -> tuple[Rest, ...]:
+    """Stable poses of a body whose hull is that of `points` [m], shape (n, 3), likeliest first.
+
+    Its centre of mass [m], shape (3,), is `centre`; None for that of a body of uniform density that fills the hull.
 
     Poses within TOGETHER of a likelier one count as that one, the base of a scan being many faces, nearly level; where
     it is not steady, the steadiest of them stands for all. What is left out is less likely than `least` and more than
@@ -61,10 +64,11 @@ def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
     import trimesh
 
     hull = convex_part(points)
-    if len(hull.vertices) > MOST_POINTS:
-        hull = convex_part(_thinned(hull.vertices))
-    body = trimesh.Trimesh(hull.vertices, hull.faces, process=False)
-    centre = np.array(mass_properties(hull.vertices, hull.faces, mass=1.0).centre_of_mass)
+    if centre is None:
+        centre = np.array(mass_properties(hull.vertices, hull.faces, mass=1.0).centre_of_mass)
+    sides = planes(hull)
+    thin = convex_part(_thinned(hull.vertices)) if len(hull.vertices) > MOST_POINTS else hull
+    body = trimesh.Trimesh(thin.vertices, thin.faces, process=False)
     try:
         # Faces that are nearly coplanar make it take the square root of nothing, which costs a face its chance.
         with np.errstate(invalid="ignore"):
@@ -77,7 +81,7 @@ def resting_poses(points: Points, least: float = 0.01) -> tuple[Rest, ...]:
     near = math.cos(math.radians(TOGETHER))
     groups = list[list[tuple[Points, float]]]()
     for index in np.argsort(-chances):
-        up = transforms[index][2, :3] / np.linalg.norm(transforms[index][2, :3])
+        up = _rolled(sides, centre, transforms[index][2, :3] / np.linalg.norm(transforms[index][2, :3]))
         group = next((one for one in groups if up @ one[0][0] > near), None)
         if group is None:
             groups.append(group := [])
@@ -118,6 +122,23 @@ def standing(turn: Points, rests: Sequence[Rest]) -> tuple[Points, str]:
         return turned, ""
     why = f"it does not rest as its file has it, or not steadily; turned by {chosen.tilt:.0f} degrees to where it does"
     return turned, f"pose: {why}"
+
+
+def _rolled(sides: Points, centre: Points, up: Points) -> Points:
+    """Upward direction in which a body of `planes` [m] comes to rest that is put down with `up` upwards.
+
+    It rolls over the edges of the face below its centre of mass, which sinks, until that face carries it.
+    """
+    level = np.inf
+    for _ in range(len(sides)):
+        falling = -(sides[:, :3] @ up)
+        depth = -(sides[:, :3] @ centre + sides[:, 3])
+        along = np.where(falling > 1e-12, depth / np.maximum(falling, 1e-12), np.inf)
+        below = int(np.argmin(along))
+        if depth[below] >= level * (1.0 - 1e-9):
+            break
+        level, up = float(depth[below]), -sides[below, :3]
+    return up
 
 
 def _margin(points: Points, centre: Points, up: Points) -> float:

@@ -102,8 +102,14 @@ class Nouns:
         last = len(words) - 1
         for size in range(min(4, len(words)), 1, -1):
             if found := self.match(words[-size:]):
-                # "small dog" is a dog that is small even where the vocabulary lists it as a name.
-                while size > 1 and is_modifier(words[-size]) and (plain := self.match(words[1 - size :])):
+                # "small dog" is a dog that is small even where the catalogue lists it as a name; a library's "small
+                # dog" is as small as it is.
+                while (
+                    size > 1
+                    and self.own(found.noun)
+                    and is_modifier(words[-size])
+                    and (plain := self.match(words[1 - size :]))
+                ):
                     if plain.noun != found.noun:
                         break
                     found, size = plain, size - 1

@@ -1,0 +1,132 @@
+"""Several things to do one after the other, with memory of what was done."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from pat3d.envs.grasping.placement import Needs
+from pat3d.envs.physics.snapshot import Array, Numbers
+from pat3d.envs.tasks.manipulate import Pick, Place, Stack
+from pat3d.envs.tasks.paraphrase import in_turn
+from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, steps_for
+from pat3d.errors import TaskError
+from pat3d.scene.model import Scene
+
+if TYPE_CHECKING:
+    from pat3d.envs.physics.state import SimState, States
+
+STEPS = (2, 5)
+"""Fewest and most steps of a chain."""
+
+AND_THEN = ":then:"
+"""Between the steps of a specification."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chain(Task):
+    """Put or stack one object after the other, in this order; the last step may be to pick one up."""
+
+    kind: ClassVar[str] = "chain"
+    form: ClassVar[str] = "chain:STEP:then:STEP..., as in chain:place:OBJECT:WHERE:then:pick:OBJECT"
+
+    steps: tuple[Task, ...]
+
+    def __post_init__(self) -> None:
+        fewest, most = STEPS
+        if not fewest <= len(self.steps) <= most:
+            raise TaskError(f"a chain has {fewest} to {most} steps, not {len(self.steps)}.")
+        for number, step in enumerate(self.steps):
+            last = number == len(self.steps) - 1
+            if not isinstance(step, Place | Stack) and not (last and isinstance(step, Pick)):
+                raise TaskError(f'"{step.spec}" cannot be step {number + 1}: steps put or stack, the last may pick.')
+        moved = [step.names[0] for step in self.steps]
+        if len(set(moved)) < len(moved):
+            raise TaskError("every step of a chain moves another object.")
+
+    @property
+    def spec(self) -> str:
+        return f"{self.kind}:{AND_THEN.join(step.spec for step in self.steps)}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(name for step in self.steps for name in step.names))
+
+    def wordings(self, scene: Scene) -> tuple[str, ...]:
+        return in_turn([step.instruction(scene) for step in self.steps])
+
+    def check(self, scene: Scene) -> None:
+        for step in self.steps:
+            step.check(scene)
+
+    def needs(self, scene: Scene) -> Needs:
+        needs = [step.needs(scene) for step in self.steps]
+        return Needs(
+            grasp=tuple(dict.fromkeys(name for one in needs for name in one.grasp)),
+            visit=tuple(dict.fromkeys(point for one in needs for point in one.visit)),
+            cleared=True,
+        )
+
+    def horizon(self, scene: Scene, control_freq: float) -> int:
+        return steps_for(len(self.steps), control_freq)
+
+    def goals(self, state: SimState, graspable: Collection[str]) -> list[Goal]:
+        return next((goals for step in self.steps if (goals := step.goals(state, graspable))), [])
+
+    def judge(self, states: States) -> Judge:
+        return ChainJudge(states, self.steps)
+
+
+class ChainJudge(Judge):
+    """Success when every step was done in its turn, and what the earlier ones put somewhere is there at the end.
+
+    Progress is the share of steps done, and of the next one its own progress.
+    """
+
+    def __init__(self, states: States, steps: tuple[Task, ...]) -> None:
+        super().__init__(states)
+        self._judges = [step.judge(states) for step in steps]
+        self._titles = [f"step {number + 1}: {step.spec}" for number, step in enumerate(steps)]
+        self._stage = np.zeros(states.count, dtype=np.int64)
+
+    def begin(self, worlds: Numbers) -> None:
+        super().begin(worlds)
+        self._stage[worlds] = 0
+        for judge in self._judges:
+            judge.begin(worlds)
+
+    def update(self, seconds: Array) -> Verdicts:
+        stage, last = self._stage.copy(), len(self._judges) - 1
+        # Time passes for the step that is due alone: nothing is done ahead of its turn.
+        found = [judge.update(seconds * (stage == number)) for number, judge in enumerate(self._judges)]
+        success = np.zeros(self.states.count, dtype=np.bool_)
+        kept, done = np.ones_like(success), np.zeros(self.states.count)
+        target, goal = found[0].target.copy(), found[0].goal.copy()
+        for number, one in enumerate(found):
+            due, passed = stage == number, stage > number
+            target, goal = np.where(due, one.target, target), np.where(due[:, None], one.goal, goal)
+            if number < last:
+                # Whether it is in or on its place, whatever has become of the hand since.
+                there = next(iter(one.predicates.values()))
+                kept &= there | ~passed
+                done += passed & there
+                self._pass(np.flatnonzero(due & one.success), number + 1)
+            else:
+                success = due & one.success & kept
+            done += np.where(due, one.progress, 0.0)
+        passed = {title: self._stage > number for number, title in enumerate(self._titles[:-1])}
+        return Verdicts(
+            success=success,
+            predicates={**passed, self._titles[-1]: success, "kept": kept},
+            progress=done / len(found),
+            target=target,
+            goal=goal,
+        )
+
+    def _pass(self, worlds: Numbers, stage: int) -> None:
+        """Go on to the next step in `worlds`."""
+        self._stage[worlds] = stage
+        self._judges[stage].begin(worlds)
