@@ -32,7 +32,7 @@ ENABLES = {
 DEVELOPMENT = "dev"
 """The extra of those who work on PAT3D itself."""
 
-_MODULES = {"pxr": "usd-core", "PIL": "pillow", "yaml": "pyyaml"}
+_MODULES = {"pxr": "usd-core", "collada": "pycollada", "PIL": "pillow", "yaml": "pyyaml"}
 """Modules whose distribution has another name."""
 
 _LINE = re.compile(r"(?P<name>[\w.-]+)(?:\[[^\]]*\])?(?P<version>[^;]*)(?:;(?P<marker>.*))?")
