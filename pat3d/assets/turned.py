@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from pat3d.assets.mesh import split
+
 MOST_CORNERS = 64
 """Of a convex part: what PhysX takes on a GPU, where coplanar triangles are one face of 64 at most, too."""
 
@@ -25,8 +27,8 @@ SIDES = (8, 12, 16, 20, 24, 32)
 MOST_PIECES = 7
 """That one turned solid is cut into: parts cost time in every stage and every engine."""
 
-MOST, MOST_SHARE, LEAST = 1e-3, 0.01, 4e-4
-"""A part may reach a millimetre [m] and this share of the solid's longest side beyond it, or the least [m]."""
+LEAST = 4e-4
+"""How far a part may reach beyond a small solid [m]: pieces for less would cost more than they are worth."""
 
 EXACT = 2e-4
 """The outline of a base or a top may be beyond the true one by this [m], or by what the most sides leave."""
@@ -58,7 +60,7 @@ Line = tuple[float, float, float]
 
 def allowed(size: float) -> float:
     """How far a part may reach beyond a solid of longest side `size`, both in metres."""
-    return max(min(MOST, MOST_SHARE * size), LEAST)
+    return max(split.allowed(size), LEAST)
 
 
 def sides_of(radius: float, limit: float = EXACT, least: int = 16) -> int:

@@ -82,12 +82,20 @@ _MESH_OPTIONS = (
         metavar="HOW",
         shown=MESH_PATHS[0],
     ),
+    option(
+        "--max-triangles",
+        "most triangles of what is seen of an object; more are made a coarser level of detail",
+        type=int,
+        metavar="N",
+        shown="as they are",
+    ),
     *_MESH_OPTIONS,
     JSON,
     examples="""
     pat3d export scenes/desk --formats mjcf,usd,urdf --out exports/desk
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
+    pat3d export scenes/desk --max-triangles 2000 --out exports/desk_light          scans for many copies on a GPU
     pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
     pat3d export scenes/desk --formats simready --out exports/desk        assets with thumbnails and metadata
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
@@ -110,12 +118,12 @@ def export(options: argparse.Namespace) -> int:
                 f"--{next(iter(mesh)).replace('_', '-')} is for meshes; {source} is a scene, whose objects are weighed."
             )
         folder = source if source.is_dir() else source.parent
-        code = _scene(folder, out, formats, usd, mesh_paths, as_json=options.json)
+        code = _scene(folder, out, formats, usd, mesh_paths, options.max_triangles, as_json=options.json)
         notes = [] if options.json else notes
     elif options.json:
         raise SpecError(f"--json tells of scenes; summary.json beside each mesh has the same for {source}.")
     else:
-        code = _meshes(source, out, formats, usd, mesh_paths, mesh)
+        code = _meshes(source, out, formats, usd, mesh_paths, {**mesh, "max_triangles": options.max_triangles})
     for note in notes:
         console().print(f"note  {note}", markup=False)
     return code
@@ -133,12 +141,22 @@ def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:
 
 
 def _scene(
-    folder: Path, out: Path, formats: tuple[str, ...], usd: dict[str, Any], mesh_paths: str, *, as_json: bool
+    folder: Path,
+    out: Path,
+    formats: tuple[str, ...],
+    usd: dict[str, Any],
+    mesh_paths: str,
+    max_triangles: int | None,
+    *,
+    as_json: bool,
 ) -> int:
+    from pat3d.assets.mesh.simplify import within_budget
     from pat3d.scene.io import load_scene
 
     with watch(console(stderr=True)) as progress:
-        scene = load_scene(folder)
+        scene, coarse = load_scene(folder), ()
+        if max_triangles is not None:
+            scene, coarse = within_budget(scene, max_triangles)
         start = time.perf_counter()
         paths = write_formats(scene, formats, out, progress=progress, **usd)
         seconds = time.perf_counter() - start
@@ -159,6 +177,8 @@ def _scene(
     for name, report in reports.items():
         for line in report.left_out:
             target.print(f"note  {name}: {line}", markup=False)
+    for line in coarse:
+        target.print(f"note  {line}.", markup=False)
     target.print(f"\n{len(scene.objects)} objects written in {seconds:.2f} s:", markup=False)
     for path in paths.values():
         target.print(f"  {path}", markup=False, soft_wrap=True)

@@ -13,6 +13,7 @@ from importlib import metadata
 ENABLES = {
     "torch": "the optimisation of layouts, losses and gradients in PyTorch",
     "usd": "USD files",
+    "meshes": "COLLADA, FBX and 3MF meshes",
     "envs": "Gymnasium environments",
     "robots": "robots and controllers",
     "eval": "policy evaluation: records, servers, films, demonstrations",
@@ -20,7 +21,7 @@ ENABLES = {
     "models": "sentences read, and pictures judged, by a language model",
     "mcp": "tools for other programs, by the Model Context Protocol",
     "metrics": "R of the paper's Table 1 on remeshed surfaces",
-    "vision": "depth of photographs and CLIP scores, by models of transformers",
+    "vision": "depth, objects and masks of photographs, and CLIP scores, by models of transformers",
     "studio": "scenes in the browser, to look at and edit",
     "docs": "this documentation as a site",
     "gpu": "thousands of scenes at once on a GPU",

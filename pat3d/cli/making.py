@@ -64,6 +64,13 @@ PAINT = option(
 )
 _OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
 
+INPAINT = option(
+    "--inpaint",
+    "that model paints away what hides objects in part, so that they are fitted to their whole outline",
+    action="store_true",
+    group="a photograph instead of a sentence",
+)
+
 
 @command(
     option("prompt", "what the scene shows", metavar="PROMPT", nargs="?"),
@@ -79,6 +86,7 @@ _OUT = option("--out", "scene folder to write; an earlier one is replaced at the
     CRITIC,
     *PHOTOGRAPH,
     PAINT,
+    INPAINT,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),

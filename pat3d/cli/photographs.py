@@ -35,11 +35,12 @@ def lookers_of(options: argparse.Namespace) -> Lookers:
 
     named, painter = vision_models(), image_settings()
     missing: list[str] = []
-    if options.paint and painter is None:
+    paints_too = options.paint or options.inpaint
+    if paints_too and painter is None:
         missing.append(f"nothing paints: set {MODEL} (and {URL}), or [image] name in pat3d.toml")
-    if options.masks is None and named.segmentation is None:
+    if (options.masks is None or options.inpaint) and named.segmentation is None:
         missing.append(
-            f"--masks is missing, and no model finds objects: set {VARIABLES['segmentation']} and "
+            f"no model finds objects (--masks is missing, or --inpaint): set {VARIABLES['segmentation']} and "
             f"{VARIABLES['detection']} (such as {EXAMPLES['segmentation']} and {EXAMPLES['detection']})"
         )
     if options.depth is None and named.depth is None:
@@ -75,11 +76,12 @@ def lookers_of(options: argparse.Namespace) -> Lookers:
         return TransformersDepth(named.depth)
 
     return Lookers(
-        painter=paints if options.paint else None,
-        finder=finds if options.masks is None else None,
+        painter=paints if paints_too else None,
+        finder=finds if options.masks is None or options.inpaint else None,
         depth=measures if options.depth is None else None,
         lister=_asking(lister_of) if options.labels is None else None,
         labeller=_asking(labeller_of) if options.labels is None else None,
+        completes=options.inpaint,
         judge=_asking(judge_of) if options.labels is None else None,
     )
 

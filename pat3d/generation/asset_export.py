@@ -11,6 +11,7 @@ import numpy as np
 
 from pat3d.assets.mesh.importing import import_mesh
 from pat3d.assets.mesh.load import FORMATS as MESH_FORMATS
+from pat3d.assets.mesh.simplify import coarser
 from pat3d.check.drop import DropReport, ground_drop
 from pat3d.errors import AssetError
 from pat3d.exporters.compare import ParityReport, parity
@@ -134,6 +135,7 @@ def export_asset(
     *,
     progress: Progress = silent,
     usd: Mapping[str, Any] | None = None,
+    max_triangles: int | None = None,
     **options: Any,
 ) -> ExportedAsset:
     """Import the mesh at `path` and write it into the folder `out` in every format of `formats`.
@@ -147,6 +149,7 @@ def export_asset(
         formats: names of exchange formats.
         progress: told what is going on.
         usd: settings of `write_usd`.
+        max_triangles: of what is seen; more are made a coarser level of detail, which `provenance` notes.
         options: those of `import_mesh`.
 
     Raises:
@@ -158,6 +161,8 @@ def export_asset(
     folder = check_target(out)
     progress(Event(stage="importing", detail=path.name))
     asset = import_mesh(path, **options)
+    if max_triangles is not None:
+        asset, _ = coarser(asset, max_triangles, asset.noun)
     pose = Pose(position=(0.0, 0.0, CLEARANCE))
     scene = Scene(
         objects=(SceneObject(name=asset.noun, asset=asset, pose=pose, initial_pose=pose),),

@@ -12,6 +12,7 @@ pixel on each side of a pen that is six wide is a third of its size, so this is 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +69,8 @@ def bordered(seen: Observation, lost: int) -> Observation:
         return seen
     from scipy.ndimage import distance_transform_edt
 
-    away, nearest = map(np.asarray, distance_transform_edt(seen.instances == 0, return_indices=True))
+    found: Any = distance_transform_edt(seen.instances == 0, return_indices=True)
+    away, nearest = found
     depth = np.where(seen.known, seen.depth, 0.0).astype(np.float64)
     inner = _nearest_mean(depth, (seen.instances > 0) & seen.known)
     hidden = seen.known & (seen.smooth_depth < (1.0 - NEARER) * inner)

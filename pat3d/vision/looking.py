@@ -19,6 +19,7 @@ from pat3d.errors import SpecError
 from pat3d.progress import Event, Progress
 from pat3d.scene.cache import cache_root, content_key
 from pat3d.scene.replacement import replaced_file
+from pat3d.vision.completing import completed
 from pat3d.vision.dependencies import Judge
 from pat3d.vision.depth import DepthModel, MeasuredDepth
 from pat3d.vision.detection import Finder
@@ -78,6 +79,8 @@ class Lookers:
     labeller: Callable[[], Labeller] | None = None
     depth: Callable[[], DepthModel] | None = None
     judge: Callable[[], Judge] | None = None
+    completes: bool = False
+    """Whether the painter paints away what hides objects, and the finder looks for them again."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,6 +175,16 @@ class _Session:
         self.record["labelled_by"] = dict(labeller.record())
         return labels
 
+    def completed(self, seen: Observation) -> Observation:
+        """`seen` with the whole masks of what is hidden in part."""
+        painter = _needed(self.lookers.painter, "nothing paints what is hidden: a model has to be named for that.")
+        finder = _needed(self.lookers.finder, "nothing finds what was painted: a model has to be named for that.")
+        whole, notes = completed(seen, painter, finder, progress=self.progress)
+        self.notes += notes
+        self.record["completed"] = sorted(whole.whole)
+        self.record["painted_by"] = dict(painter.record())
+        return whole
+
     def _sought(self, picture: NDArray[np.uint8], given: Labels | None) -> tuple[Sought, ...]:
         if given is not None:
             return sought_of([one.name for one in given.objects])
@@ -205,8 +218,9 @@ class _Session:
             self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
             try:
                 path.parent.mkdir(parents=True, exist_ok=True)
+                kept: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
                 with replaced_file(path) as fresh, fresh.open("wb") as file:
-                    np.savez_compressed(file, told=np.array(json.dumps(told)), **arrays)
+                    np.savez_compressed(file, **kept)
             except OSError:
                 # A cache that cannot be written costs the next run its time, and this one nothing.
                 return arrays, told
@@ -240,8 +254,11 @@ def look(photograph: Photograph, lookers: Lookers, *, prompt: str, progress: Pro
     else:
         camera, note = usual_camera(width, height, angle or measured)
         session.notes.append(note)
+    seen = observed(picture=picture, depth=depth, instances=instances, labels=labels, camera=camera)
+    if lookers.completes:
+        seen = session.completed(seen)
     return Looked(
-        seen=observed(picture=picture, depth=depth, instances=instances, labels=labels, camera=camera),
+        seen=seen,
         labels=labels,
         picture=picture,
         notes=tuple(session.notes),

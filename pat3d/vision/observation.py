@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -30,6 +31,8 @@ class Observation:
     """Of the objects, in the order of their indices."""
     picture: NDArray[np.uint8] | None = None
     """RGB, shape (height, width, 3)."""
+    whole: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
+    """Masks as they would be if nothing hid the object, of objects of which that is known; shape (height, width)."""
 
     def __post_init__(self) -> None:
         shape = (self.camera.height, self.camera.width)

@@ -6,6 +6,7 @@ Each pixel around the mask judges it in units of log likelihood:
 - in the mask, where the candidate is not: CAP;
 - outside, where the candidate is: CAP, unless something that is nearer hides it; less beside the mask's border and
   where depth cannot tell it from what is behind, since masks end a little early or late;
+- where something hides the object: HIDDEN CAP for what the whole mask contradicts, if that is known;
 - elsewhere: nothing.
 """
 
@@ -30,6 +31,8 @@ LEAST_SIGMA = 0.002
 """Errors of the depth that are always reckoned with, over the depth [-]."""
 BORDER = 2.5
 """Pixels beside a mask that may still be the object's."""
+HIDDEN = 0.5
+"""Weight of pixels of which only a painted picture says whether the object is behind them."""
 NOISY = 0.01
 """Noise of the depth over the depth, from which on the pixels between those of a window are averaged."""
 UNSURE = 0.4
@@ -44,7 +47,9 @@ class Window:
 
         mask = seen.mask(name)
         rows, columns = np.nonzero(mask)
-        low, high = np.array([rows.min(), columns.min()]), np.array([rows.max(), columns.max()]) + 1
+        whole = seen.whole.get(name)
+        extent = np.nonzero(mask if whole is None else mask | whole)
+        low, high = np.array([axis.min() for axis in extent]), np.array([axis.max() for axis in extent]) + 1
         margin = 4 + np.ceil(0.3 * (high - low)).astype(int)
         low, high = np.maximum(low - margin, 0), np.minimum(high + margin, mask.shape)
         area = float(np.prod(high - low))
@@ -53,6 +58,8 @@ class Window:
         grid = np.mgrid[low[0] + stride // 2 : high[0] : stride, low[1] + stride // 2 : high[1] : stride]
         row, column = grid.reshape(2, -1)
         self.own = mask[row, column]
+        self.whole = None if whole is None else whole[row, column]
+        """Where the object would be seen if nothing hid it; None where nobody knows."""
         self.origin = camera.position
         self.rays, reach = camera.rays(column + 0.5, row + 0.5)
         known = seen.known[row, column]
@@ -95,7 +102,12 @@ class Window:
         total = float(np.nansum(np.minimum(0.5 * (error / (blur * self.sigma[inside])) ** 2, CAP)))
         total += CAP * float(np.count_nonzero(self.own & ~hit))
         outside = ~self.own & hit
-        total += CAP * float(np.sum((self.beside * self.contradicted(drawn))[outside]))
+        contradicted = self.contradicted(drawn)
+        total += CAP * float(np.sum((self.beside * contradicted)[outside]))
+        if self.whole is not None:
+            missing = self.whole & ~self.own & ~hit
+            beyond = outside & ~self.whole & (contradicted == 0.0)
+            total += HIDDEN * CAP * float(np.count_nonzero(missing) + np.count_nonzero(beyond))
         return total / self.count
 
     def contradicted(self, drawn: Ranges) -> Array:

@@ -9,7 +9,7 @@ from pat3d.geometry.edges import sharp_edges
 from pat3d.geometry.hulls import ConvexPart, convex_part
 from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.normals import area_vectors, enclosed_volume, triangle_areas, unit_normals
-from pat3d.geometry.planes import plane_distances, planes
+from pat3d.geometry.planes import face_count, plane_distances, planes
 
 SIZE = np.array([0.2, 0.3, 0.5])
 BOX = convex_part(np.array([[x, y, z] for x in (0, 0.2) for y in (0, 0.3) for z in (0, 0.5)]) + [5.0, -7.0, 1.0])
@@ -71,3 +71,18 @@ def test_the_second_moment_of_a_box():
     np.testing.assert_allclose(properties.centre_of_mass, BOX.bounds.mean(axis=0), atol=1e-12)
     x, y, z = 2.0 * SIZE**2 / 12
     np.testing.assert_allclose(properties.inertia, np.diag([y + z, x + z, x + y]), atol=1e-12)
+
+
+@pytest.mark.parametrize("kept", [np.float64, np.float32])
+@pytest.mark.parametrize("sides", [3, 17, 62])
+def test_a_prism_has_two_faces_more_than_sides_in_single_precision_too(kept, sides):
+    angles = 2.0 * np.pi * np.arange(sides) / sides
+    ring = np.column_stack([0.05 * np.cos(angles), 0.05 * np.sin(angles)])
+    points = np.vstack([np.column_stack([ring, np.full(sides, height)]) for height in (0.02, 0.024)])
+    turned = trimesh.transformations.rotation_matrix(0.7, [1.0, 2.0, 3.0])[:3, :3]
+    assert face_count(convex_part((points @ turned.T).astype(kept))) == sides + 2
+
+
+def test_every_triangle_of_an_icosahedron_is_a_face():
+    assert face_count(convex_part(np.asarray(trimesh.creation.icosahedron().vertices))) == 20
+    assert face_count(BOX) == 6

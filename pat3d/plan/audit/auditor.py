@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.places import for_each, parts, shared_out, unplaced, without
 from pat3d.plan.audit.text import Find, Mention, read, singulars
-from pat3d.plan.audit.words import ARTICLES, DEEDS, ON_DISHES, PACKETS, POURED, REPEATS, SILENT
+from pat3d.plan.audit.words import ARTICLES, DEEDS, HEADLESS, ON_DISHES, ORDINALS, PACKETS, POURED, REPEATS, SILENT
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -74,7 +74,7 @@ class _Auditor(Compared):
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
             endless = any(mention.plural and mention.number is None for mention in known)
-            endless = endless or bool(REPEATS & set(self.said.words)) or self._headless()
+            endless = endless or bool((REPEATS | ORDINALS) & set(self.said.words)) or self._headless()
             most = max(least, sum(mention.number or 1 for mention in known))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
@@ -92,7 +92,7 @@ class _Auditor(Compared):
             name = set(re.findall(r"[a-z']+", obj.name.lower()))
             carriers = carriers_of(obj.name, self.plan.relations)
             dish = any(other.noun in ON_DISHES for other in self.plan.objects if other.name in carriers)
-            if words - ARTICLES and not words & (name | REPEATS) and obj.phrase.lower() not in self.quoted:
+            if words - ARTICLES and not words & (name | REPEATS | HEADLESS) and obj.phrase.lower() not in self.quoted:
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')

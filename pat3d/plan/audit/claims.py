@@ -73,6 +73,7 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
     """Whether `names` are what is named right before `claim`, one after the other or by one plural."""
     near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
     child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
+    child |= {obj.name for mention in _before(it, claim.at)[-1:] if mention.end == claim.at for obj in it.of(mention)}
     return set(names) <= near and not set(names) & child
 
 
@@ -91,7 +92,11 @@ def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
     }
     children = {obj.name for mention in child for obj in it.which(mention)} or here
     kinds = _KINDS[claim.place]
-    return any(kind in kinds and a in children and b in landmarks for a, kind, b in it.edges)
+    tables = {obj.name for obj in it.plan.objects if obj.noun in it.furniture}
+    return any(
+        kind in kinds and a in children and b in landmarks and not (claim.place == "across" != kind and b in tables)
+        for a, kind, b in it.edges
+    )
 
 
 def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> bool:
@@ -99,8 +104,14 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         owned = any(mention.end == claim.at for mention in it.said.mentions)
         return not owned or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
     if claim.place == "holding":
-        return claim.of is None or any(a in of and b in here and kind in ("on", "in") for a, kind, b in it.edges)
+        before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
+        named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+        owners = (here & before) | (here - named)
+        return claim.of is None or any(a in of and b in owners and kind in ("on", "in") for a, kind, b in it.edges)
     kinds = set(_KINDS[claim.place])
+    if claim.place == "between" and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
+        # "between two dolls": between no other things.
+        return any(one.kind == "between" and set(one.of) <= set(of) for one in it.plan.arrangements)
     if claim.of is None and claim.place == "between":
         return any(one.kind == "between" and _just_before(it, claim, one.of) for one in it.plan.arrangements)
     if claim.place in ("its left", "its right") or (claim.of is None and it.said.words[claim.end - 1] in BACKWARD):
@@ -116,6 +127,9 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
     if claim.of.noun in it.furniture and claim.place == "across":
         # "Two chairs across a table from each other" stand on none.
         kinds -= {"on"}
+    if len(of) > 1 and _opens(it, claim):
+        # "Next to a tall vase is a short one"
+        here = here | set(of)
     if not _opens(it, claim) and claim.whose is None:
         # "a mug on a tray": what is on the tray is named before it.
         earlier = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}

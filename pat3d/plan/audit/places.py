@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Mention
-from pat3d.plan.audit.words import CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, PARTS, PRONOUNS, SPLITTING
+from pat3d.plan.audit.words import CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, OPENING, PARTS, PRONOUNS, SPLITTING
 from pat3d.plan.scene_plan import PlannedObject
 from pat3d.scene.relations import carriers_of
 
@@ -29,7 +29,8 @@ def unplaced(it: Compared) -> Iterator[str]:
         furniture = any(objects[name].noun in it.furniture for name in part)
         own = [objects[name] for name in part if not it.above(name)]
         alone = len({objects[name].noun for name in part}) == 1
-        left += [obj for obj in own if (not furniture and carrying) or (alone and _mate_is_told(it, obj, part))]
+        adrift = carrying and not furniture and len(own) == len(part)
+        left += [obj for obj in own if adrift or (alone and _mate_is_told(it, obj, part))]
     for phrase in dict.fromkeys(obj.phrase for obj in left):
         own, whole = ([obj for obj in objs if obj.phrase == phrase] for objs in (left, it.plan.objects))
         beside = any(rel.parent == obj.name and not rel.supports for rel in it.plan.relations for obj in whole)
@@ -53,8 +54,17 @@ def _mate_is_told(it: Compared, obj: PlannedObject, part: set[str]) -> bool:
         names = {mate.name for mate in it.which(mates)} - part
         if any(a in names and (own is other or (kind != "under" and not it.above(b))) for a, kind, b in it.edges):
             return True
-    # Of likes told of one by one.
+    # Of likes told of one by one, and of what something is said to have.
+    if obj.noun not in it.furniture and any(_had(it, mention) for mention in mentions if obj in it.which(mention)):
+        return True
     return any(it.above(like.name) for like in it.plan.objects if like.phrase == obj.phrase)
+
+
+def _had(it: Compared, mention: Mention) -> bool:
+    """Whether "with" or "holding" stands before `mention` in its clause."""
+    claims = [claim for claim in it.said.claims if claim.place in ("with", "holding") and claim.at < mention.start]
+    between = it.said.words[claims[-1].at : mention.start] if claims else [","]
+    return not any(word in OPENING - {"and"} or not word[0].isalnum() for word in between)
 
 
 def _is_landmark(it: Compared, mention: Mention) -> bool:
@@ -154,7 +164,7 @@ def without(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be without something that all there are of its kind have."""
     words = it.said.words
     for at in (at for at, word in enumerate(words) if word == "without"):
-        owner = next((mention for mention in reversed(it.said.mentions) if mention.end <= at), None)
+        owner = next((mention for mention in it.said.mentions if mention.end == at), None)
         lacking = next((mention for mention in it.said.mentions if at < mention.start <= at + 3), None)
         if lacking is None:
             owned = [claim.of for claim in it.said.claims if claim.place in ("with", "holding") and claim.at < at]
@@ -163,4 +173,5 @@ def without(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         have = {b for a in it.which(lacking) for b in it.above(a.name)}
         if all(obj.name in have for obj in it.which(owner)):
-            yield at, f'not as said: "{" ".join(words[at : at + 2]).rstrip(" ,.;")}" of "{owner.text}"'
+            what = lacking.text if at < lacking.start else words[at + 1] if words[at + 1 : at + 2] == ["one"] else ""
+            yield at, f'not as said: "{f"without {what}".strip()}" of "{owner.text}"'

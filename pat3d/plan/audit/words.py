@@ -42,8 +42,9 @@ ARTICLES = frozenset({
     "its", "their", "my", "your", "his", "her", "our", "no", *NUMBERS,
 })  # fmt: skip
 PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him", "her", "this"})
-HEADLESS = frozenset({
-    "first", "second", "third", "fourth", "fifth", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
+ORDINALS = frozenset({"second", "third", "fourth", "fifth"})
+HEADLESS = ORDINALS | frozenset({
+    "first", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
     "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest",
 })  # fmt: skip
 """Words that name an object of which the noun is not said."""
@@ -78,6 +79,7 @@ REACHING = PRONOUNS | {"they", "there", "these", "ones", "former", "latter", "ot
 REPEATS = frozenset({
     "each", "every", "either", "per", "pair", "pairs", "both", "row", "rows", "stack", "stacks", "more", "others",
     "other", "another", "one", "ones", "rest", "half", "most", "x", "times", "pile", "heap", "piles", "rainbow",
+    "without",
 })  # fmt: skip
 """Words by which there are more of a thing than its name's number says."""
 SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
@@ -171,9 +173,11 @@ upper topmost leftmost rightmost lower pieces piece very quite just really only 
 like want see imagine show create make
 """
 _POSTURES = """
+hidden else
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced
+flank flanks share shares fill fills
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
 _DEEDS = """

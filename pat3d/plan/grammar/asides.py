@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.relation_words import RelationWords
@@ -99,7 +101,21 @@ class Asides(RelationWords):
             end = more[1] if more is not None else end + size + 1
         if self._last is not None and self._last.kind in ("have", "there"):
             self._made.chunks.pop()
+        elif self._last is not None and self._word(0) == "without":
+            self._tell_apart()
         self._aside(end - self._at)
+
+    def _tell_apart(self) -> None:
+        """Let "the cup without a spoon", "one without" be another than the cup named before."""
+        last = self._made.chunks[-1]
+        if last.phrase is None:
+            return
+        named = [chunk.phrase for chunk in self._made.chunks[:-1] if chunk.phrase is not None]
+        again = any(last.phrase.noun and phrase.noun == last.phrase.noun for phrase in named)
+        if last.phrase.kind == "object" and again:
+            self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, other=True, definite=False))
+        elif last.words == ("one",) and named:
+            self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, kind="pronoun", head="another"))
 
     def _more_follows(self, at: int) -> bool:
         """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""

@@ -76,7 +76,9 @@ class Boundaries:
         if multi > 1 and not self._extends(words, word):
             return True
         if not words:
-            return False
+            # "one contains three pens", where nothing is called a contains.
+            headless = self._tokens[at - 1].text in lexicon.NUMBERS if at else False
+            return headless and (word,) in LINKS and self._begins(at + 1)
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
         if word in lexicon.VERBS and link_at(self._tokens, at + 1):
@@ -112,13 +114,17 @@ class Boundaries:
         """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
         word = self._tokens[at].text
         verb = word in lexicon.PARTICIPLES or (word,) in LINKS
-        follower = self._tokens[at + 1].text
-        if verb and (follower in lexicon.DETERMINERS or follower in lexicon.NUMBERS or follower.isdecimal()):
+        if verb and self._begins(at + 1):
             return True
         if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
             return False
         # "a free standing lamp": the participle belongs to the noun after it.
         return not self._extends(words, word) and self._nouns.match([word, self._tokens[at + 1].text]) is None
+
+    def _begins(self, at: int) -> bool:
+        """Whether a phrase with a determiner or a number begins at token `at`."""
+        word = self._tokens[at].text
+        return word in lexicon.DETERMINERS or word in lexicon.NUMBERS or word.isdecimal()
 
     def goes_on(self, at: int) -> bool:
         """Whether token `at` may be the noun that a participle before it describes."""

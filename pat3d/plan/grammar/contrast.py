@@ -54,7 +54,8 @@ class Contrast(Pronouns):
         several = [
             head for head, items in self.known.items() if first < head < at and head not in held and len(items) > 1
         ]
-        if at not in told or not phrases or phrases[0] is None or several:
+        named = {head for pair in self.related for side in pair for head in side}
+        if at not in named or not phrases or phrases[0] is None or several:
             return []
         items = self.ref(min(head for head in told if head < at))
         wanted = self._chunks[at].named.count or 1

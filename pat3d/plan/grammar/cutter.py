@@ -104,6 +104,13 @@ class Cutter(Asides):
         if word == "so" and self._opens and follower in lexicon.COPULAS | lexicon.VERBS | {"do", "does"}:
             return self._so()
         finite = self._finite_at(self._at + 1)
+        last = self._last
+        if word == "each" and finite and last is not None and last.kind == "noun" and last.named.kind == "object":
+            # "Two trays each hold a glass": each of them does.
+            self._made.chunks[-1] = replace(last, phrase=replace(last.named, each=True))
+            self._read.add(self._at)
+            self._at += 1
+            return None
         if word in ("each", "both", "all") and not of_each and (finite or (alone and self._last is not None)) and not (
             word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
         ):  # fmt: skip

@@ -7,9 +7,10 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
@@ -69,6 +70,7 @@ class Clause:
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     """The clauses of one sentence, which ends in a stop."""
+    tokens = _ordered(tokens)
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)
@@ -103,6 +105,19 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
         made.append(Clause(tokens=(*body, stop), verb=word, manner=_VERBS[word], said=said))
     return made
+
+
+def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 3):
+        asks = words[at] in ("should", "must", "shall")
+        asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
+        verb = at + 1 + (words[at + 1] == "to")
+        if not asks or words[verb] != "go" or not link_at(tokens, verb + 1) or words[0] not in lexicon.DETERMINERS:
+            continue
+        return [replace(tokens[0], text="put"), *tokens[:at], *tokens[verb + 1 :]]
+    return tokens
 
 
 def _base(word: str) -> str:

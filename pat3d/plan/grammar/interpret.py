@@ -22,6 +22,8 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _UNHEARD = 0.8
 """What a reading costs in which nothing is said of so many of them."""
+_COUNTING = ("rows", "stacks", "stack", "tower")
+"""Forms that may say how many there are, and so are read before all relations."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -64,8 +66,8 @@ class Interpreter(Placing):
             if chunk.phrase is not None:
                 self._said.create(at, chunk.phrase, filling=at in fillings, kind=kinds.get(at))
         for fact in facts:
-            if fact[0] == "form" and self._chunks[fact[1]].text in ("rows", "stacks", "stack", "tower"):
-                self._formed(fact[1], fact[2])
+            if fact[0] == "form" and self._chunks[fact[1]].text in _COUNTING:
+                self._form(fact[1], fact[2])
         for fact in facts:
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None:
@@ -82,8 +84,8 @@ class Interpreter(Placing):
                 owned = {"its", "their"} & set(self._chunks[fact[1]].words)
                 owners = fact[3] or (owners if owned else ())
                 self._effect(self._placed, fact[1], fact[2], owners)
-            elif fact[0] == "form" and self._chunks[fact[1]].text not in ("rows", "stacks", "stack", "tower"):
-                self._formed(fact[1], fact[2])
+            elif fact[0] == "form" and self._chunks[fact[1]].text not in _COUNTING:
+                self._form(fact[1], fact[2])
             elif fact[0] == "quality":
                 self._qualified(fact[2], self._chunks[fact[1]].modifiers)
             elif fact[0] == "goal":
@@ -100,13 +102,26 @@ class Interpreter(Placing):
         last = max(self._said.clauses)
         world.subject = self._said.ref(self._said.clauses[last][0]) or subject or world.subject
         if self._clause.manner is not None:
-            world.subject = subject or world.subject
+            # "Pick the sponge and the pan, place them in the sink": both.
+            world.subject = list(dict.fromkeys(self._said.ref_all(reading.heads))) or subject or world.subject
+        if len(world.subject) == 1 and world.subject[0].group.multiplied:
+            # "A mug stands at each end of the shelf. Between them ..."
+            world.subject = list(world.subject[0].group.items)
         world.landmark = self._relating.landmark
         world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:
             self._relating.cost += self._loose()
         self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _form(self, at: int, heads: Sequence[int]) -> None:
+        """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
+        phrases = [self._chunks[head].phrase for head in heads]
+        meant = all(phrase is not None and (phrase.definite or phrase.kind == "pronoun") for phrase in phrases)
+        if self._clause.manner is not None and meant:
+            self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
+        else:
+            self._formed(at, heads)
 
     def _effect(
         self, hear: Callable[[int, Sequence[int], Sequence[int]], None], at: int, one: Sequence[int], two: Sequence[int]
@@ -297,6 +312,8 @@ class Interpreter(Placing):
                 self._said.not_understood([head for head in (*child_heads, *parent_heads) if head not in self._handled])
             return
         phrase = places[0]
+        if link.kind in SUPPORT_KINDS and not link.finite and list(child_heads) == [at - 1]:
+            children = self._whole(child_heads[0], children)
         self._check_own(link, child_heads, children, parents)
         group = children[0].group
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
@@ -319,6 +336,12 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+
+    def _whole(self, head: int, children: list[Item]) -> list[Item]:
+        """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
+        phrase = self._chunks[head].named
+        told = phrase.one_of or bool(phrase.superlative != NO_MODIFIERS)
+        return list(children[0].group.items) if told and len(children) == 1 else children
 
     def _check_own(self, link: Link, heads: Sequence[int], children: list[Item], parents: list[Item]) -> None:
         """Raises: PromptError: objects of one kind, named as one, would be carried by one of them."""

@@ -103,8 +103,11 @@ class Judging:
 
     def _disagrees(self, heads: tuple[int, ...], verb: int) -> bool:
         """Whether the verb at chunk `verb` is of one thing and `heads` are several, or the other way round."""
-        word = self._chunks[verb].words[:1]
+        word = self._chunks[verb + (self._chunks[verb].kind == "joint")].words[:1]
         named = [self._phrase(head) for head in heads]
+        if word and len(named) == 1 and named[0].kind == "pieces" and named[0].count == 1:
+            # "A bottle and two glasses, one of which is red, stand": not the one.
+            return word[0] in _OF_SEVERAL
         if not word or any(phrase.kind != "object" or phrase.cycle for phrase in named):
             return False
         several = len(named) > 1 or named[0].plural or (named[0].count or 1) > 1

@@ -118,7 +118,8 @@ DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"}
 """Parts that things are put into and no asset has."""
 COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful",
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
-    "dozen", "dozens", "pair", "pairs", "kind", "type", "kinds", "types", "bit"})  # fmt: skip
+    "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
+    "kinds", "types", "bit"})  # fmt: skip
 ROWS = frozenset({"row", "line", "series"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip

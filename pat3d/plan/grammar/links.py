@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.plan.scene_plan import ArrangementKind
@@ -31,7 +31,7 @@ class Link:
     side: Side | None = None
     """For manner "half": which part of the parent."""
     said: str = ""
-    """For manner "than": the comparison, as written."""
+    """For manner "than": the comparison, as written; for "half" words that may as well mean beside it."""
     says: ArrangementKind | None = None
     """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
 
@@ -39,6 +39,9 @@ class Link:
     def inverse(self) -> bool:
         """Whether the objects that follow are the children."""
         return self.manner in ("with", "hold", "include", "of", "flank", "surround")
+
+
+_BOTH_ENDS = ("either end", "each end", "both ends", "opposite ends")
 
 
 def _table() -> dict[tuple[str, ...], Link]:
@@ -78,15 +81,16 @@ def _table() -> dict[tuple[str, ...], Link]:
         "rests across")  # fmt: skip
     sides: tuple[tuple[Side, RelationKind], ...] = (("left", "left_of"), ("right", "right_of"))
     for side, kind in sides:
-        add(Link(kind=kind), f"to the {side} of", "left of" if side == "left" else "right of", f"at the {side} of",
-            f"to the immediate {side} of", f"just to the {side} of")  # fmt: skip
+        plain = ("to the {} of", "{} of", "{} to", "at the {} of", "to the immediate {} of", "just to the {} of")
+        add(Link(kind=kind), *(phrase.format(side) for phrase in plain))
         half = Link(manner="half", side=side, kind=kind)
+        add(replace(half, said=f"on the {side} of"), f"on the {side} of")
         add(
             half,
             *(
                 f"{word} the {where} of"
                 for word in ("on", "at")
-                for where in (side, f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
+                for where in (f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
             ),
         )
         add(half, f"to the {side} side of", f"on {side} of")
@@ -105,7 +109,7 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(kind="in_front_of"), "in front of", "in front", "before", "to the front of",
     "in the front of",
         "ahead of")  # fmt: skip
-    add(Link(kind="behind"), "behind", "in back of", "in the back of")
+    add(Link(kind="behind"), "hidden by", "hidden behind", "behind", "in back of", "in the back of")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
     add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))
@@ -120,6 +124,10 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
+    add(Link(manner="sides", kind="on"), *(f"{word} {which} of" for word in ("on", "at") for which in _BOTH_ENDS))
+    add(Link(manner="sides", kind="next_to", finite=True), "flank", "flanks")
+    add(Link(kind="in", finite=True), "share", "shares")
+    add(Link(kind="in", finite=True), "fill", "fills")
     add(Link(manner="under", says="under"), "under", "beneath", "below", "underneath", "just beneath")
     add(Link(manner="gaze", says="facing"), "facing", "pointing at", "turned toward", "turned towards", "facing toward",
         "facing towards", "pointing towards", "pointing toward")  # fmt: skip
@@ -176,11 +184,21 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its"):
 for _word in ("on", "at", "to"):
     for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
         SIDES[tuple(f"{_word} {_both}".split())] = "both"
+    for _both in _BOTH_ENDS:
+        SIDES[tuple(f"{_word} {_both}".split())] = "ends"
 for _phrase in ("in the middle", "in the center", "in the centre", "at the center", "at the centre"):
     SIDES[tuple(_phrase.split())] = "centre"
-for _phrase in ("on one side", "to one side", "at one side", "on one"):
+for _phrase in ("on one side", "to one side", "at one side", "on one", "at one end", "on one end"):
     SIDES[tuple(_phrase.split())] = "one"
-for _phrase in ("on the other side", "to the other side", "at the other side", "on the other", "on the opposite side"):
+for _phrase in (
+    "on the other side",
+    "to the other side",
+    "at the other side",
+    "on the other",
+    "on the opposite side",
+    "at the other end",
+    "on the other end",
+):
     SIDES[tuple(_phrase.split())] = "other"
 """Places without a landmark ("on the left side"), which only relate objects to each other."""
 

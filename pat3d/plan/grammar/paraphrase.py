@@ -13,6 +13,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
@@ -36,9 +37,10 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
 _EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
-_SILENT = (("in", "turn"), ("of", "course"), ("nothing", "but"), ("as", "usual"), ("somewhere",),
-           ("what", "about"), ("how", "about"), ("nothing", "on", "it", "but"), ("nothing", "in", "it", "but"),
-           ("nothing", "on", "it", "except"), ("nothing", "in", "it", "except"))  # fmt: skip
+_SILENT = tuple(tuple(said.split()) for said in (
+    "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about", "and nothing else",
+    "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
+))  # fmt: skip
 """Words that change nothing where they stand."""
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
@@ -53,7 +55,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     _refuse_negations(tokens)
     tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
     _refuse_inserted(text, tokens)
-    tokens = _inserted(tokens)
+    tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(_plain_words(_kinds(tokens, nouns), nouns), nouns))
 
@@ -177,6 +179,33 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
         named = tokens[comma + 1 : end]
         if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
+    return list(tokens)
+
+
+def _set_off(text: str, tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "bearing, from left to right, a cup and a mug" as "bearing a cup and a mug from left to right".
+
+    Raises:
+        PromptError: what is set off after a relation word is no order in which things stand.
+    """
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 3):
+        link = LINKS.get((words[at - 1],)) if words[at] == "," else None
+        opens = link is not None and link.inverse and link.manner != "include"
+        # A verb that is a noun too ("bears") ends a list as well.
+        opens = opens and (not link.finite or words[at - 1] in _HAVING)  # type: ignore[union-attr]
+        close = next((n for n in range(at + 2, min(at + 7, len(words) - 1)) if words[n] == ","), 0)
+        if not opens or not close:
+            continue
+        inside = tuple(words[at + 1 : close])
+        stop = next(n for n in range(close, len(words)) if tokens[n].mark and words[n] not in (",", ":"))
+        if inside not in EACH_OTHER:
+            said = text[tokens[at + 1].start : tokens[close - 1].end]
+            raise PromptError(
+                f'"{said}" (word {tokens[at + 1].number}) is set off where it cannot be told what it is said of. Say '
+                "it at the end, or in a sentence of its own."
+            )
+        return [*tokens[:at], *tokens[close + 1 : stop], *tokens[at + 1 : close], *tokens[stop:]]
     return list(tokens)
 
 

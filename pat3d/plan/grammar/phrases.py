@@ -17,6 +17,8 @@ from pat3d.plan.grammar.vocabulary import Nouns
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
 _ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""
+_FURTHER = (["second"], ["third"], ["fourth"], ["fifth"])
+"""What one more of a kind is called."""
 _THESE = frozenset({"these", "those"})
 _MEMBERS = frozenset({"others", "rest", "remainder", "former", "latter"})
 """Heads that speak of what was named before."""
@@ -93,6 +95,9 @@ class PhraseReader:
         if not self._definite and count is None and [token.text for token in run[1:]] == ["one"]:
             another = another or run[0].text in ("third", "fourth", "fifth")
             run = run[1:] if another else run
+        elif not self._definite and count is None and [token.text for token in run] in _FURTHER:
+            # "a second behind it and a third on top"
+            another, run = flags.get("determined", False), run[1:] if flags.get("determined") else run
         if another and (not run or [token.text for token in run] in (["one"], ["ones"])):
             words = self._text[tokens[start].start : tokens[after - 1].end]
             number = tokens[after - 1].number
@@ -318,6 +323,10 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
+            if head in ("sets", "groups", "bunches", "collections", "clusters"):
+                # "two sets of keys": how many are in each is not said.
+                amount = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
+                inner = replace(inner, vague=inner.vague or inner.count is None)
             return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)

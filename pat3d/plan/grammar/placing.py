@@ -51,9 +51,16 @@ class Placing:
             return
         begun = self._begun(at, heads)
         implied = begun or self._previous(at)
+        if chunk.link is not None and chunk.link.manner == "between":
+            self._in_between(at, children, owners)
+            return
         if chunk.link is not None:
             depth = chunk.link.kind in ("in_front_of", "behind") and not set(self._relating.landmark[0]) & set(children)
             parents = owners or (self._relating.landmark[0] if depth else []) or implied
+            same = not owners and bool(implied) and implied[0].group.noun == children[0].group.noun
+            if same and self._relating.landmark[0] and chunk.link.kind not in LATERAL_KINDS:
+                # "A ball in front of the box, a second behind it and a third on top": of the box.
+                parents = self._relating.landmark[0]
             lateral = chunk.link.kind in LATERAL_KINDS
             if owners and lateral and world.is_table(owners[0]) and not world.on_floor(children[0]):
                 others = [item for item in self._on(owners[0]) if item not in children]
@@ -76,10 +83,14 @@ class Placing:
         if side == "too":
             self._alike(children)
             return
-        if side == "both":
+        if side in ("both", "ends"):
             parents = owners or [item for item in implied if item not in children]
             if parents:
-                self._relating.both_sides(children, parents[:1])
+                row = parents if parents[0].group.rows or len({item.group for item in parents}) > 1 else parents[:1]
+                self._relating.both_sides(children, row, on_it=side == "ends")
+            return
+        if side in LATERAL_SIDES and (told := self._landmark_of(chunk, owners, children)):
+            self._relating.relate(children, Link(kind=LATERAL_SIDES[side]), told)
             return
         if owners:
             world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
@@ -106,6 +117,36 @@ class Placing:
             self._relating.relate(children, link, landmark)
             return
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _in_between(self, at: int, children: list[Item], owners: list[Item]) -> None:
+        """Read "a cushion at either end and a cat in between": between the two named last."""
+        nearest = [items for head, items in sorted(self._said.known.items(), reverse=True) if head < at and items]
+        groups = [g for g in dict.fromkeys(items[0].group for items in nearest)
+                  if g is not children[0].group and not any(item in g.items for item in owners)]  # fmt: skip
+        carriers = {self._world.support(item) for group in groups for item in group.items}
+        groups = [group for group in groups if not carriers & set(group.items)]
+        pair = groups[:1] if groups and len(groups[0].items) == 2 else groups[1::-1] if len(groups) > 1 else []
+        neighbours = [item for group in pair for item in group.items]
+        if len(neighbours) != 2:
+            self._world.note(f'not understood: "{" ".join(self._chunks[at].words)}": between what is not said.')
+            return
+        self._relating.relate(children, Link(manner="between", kind="right_of"), neighbours)
+
+    def _landmark_of(self, chunk: Chunk, owners: list[Item], children: list[Item]) -> list[Item]:
+        """Of what "to its left" is the left, or "to the left" behind "beside the plate are"; or nothing."""
+        fronts = sorted(self._said.fronts)
+        links = [self._chunks[head - 1].link for head in fronts if head]
+        if not owners and links and all(link is not None and link.kind == "next_to" for link in links):
+            items = self._said.ref_all(fronts)
+            return items if len(items) == 1 else []
+        if "its" not in chunk.words or not owners or not self._world.is_table(owners[0]):
+            return []
+        # "A laptop is on the desk with a mouse to its right": of what stands on the desk.
+        subject = [item for head in self._said.clauses[max(self._said.clauses)] for item in self._said.ref(head)]
+        there = [item for item in subject if self._world.support(item) is owners[0] and item not in children]
+        if len(there) == 1:
+            self._world.place(children, "on", owners, weak=True)
+        return there if len(there) == 1 else []
 
     def _that_holds(self, child: Item, meant: list[Item]) -> list[Item]:
         """What `child` is inside: `meant`, or what was named last that can hold it where that cannot."""
@@ -191,6 +232,9 @@ class Placing:
                 plural.height = -(-len(plural.items) // chunk.size)
         elif chunk.text in ("stack", "tower"):
             self._stacked(groups, tall=whole is not None or chunk.text == "tower")
+        elif chunk.text == "chain" and chunk.link is not None:
+            for one, other in zip(items, items[1:], strict=False):
+                world.beside([other], chunk.link.kind, [one])  # type: ignore[arg-type]
         elif chunk.link is not None and chunk.text != "beside":
             kind = chunk.link.says or "far_from"
             world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')

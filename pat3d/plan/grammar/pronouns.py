@@ -109,7 +109,7 @@ class Pronouns:
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
-        if plural and len(nearest) > 1:
+        if plural and len(nearest) > 1 and len(nearest[0]) == 1:
             candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))
         for rank, items in enumerate(nearest[:4]):
             candidates.append((-0.5 + 0.3 * rank if which else (-0.2 if near else 0.35) + 0.1 * rank, items))

@@ -190,7 +190,7 @@ class References(Contrast):
             # "the smaller of two boxes inside the larger one"
             pairs = {group for group in besides if words.size_word and len(group.items) > 1}
             groups = [group for group in groups if group not in besides or group in pairs]
-        rest = phrase.head in _REST
+        rest = phrase.head in _REST or (phrase.other and phrase.definite)
         if phrase.head in _ENUMERATED:
             told = (self._earlier or [group for group in world.groups if group.items])[-2:]
             return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []

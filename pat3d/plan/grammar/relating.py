@@ -48,11 +48,11 @@ class Relating:
             self._under(children, parents, said)
         elif link.manner == "sides":
             self.landmark = (parents, False)
-            self.both_sides(children, parents)
+            self.both_sides(children, parents, on_it=link.kind == "on")
         elif link.manner == "between":
             self._between(children, parents)
         elif link.manner == "half":
-            self._on_half(children, link.side or "centre", parents)
+            self._on_half(children, link.side or "centre", parents, link.said)
         elif link.manner == "edge" and link.says is not None:
             level = world.likely.level(world.noun(parents[0]))
             where = (
@@ -177,11 +177,13 @@ class Relating:
         else:
             world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
 
-    def both_sides(self, children: list[Item], parents: list[Item]) -> None:
-        """`children` stand on both sides of `parents`."""
+    def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
+        """`children` stand on both sides of `parents`, or at both ends of its top."""
         world = self.world
         group = children[0].group
-        if world.is_a(parents[0], lexicon.LEVEL) and not world.on_floor(children[0]):
+        seat = world.is_a(parents[0], lexicon.SEATS)
+        on_it = on_it and (seat or (world.is_a(parents[0], lexicon.LEVEL) and not world.on_floor(children[0])))
+        if not on_it and world.is_a(parents[0], lexicon.LEVEL) and not world.on_floor(children[0]):
             # "A tray with a teapot and a cup on either side of it"
             world.note(f'"{group.words}": both sides are read as those of "{parents[0].group.words}".')
         if len(children) > 2 and not group.counted:
@@ -189,6 +191,11 @@ class Relating:
             children = list(group.items)
         if len(children) == 1:
             children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
+        if on_it:
+            world.place(children, "on", parents)
+            for child, side in zip(children, ("left", "right"), strict=False):
+                world.sided.append(Sided(items=[child], side=side, owner=[], implied=[]))
+            return
         self.flanked(children, parents)
 
     def flanked(self, children: Sequence[Item], parents: list[Item], sides: Sequence[str] = ()) -> None:
@@ -199,7 +206,7 @@ class Relating:
             kind: LateralKind = "right_of" if (index % 2 if not given else "left_of" in given) else "left_of"
             if index < len(sides) and sides[index] in kinds:
                 kind = kinds[sides[index]]
-            self.world.beside([child], kind, parents[:1])
+            self.world.beside([child], kind, parents[:1] if kind == "left_of" else parents[-1:])
 
     def _between(self, children: list[Item], parents: list[Item]) -> None:
         """Both neighbours are said of the one between them: "A left_of child", "B right_of child"."""
@@ -222,12 +229,17 @@ class Relating:
         for index, neighbour in enumerate(sides):
             world.beside([neighbour], "right_of" if index % 2 else "left_of", children[:1])
 
-    def _on_half(self, children: list[Item], side: str, parents: list[Item]) -> None:
+    def _on_half(self, children: list[Item], side: str, parents: list[Item], said: str) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         world, parent = self.world, parents[0]
         level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
-        if side == "centre" or (level and not world.on_floor(children[0])):
+        on_it = level and not world.on_floor(children[0])
+        if on_it and side != "centre" and said and "side" not in said.split():
+            world.note(
+                f'"{children[0].group.words}" {said} "{parent.group.words}": on it; "to the {side} of" has it beside.'
+            )
+        if side == "centre" or on_it:
             kind = world.containment(parent)
             world.place(children, kind, parents)
             world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))

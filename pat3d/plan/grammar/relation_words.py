@@ -6,13 +6,14 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import Cursor
 from pat3d.plan.grammar.lexing import singulars
-from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
+from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
 from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
+from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
-    "beneath",
+    "beneath", "between", "in between",
                           "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
 """Relations that may stand without a landmark: "with two pens inside"."""
 
@@ -22,7 +23,7 @@ class RelationWords(Cursor):
 
     def _relation(self) -> bool:
         """Read the longest relation, side or form that begins here, if one does."""
-        if self._shape() or self._several():
+        if self._shape() or self._several() or self._chain():
             return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
@@ -57,8 +58,25 @@ class RelationWords(Cursor):
             return True
         return False
 
+    def _chain(self) -> bool:
+        """Read "one behind the other"."""
+        if self._word(0) != "one" or not (size := link_at(self._tokens, self._at + 1)):
+            return False
+        link = LINKS.get(self._words(size + 1)[1:])
+        other = self._words(size + 3)[size + 1 :]
+        chained = other in (("the", "other"), ("the", "next")) or other[:1] == ("another",)
+        if link is None or link.kind not in LATERAL_KINDS or not chained:
+            return False
+        self._add("form", size + (2 if other[0] == "another" else 3), text="chain", link=link)
+        return True
+
     def _link(self, key: tuple[str, ...], size: int) -> bool:
         link = LINKS[key]
+        if key == ("against",) and any(
+            chunk.link and chunk.link.says == "leaning_against" for chunk in self._made.chunks
+        ):
+            # "A spoon leans against the first jar, a ladle against the last."
+            link = Link(kind="next_to", says="leaning_against")
         if self._words(size + 2)[size:] in (("each", "other"), ("one", "another")):
             apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
             if link.kind != "next_to" and not apart:

@@ -93,6 +93,8 @@ class Grammar(Goals):
             # "between a, b and c", but not "between a and b, and c".
             whole = len(objects.heads) <= 2 or not set(objects.joints[:-1]) - {","}
             cost += (0.0 if len(objects.heads) <= 2 else 0.2) if plural and whole else 1.5
+            # "between two dolls, a ball at its feet": the two are the neighbours.
+            cost += 0.8 * (len(objects.heads) > 1 and self._phrase(objects.heads[0]).count == 2)
         if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
@@ -132,7 +134,9 @@ class Grammar(Goals):
         flags = named.flags | {"modified"} | (modifier.flags & {"finite"})
         if modifier.cat == "CM":
             flags |= {"comma"}
-            cost += 0.1
+            # "A dozen eggs, two of them brown, in a carton": said of the dozen.
+            aside = "finite" not in modifier.flags and all(self._phrase(h).kind in HEADLESS for h in named.heads)
+            cost += 0.1 + 0.7 * (aside and self._chunks[modifier.start].text == ",")
         if "finite" in named.flags and "finite" not in modifier.flags:
             cost += 0.1
         if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
@@ -142,7 +146,8 @@ class Grammar(Goals):
             # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
             cost += 0.5
         if "finite" in modifier.flags:
-            cost += 0.5 * self._disagrees(named.heads, modifier.start)
+            alone = len(named.heads) == 1 and self._phrase(named.heads[0]).kind == "pieces"
+            cost += (1.8 if alone else 0.5) * self._disagrees(named.heads, modifier.start)
         if "colon" in named.flags:
             cost += 0.3
         if "mute" in named.flags and "finite" in modifier.flags:
@@ -169,8 +174,8 @@ class Grammar(Goals):
             return None
         inner = inner and self._chunks[at].text not in ("one", "other")
         if inner and "having" in named.flags and modifier.cat == "M" and "finite" not in modifier.flags:
-            # "a crate with a dog on top": what stands behind the dog is said of the dog.
-            cost += 0.6
+            # "a crate with a dog on top", "a sofa with two cats and a dog between them": said of the dog.
+            cost += 1.5 if kind == "link" and self._link(at).manner == "between" else 0.6
         if kind == "link" and self._link(at).inverse:
             flags |= {"having"}
         if kind != "link" or not self._link(at).inverse:
@@ -206,6 +211,9 @@ class Grammar(Goals):
             made, extra = self._having(at, link, named, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
         extra = self._arcs(link, named.heads, modifier.heads)
+        if link.manner == "between" and len(named.heads) > 1 and self._is_pronoun(modifier.heads):
+            # "two cushions and a cat between them": the cat is.
+            cost += 0.9
         if link.kind in SUPPORT_KINDS and link.manner == "place":
             twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
             # What is on a book that is on a table is on the book; nothing is on two small things.
