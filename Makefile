@@ -21,8 +21,8 @@ $(VENV)/.setup: $(VENV)/.made pyproject.toml constraints.txt
 
 # robosuite asks for packages that need a GL library, an older numpy or a compiler, and uses none of them here.
 $(VENV)/.setup-dev: $(VENV)/.setup
-	$(PIP) --editable '.[dev,torch,usd,envs]'
-	$(PIP) numba opencv-python-headless termcolor pyarrow websockets msgpack imageio-ffmpeg h5py
+	$(PIP) --editable '.[dev,torch,usd,meshes,envs]'
+	$(PIP) numba opencv-python-headless termcolor pyarrow websockets msgpack imageio-ffmpeg h5py cryptography
 	$(PIP) --no-deps robosuite mujoco-menagerie
 	@touch $@
 
