@@ -26,7 +26,7 @@ VARIABLES = {
 EXAMPLES = {
     "depth": "depth-anything/Depth-Anything-V2-Metric-Indoor-Small-hf",
     "detection": "IDEA-Research/grounding-dino-tiny",
-    "segmentation": "facebook/sam2.1-hiera-tiny",
+    "segmentation": "facebook/sam-vit-base",
 }
 
 
