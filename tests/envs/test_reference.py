@@ -40,10 +40,6 @@ def test_every_composition_of_the_reference_is_drawn_again():
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True,
-    reason="parts of the catalogue have changed since; python -m benchmarks.reference writes the new places",
-)
 def test_scenes_of_the_reference_are_made_again(tmp_path):
     """Two of them, from nothing: their objects stand where they are published to stand."""
     from pat3d.envs.suites.unit import make_unit
