@@ -246,6 +246,7 @@ def test_what_floats_and_overlaps_settles_and_is_verified(tmp_path, capsys):
         assert scene.parent(name) == "table"
 
 
+@pytest.mark.slow
 def test_an_open_shell_is_cut_as_a_whole_and_closed_lumps_one_by_one(tmp_path):
     """A collision mesh of two boxes is two parts; a box without its lid, whose sides share no corner, stays open."""
     boxes = [np.array([[x, y, z] for x in (a, a + 0.04) for y in (0, 0.04) for z in (0, 0.04)]) for a in (0.0, 0.1)]
