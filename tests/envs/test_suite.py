@@ -65,7 +65,7 @@ def copy(made, tmp_path):
 @pytest.mark.slow
 def test_a_run_killed_and_started_again_makes_the_same_suite_bit_for_bit(made, tmp_path):
     """One worker and SIGKILL in the middle, against two workers of which one was killed: only the log may differ."""
-    folder = tmp_path / "one"
+    folder = tmp_path / made.name
     command = [sys.executable, "-m", "pat3d", "suite", "generate", str(folder), "--tasks", "pick,stack",
                "--scenes", "4", "--objects", "4-6", "--picture", "64", "--seed", "3", "--workers", "1"]  # fmt: skip
     first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
