@@ -4,7 +4,9 @@ import json
 import math
 import re
 import shutil
+from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -172,7 +174,7 @@ def _as_read(**changed) -> BodyReadback:
     return replace(read, **changed)
 
 
-def _wrong(silent=frozenset(), **changed) -> dict[str, float | None]:
+def _wrong(silent: Iterable[str] = (), **changed: Any) -> dict[str, Any]:
     """The errors of a reading with these values in place of the plank's own."""
     found = errors_of(LONG, _as_read(**changed), frozenset(silent))
     return {name: getattr(found, name) for name in QUANTITIES}
