@@ -42,6 +42,7 @@ _PLACE = {True: "moving", False: "fixed"}
 _WIDTH = {"qpos": {0: 7, 1: 4}, "dof": {0: 6, 1: 3}}
 """Of the joints that have more than one: free, and ball joints."""
 
+SITE = ("pos", "quat")
 SHARED = ("contype", "conaffinity", "condim", "priority")
 """Of geoms; MuJoCo Warp has one value for all worlds."""
 
@@ -60,6 +61,7 @@ class Kind:
     """Of qpos."""
     dofs: Numbers
     sites: Numbers
+    """-1 for those of the scene."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +173,7 @@ _NAMES = (
     *(f"dof_{name}" for name in DOF),
     *(f"geom_{name}" for name in (*GEOM, "dataid", "aabb")),
     *(f"cam_{name}" for name in CAMERA),
+    *(f"site_{name}" for name in SITE),
     "qpos0",
     "qpos_spring",
 )
@@ -184,6 +187,8 @@ def _require_plain(world: World, first: World) -> None:
     of_bodies = model.eq_objtype == int(mujoco.mjtObj.mjOBJ_BODY)
     if np.isin(model.eq_obj1id[of_bodies], list(world.bodies.values())).any():
         what = "objects that hang"
+    elif any(not name or name.startswith(world.prefix) for name in _around(world)):
+        what = "a robot with parts that belong to no body"
     elif len(world.arms) > 1:
         what = "two arms"
     elif (world.robot.name, world.prefix) != (first.robot.name, first.prefix):
@@ -329,7 +334,7 @@ def _kind(model: Any, world: World) -> Kind:
             start, goal = int(getattr(own, first)[joint]), int(getattr(model, first)[there])
             target[start : start + width] = np.arange(goal, goal + width)
     names = {model.site(number).name: number for number in range(model.nsite)}
-    sites = np.array([names.get(own.site(number).name, 0) for number in range(own.nsite)], dtype=np.int64)
+    sites = np.array([names.get(own.site(number).name, -1) for number in range(own.nsite)], dtype=np.int64)
     return Kind(world, bodies, geoms, positions, dofs, sites)
 
 
@@ -343,6 +348,9 @@ def _fill(values: dict[str, NDArray[Any]], row: int, model: Any, kind: Kind, mes
         values[f"dof_{name}"][row][kind.dofs] = getattr(own, f"dof_{name}")
     for name in ("qpos0", "qpos_spring"):
         values[name][row][kind.positions] = getattr(own, name)
+    known = np.flatnonzero(kind.sites >= 0)
+    for name in SITE:
+        values[f"site_{name}"][row][kind.sites[known]] = getattr(own, f"site_{name}")[known]
     for number in range(own.ncam):
         camera = own.camera(number).name
         if camera in {model.camera(one).name for one in range(model.ncam)}:
@@ -351,10 +359,10 @@ def _fill(values: dict[str, NDArray[Any]], row: int, model: Any, kind: Kind, mes
     there = np.flatnonzero(kind.geoms >= 0)
     for name in (*GEOM, "aabb"):
         values[f"geom_{name}"][row][kind.geoms[there]] = getattr(own, f"geom_{name}")[there]
-    known = {mesh: meshes[vertices.tobytes()] for mesh, vertices, _ in _meshes(kind.world)}
+    placed = {mesh: meshes[vertices.tobytes()] for mesh, vertices, _ in _meshes(kind.world)}
     for body in kind.world.bodies.values():
         for geom in _of_shape(own, body).get(MESH, []):
-            _fill_mesh(values, row, model, int(kind.geoms[geom]), known[int(own.geom_dataid[geom])])
+            _fill_mesh(values, row, model, int(kind.geoms[geom]), placed[int(own.geom_dataid[geom])])
 
 
 def _fill_mesh(values: dict[str, NDArray[Any]], row: int, model: Any, geom: int, mesh: int) -> None:
