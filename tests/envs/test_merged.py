@@ -23,7 +23,7 @@ from pat3d.scene.model import Scene
 from tests.envs.own_arm import own_arm
 
 ALIKE = 1e-5
-"""[m], [rad]: vertices of meshes are rounded to 1e-8 m in another frame, so contacts begin or end a time step earlier or
+"""[m], [rad]: vertices of meshes are rounded to 1e-8 m in another frame, so contacts begin or end a time step sooner or
 later, which is g dt^2 = 4e-5 m over the contacts of an object."""
 
 
