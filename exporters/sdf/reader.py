@@ -26,7 +26,7 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
 
 
 def hangs(path: str | Path) -> bool:
-    """Whether the world at `path` has joints that move; a damaged file has none."""
+    """Whether two models of the world at `path` are joined by what moves; a damaged file has no joints."""
     try:
         return any(joint.get("type") != "fixed" for joint in read_xml(Path(path), "sdf").iterfind("world/joint"))
     except ExportError:

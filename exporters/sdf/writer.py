@@ -5,11 +5,13 @@
     models/<name>/meshes/      its textured mesh and convex parts
 
 The world repeats the models rather than including them, so that it loads from any folder without a model path. Drake
-reads it as well where nothing hangs, with its own elements for hydroelastic contact. There is no light in the world,
-because Drake warns of one; Gazebo's ambient light shows it.
+reads it as well, with its own elements for hydroelastic contact. There is no light in the world, because Drake warns of
+one; Gazebo's ambient light shows it.
 
 SDF joins bodies in trees. An attachment becomes the joint with the same freedom: a ball for one point, a hinge for
-two, a weld for three or more that are not in line.
+two, a weld for three or more that are not in line. What hangs from something fixed has its joint, to the world, in its
+own model. A joint of two models that both move stands in the world, where Drake takes welds alone: one model around
+both would keep them from touching in Gazebo unless it says <self_collide>, which Drake does not know.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ from pat3d.exporters.urdf.writer import HYDROELASTIC_MODULUS
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Attachment, Scene
+from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import map_file, part_file
 from pat3d.scene.physics import ground_friction
 
@@ -39,6 +41,9 @@ That a mesh is convex can be said from 1.11 on; what is older ignores the attrib
 
 LINK = "link"
 """Name of the one link of every model; its frame is the asset's."""
+
+_WORLD = None
+"""Among the names of objects, where joints stand that are no object's own."""
 
 _IN_LINE = 1e-6
 """Anchors nearer to one line than this [m] leave a hinge."""
@@ -61,7 +66,7 @@ def write_sdf(scene: Scene, folder: str | Path) -> Path:
     return folder / "scene.sdf"
 
 
-def _write(scene: Scene, folder: Path, joints: list[ET.Element]) -> None:
+def _write(scene: Scene, folder: Path, joints: dict[str | None, list[ET.Element]]) -> None:
     bodies, stored = body_names(scene), stored_assets(scene)
     root = _root()
     world = ET.SubElement(root, "world", name="scene")
@@ -72,8 +77,9 @@ def _write(scene: Scene, folder: Path, joints: list[ET.Element]) -> None:
             _write_model(obj.asset, name, folder / "models" / name)
         model = _model(obj.asset, bodies[obj.name], f"models/{name}/meshes/", fixed=obj.fixed)
         model.insert(0, _pose(obj.pose))
+        model.extend(joints.get(obj.name, ()))
         world.append(model)
-    world.extend(joints)
+    world.extend(joints.get(_WORLD, ()))
     _save(root, folder / "scene.sdf")
 
 
@@ -199,9 +205,10 @@ def _pose(pose: Pose, relative_to: str | None = None) -> ET.Element:
     return element
 
 
-def _joints(scene: Scene, bodies: dict[str, str]) -> list[ET.Element]:
-    """A joint for every attachment of objects that are not both fixed."""
-    joints, hung = [], set()
+def _joints(scene: Scene, bodies: dict[str, str]) -> dict[str | None, list[ET.Element]]:
+    """A joint for every attachment of objects that are not both fixed, by the object whose model holds it."""
+    joints: dict[str | None, list[ET.Element]] = {}
+    hung = set()
     for one in scene.attachments:
         ends = (one.child, one.parent)
         if scene[one.child].fixed:
@@ -212,22 +219,26 @@ def _joints(scene: Scene, bodies: dict[str, str]) -> list[ET.Element]:
         if child in hung:
             raise ExportError(f'"{child}" hangs from two objects, which SDF cannot say; write mjcf or urdf instead.')
         hung.add(child)
-        above = "world" if scene[parent].fixed else f"{bodies[parent]}::{LINK}"
         points = np.array([pair[ends.index(one.child)] for pair in one.anchors])
-        joints.append(_joint(one, points, bodies[child], above))
+        name = f"{bodies[child]}_hangs"
+        if scene[parent].fixed:
+            joints[child] = [_joint(name, points, LINK, "world")]
+        else:
+            above, below = f"{bodies[parent]}::{LINK}", f"{bodies[child]}::{LINK}"
+            joints.setdefault(_WORLD, []).append(_joint(name, points, below, above))
     return joints
 
 
-def _joint(one: Attachment, points: np.ndarray, child: str, parent: str) -> ET.Element:
+def _joint(name: str, points: np.ndarray, child: str, parent: str) -> ET.Element:
     """The joint that leaves the freedom which `points` of the child [m], shape (n, 3), leave when they are held."""
     middle = points.mean(axis=0)
     singular = np.linalg.svd(points - middle)
     spread = np.append(singular[1], [0.0, 0.0, 0.0])
     kind = "ball" if spread[0] < _IN_LINE else "revolute" if spread[1] < _IN_LINE else "fixed"
-    joint = ET.Element("joint", name=f"{child}_hangs", type=kind)
-    joint.append(_pose(Pose(position=tuple(map(float, middle))), f"{child}::{LINK}"))  # type: ignore[arg-type]
+    joint = ET.Element("joint", name=name, type=kind)
+    joint.append(_pose(Pose(position=tuple(map(float, middle))), child))  # type: ignore[arg-type]
     ET.SubElement(joint, "parent").text = parent
-    ET.SubElement(joint, "child").text = f"{child}::{LINK}"
+    ET.SubElement(joint, "child").text = child
     if kind == "revolute":
         axis = ET.SubElement(joint, "axis")
         ET.SubElement(axis, "xyz").text = text(*singular[2][0])

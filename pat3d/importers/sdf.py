@@ -24,7 +24,8 @@ MAX_MODELS = 2000
 def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     """Every model of an SDF world or model file; meshes and models lie below `root`.
 
-    A link that no joint holds is an object; links that fixed joints hold together are one.
+    A link that no joint holds is an object; links that fixed joints hold together are one, and fixed where such a joint
+    holds it to the world.
 
     Raises:
         AssetError: malformed, a file is missing, or a pose refers to a frame of its own.
@@ -108,10 +109,13 @@ def _of_model(
     model: ET.Element, frame: Frame, path: Path, root: Path, notes: list[str]
 ) -> Iterator[ImportedObject | float]:
     name, links, joints = model.get("name", "?"), model.findall("link"), model.findall("joint")
-    fixed = (model.findtext("static") or "").strip().lower() in ("true", "1")
+    static = (model.findtext("static") or "").strip().lower() in ("true", "1")
     moving = [joint.get("name", "?") for joint in joints if joint.get("type") != "fixed"]
+    welds = [{_end(joint, key) for key in ("parent", "child")} for joint in joints if joint.get("type") == "fixed"]
+    tied = {end for ends in welds if "world" in ends for end in ends}
     poses = {link.get("name", "?"): pose_of(link) for link in links}
     for group in _joined(links, joints):
+        fixed = static or any(link.get("name") in tied for link in group)
         # An object of several links keeps the frame of its model; a single link has its own.
         single = len(group) == 1
         own = poses[group[0].get("name", "?")] if single else (np.eye(3), np.zeros(3))

@@ -58,9 +58,9 @@ def test_drake_parses_the_world_without_a_warning(scene, path):
     ("points", "kind"), [((0.0,), "ball"), ((-0.1, 0.1), "revolute"), ((-0.1, 0.0, 0.1), "revolute")]
 )
 def test_attachments_become_the_joint_with_the_same_freedom(tmp_path, points, kind):
-    joint = ET.parse(write_sdf(hung_bar(points), tmp_path / "sdf")).find("world/joint")
+    joint = ET.parse(write_sdf(hung_bar(points), tmp_path / "sdf")).find("world/model[@name='a_bar']/joint")
     assert joint is not None
-    assert (joint.get("type"), joint.findtext("parent"), joint.findtext("child")) == (kind, "world", "a_bar::link")
+    assert (joint.get("type"), joint.findtext("parent"), joint.findtext("child")) == (kind, "world", "link")
     pose = joint.find("pose")
     assert pose is not None
     np.testing.assert_allclose(
@@ -69,6 +69,39 @@ def test_attachments_become_the_joint_with_the_same_freedom(tmp_path, points, ki
     if kind == "revolute":
         axis = [float(word) for word in str(joint.findtext("axis/xyz")).split()]
         np.testing.assert_allclose(np.abs(axis), [1, 0, 0], atol=1e-12)
+
+
+def test_a_joint_of_two_that_move_stands_in_the_world(tmp_path):
+    scene = hung_bar()
+    loose = replace(scene, objects=tuple(replace(obj, fixed=False) for obj in scene.objects))
+    root = ET.parse(write_sdf(loose, tmp_path / "sdf"))
+    joint = root.find("world/joint")
+    assert joint is not None and root.find("world/model/joint") is None
+    assert (joint.findtext("parent"), joint.findtext("child")) == ("the_beam::link", "a_bar::link")
+
+
+def test_drake_swings_what_hangs_from_something_fixed(tmp_path):
+    """A bar on a hinge 20 mm above its middle turns about the hinge's line and about nothing else."""
+    parsing = pytest.importorskip("pydrake.multibody.parsing")
+    from pydrake.multibody.plant import MultibodyPlant
+
+    scene = hung_bar()
+    path = write_sdf(scene, tmp_path / "sdf")
+    assert parity(scene, path).passed
+    plant = MultibodyPlant(0.001)
+    parser = parsing.Parser(plant)
+    parser.SetStrictParsing()
+    parser.AddModels(str(path))
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    bar = plant.GetBodyByName("link", plant.GetModelInstanceByName("a_bar"))
+    assert plant.num_positions() == 1
+    plant.SetPositions(context, [np.pi / 2])
+    turned = plant.EvalBodyPoseInWorld(context, bar)
+    start = np.array(scene["a bar"].pose.position)
+    hinge = start + [0.0, 0.0, 0.04]
+    np.testing.assert_allclose(np.linalg.norm(turned.translation() - hinge), 0.04, atol=1e-12)
+    np.testing.assert_allclose(np.abs(turned.rotation().matrix()[0]), [1.0, 0.0, 0.0], atol=1e-12)
 
 
 def test_what_hangs_from_two_objects_is_refused_with_the_formats_that_can_say_it(tmp_path):

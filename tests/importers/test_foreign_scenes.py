@@ -139,6 +139,11 @@ def test_sdf_frames_links_joints_and_includes(tmp_path):
     assert len(glued["two"].parts) == 2
     with pytest.raises(AssetError, match='"two/a" by revolute'):
         import_scene(written(two.format(joint.format("revolute"))))
+    post = '<model name="post"><link name="a"><collision name="c">{}</collision></link>{}</model>'
+    to_world = '<joint name="{0}" type="{0}"><parent>world</parent><child>a</child></joint>'
+    assert import_scene(written(post.format(box, to_world.format("fixed")))).scene["post"].fixed
+    with pytest.raises(AssetError, match='"post" by ball'):
+        import_scene(written(post.format(box, to_world.format("ball"))))
 
 
 def test_urdf_links_that_float_are_objects_and_doors_are_refused(tmp_path):
