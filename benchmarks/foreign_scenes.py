@@ -144,8 +144,8 @@ def row(found: list[ForeignReport]) -> str:
     moved = "explodes" if math.isinf(furthest.moved_mm) else f"{furthest.moved_mm:.1f} ({furthest.name})"
     passed = sum(report.passed for report in found)
     return (
-        f"{_range([len(report.objects) for report in found])} | {depth} | {afloat} of {len(objects)} | {moved} | {turned:.1f} | "
-        f"{passed} of {len(found)}"
+        f"{_range([len(report.objects) for report in found])} | {depth} | {afloat} of {len(objects)} | "
+        f"{moved} | {turned:.1f} | {passed} of {len(found)}"
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from pat3d.geometry.pose import Pose
 
 
 def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
-    """Every model of the world at `path`, the ground aside.
+    """Every model of the world at `path`, the ground aside; what hangs from another is a model in that one's.
 
     Raises:
         ExportError: anything is missing, unknown or malformed.
@@ -22,7 +23,12 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
     path = Path(path)
     world = only(read_xml(path, "sdf"), "world", str(path))
     volumes = Volumes()
-    return tuple(_body(model, path, volumes) for model in world.findall("model") if model.get("name") != "ground")
+    return tuple(
+        body
+        for model in world.findall("model")
+        if model.get("name") != "ground"
+        for body in _bodies(model, path, volumes, Pose())
+    )
 
 
 def hangs(path: str | Path) -> bool:
@@ -33,8 +39,19 @@ def hangs(path: str | Path) -> bool:
         return False
 
 
-def _body(model: ET.Element, path: Path, volumes: Volumes) -> BodyReadback:
+def _bodies(model: ET.Element, path: Path, volumes: Volumes, outer: Pose) -> Iterator[BodyReadback]:
+    """A model whose pose is within `outer`, and those in it."""
     where = f"{path}: {model.get('name')}"
+    own = _pose(model, where)
+    place = Pose.from_matrix(outer.rotation @ own.rotation, outer.apply(np.array([own.position]))[0])
+    # To the last bit where nothing encloses it.
+    pose = own if outer == Pose() else place
+    yield _body(model, path, volumes, pose, where)
+    for inner in model.findall("model"):
+        yield from _bodies(inner, path, volumes, pose)
+
+
+def _body(model: ET.Element, path: Path, volumes: Volumes, pose: Pose, where: str) -> BodyReadback:
     link = only(model, "link", where)
     inertial = only(link, "inertial", where)
     frame = _pose(inertial, where)
@@ -52,7 +69,7 @@ def _body(model: ET.Element, path: Path, volumes: Volumes) -> BodyReadback:
         inertia=in_body_axes(moments, frame.rotation),
         friction=common(frictions),
         hull_volume=sum(_volume(collision, path, volumes, where) for collision in collisions),
-        pose=_pose(model, where),
+        pose=pose,
         fixed=model.findtext("static", "false").strip() in ("true", "1"),
     )
 

@@ -9,14 +9,14 @@ reads it as well, with its own elements for hydroelastic contact. There is no li
 one; Gazebo's ambient light shows it.
 
 SDF joins bodies in trees. An attachment becomes the joint with the same freedom: a ball for one point, a hinge for
-two, a weld for three or more that are not in line. What hangs from something fixed has its joint, to the world, in its
-own model. A joint of two models that both move stands in the world, where Drake takes welds alone: one model around
-both would keep them from touching in Gazebo unless it says <self_collide>, which Drake does not know.
+two, a weld for three or more that are not in line. Drake takes joints in models alone, so what hangs from something
+fixed has its joint, to the world, in its own model, and what hangs from something loose is a model in that one's.
 """
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -42,9 +42,6 @@ That a mesh is convex can be said from 1.11 on; what is older ignores the attrib
 LINK = "link"
 """Name of the one link of every model; its frame is the asset's."""
 
-_WORLD = None
-"""Among the names of objects, where joints stand that are no object's own."""
-
 _IN_LINE = 1e-6
 """Anchors nearer to one line than this [m] leave a hinge."""
 
@@ -60,26 +57,34 @@ def write_sdf(scene: Scene, folder: str | Path) -> Path:
             hangs from two others, which SDF cannot say.
     """
     folder = Path(folder)
-    joints = _joints(scene, body_names(scene))
+    hung = _hung(scene)
     with export_folder(folder, marker="scene.sdf", what="SDF") as fresh:
-        _write(scene, fresh, joints)
+        _write(scene, fresh, hung)
     return folder / "scene.sdf"
 
 
-def _write(scene: Scene, folder: Path, joints: dict[str | None, list[ET.Element]]) -> None:
+def _write(scene: Scene, folder: Path, hung: dict[str, _Hung]) -> None:
     bodies, stored = body_names(scene), stored_assets(scene)
     root = _root()
     world = ET.SubElement(root, "world", name="scene")
     world.append(_ground(scene))
+    models: dict[str, ET.Element] = {}
     for obj in scene.objects:
         name = stored[id(obj.asset)]
         if not (folder / "models" / name).exists():
             _write_model(obj.asset, name, folder / "models" / name)
-        model = _model(obj.asset, bodies[obj.name], f"models/{name}/meshes/", fixed=obj.fixed)
-        model.insert(0, _pose(obj.pose))
-        model.extend(joints.get(obj.name, ()))
-        world.append(model)
-    world.extend(joints.get(_WORLD, ()))
+        models[obj.name] = _model(obj.asset, bodies[obj.name], f"models/{name}/meshes/", fixed=obj.fixed)
+    for obj in scene.objects:
+        model, body, above = models[obj.name], bodies[obj.name], hung.get(obj.name)
+        if above is None or above.parent is None:
+            model.insert(0, _pose(obj.pose))
+            world.append(model)
+            if above is not None:
+                model.append(_joint(f"{body}_hangs", above.points, LINK, "world"))
+        else:
+            model.insert(0, _pose(_within(scene[above.parent].pose, obj.pose)))
+            models[above.parent].append(model)
+            models[above.parent].append(_joint(f"{body}_hangs", above.points, f"{body}::{LINK}", LINK))
     _save(root, folder / "scene.sdf")
 
 
@@ -205,10 +210,23 @@ def _pose(pose: Pose, relative_to: str | None = None) -> ET.Element:
     return element
 
 
-def _joints(scene: Scene, bodies: dict[str, str]) -> dict[str | None, list[ET.Element]]:
-    """A joint for every attachment of objects that are not both fixed, by the object whose model holds it."""
-    joints: dict[str | None, list[ET.Element]] = {}
-    hung = set()
+@dataclass(frozen=True, kw_only=True)
+class _Hung:
+    """How an object hangs."""
+
+    parent: str | None
+    """The object that holds it; None for one that is fixed, which SDF calls the world."""
+    points: np.ndarray
+    """Where it is held [m], in its own frame, shape (n, 3)."""
+
+
+def _hung(scene: Scene) -> dict[str, _Hung]:
+    """What hangs, by its name: one end of every attachment of objects that are not both fixed.
+
+    Raises:
+        ExportError: an object hangs from two, or in a ring.
+    """
+    found: dict[str, _Hung] = {}
     for one in scene.attachments:
         ends = (one.child, one.parent)
         if scene[one.child].fixed:
@@ -216,17 +234,22 @@ def _joints(scene: Scene, bodies: dict[str, str]) -> dict[str | None, list[ET.El
         child, parent = ends
         if scene[child].fixed:
             continue
-        if child in hung:
+        if child in found:
             raise ExportError(f'"{child}" hangs from two objects, which SDF cannot say; write mjcf or urdf instead.')
-        hung.add(child)
+        above: str | None = None if scene[parent].fixed else parent
         points = np.array([pair[ends.index(one.child)] for pair in one.anchors])
-        name = f"{bodies[child]}_hangs"
-        if scene[parent].fixed:
-            joints[child] = [_joint(name, points, LINK, "world")]
-        else:
-            above, below = f"{bodies[parent]}::{LINK}", f"{bodies[child]}::{LINK}"
-            joints.setdefault(_WORLD, []).append(_joint(name, points, below, above))
-    return joints
+        found[child] = _Hung(parent=above, points=points)
+        while above is not None:
+            if above == child:
+                raise ExportError(f'"{child}" hangs from itself by others, which SDF cannot say; write mjcf instead.')
+            above = found[above].parent if above in found else None
+    return found
+
+
+def _within(outer: Pose, pose: Pose) -> Pose:
+    """`pose` as `outer` sees it."""
+    place = outer.rotation.T @ (np.array(pose.position) - np.array(outer.position))
+    return Pose.from_matrix(outer.rotation.T @ pose.rotation, place)
 
 
 def _joint(name: str, points: np.ndarray, child: str, parent: str) -> ET.Element:

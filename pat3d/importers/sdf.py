@@ -36,7 +36,9 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     world = top.find("world")
     outer = top if world is None else world
     notes: list[str] = []
-    hung = {_end(joint, end).split("::")[0]: joint for joint in outer.findall("joint") for end in ("child", "parent")}
+    # An end in another model is "model::link", after the names of the models around it.
+    ends = [(_end(joint, end).split("::"), joint) for joint in outer.iter("joint") for end in ("child", "parent")]
+    hung = {names[-2]: joint for names, joint in ends if len(names) > 1}
     objects, heights = list[ImportedObject](), list[float]()
     for one in _things(outer, path, root, notes):
         if not isinstance(one, ImportedObject):
@@ -46,7 +48,7 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
         if height is not None:
             heights.append(height)
         elif one.name in hung and not one.joint:
-            what = f'the joint "{hung[one.name].get("name", "?")}" of the world'
+            what = f'the joint "{hung[one.name].get("name", "?")}"'
             objects.append(ImportedObject(name=one.name, pose=one.pose, body=one.body, fixed=one.fixed, joint=what))
         else:
             objects.append(one)
