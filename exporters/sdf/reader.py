@@ -7,10 +7,21 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.errors import ExportError, SpecError
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
+from pat3d.exporters.common.xml_files import (
+    MeshCorners,
+    beside,
+    box_corners,
+    common,
+    in_body_axes,
+    numbers,
+    only,
+    read_xml,
+    tensor,
+)
 from pat3d.geometry.pose import Pose
 
 
@@ -22,36 +33,28 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
     """
     path = Path(path)
     world = only(read_xml(path, "sdf"), "world", str(path))
-    volumes = Volumes()
+    meshes = MeshCorners()
     return tuple(
         body
         for model in world.findall("model")
         if model.get("name") != "ground"
-        for body in _bodies(model, path, volumes, Pose())
+        for body in _bodies(model, path, meshes, Pose())
     )
 
 
-def hangs(path: str | Path) -> bool:
-    """Whether two models of the world at `path` are joined by what moves; a damaged file has no joints."""
-    try:
-        return any(joint.get("type") != "fixed" for joint in read_xml(Path(path), "sdf").iterfind("world/joint"))
-    except ExportError:
-        return False
-
-
-def _bodies(model: ET.Element, path: Path, volumes: Volumes, outer: Pose) -> Iterator[BodyReadback]:
+def _bodies(model: ET.Element, path: Path, meshes: MeshCorners, outer: Pose) -> Iterator[BodyReadback]:
     """A model whose pose is within `outer`, and those in it."""
     where = f"{path}: {model.get('name')}"
     own = _pose(model, where)
     place = Pose.from_matrix(outer.rotation @ own.rotation, outer.apply(np.array([own.position]))[0])
     # To the last bit where nothing encloses it.
     pose = own if outer == Pose() else place
-    yield _body(model, path, volumes, pose, where)
+    yield _body(model, path, meshes, pose, where)
     for inner in model.findall("model"):
-        yield from _bodies(inner, path, volumes, pose)
+        yield from _bodies(inner, path, meshes, pose)
 
 
-def _body(model: ET.Element, path: Path, volumes: Volumes, pose: Pose, where: str) -> BodyReadback:
+def _body(model: ET.Element, path: Path, meshes: MeshCorners, pose: Pose, where: str) -> BodyReadback:
     link = only(model, "link", where)
     inertial = only(link, "inertial", where)
     frame = _pose(inertial, where)
@@ -68,7 +71,7 @@ def _body(model: ET.Element, path: Path, volumes: Volumes, pose: Pose, where: st
         centre=np.array(frame.position),
         inertia=in_body_axes(moments, frame.rotation),
         friction=common(frictions),
-        hull_volume=sum(_volume(collision, path, volumes, where) for collision in collisions),
+        hulls=tuple(_corners(collision, path, meshes, where) for collision in collisions),
         pose=pose,
         fixed=model.findtext("static", "false").strip() in ("true", "1"),
     )
@@ -89,9 +92,13 @@ def _pose(parent: ET.Element, where: str) -> Pose:
         raise ExportError(f"{where}: {error}") from error
 
 
-def _volume(collision: ET.Element, path: Path, volumes: Volumes, where: str) -> float:
+def _corners(collision: ET.Element, path: Path, meshes: MeshCorners, where: str) -> NDArray[np.float64]:
+    """Corners of a collider [m], in the frame of its link, shape (corners, 3)."""
     geometry = only(collision, "geometry", where)
     box = geometry.find("box")
     if box is not None:
-        return float(np.prod(numbers(only(box, "size", where).text, 3, where)))
-    return volumes.of(beside(only(only(geometry, "mesh", where), "uri", where).text, path.parent, path.parent))
+        corners = box_corners(numbers(only(box, "size", where).text, 3, where))
+    else:
+        uri = only(only(geometry, "mesh", where), "uri", where).text
+        corners = meshes.of(beside(uri, path.parent, path.parent))
+    return _pose(collision, where).apply(corners) if collision.find("pose") is not None else corners
