@@ -106,6 +106,17 @@ def test_a_robot_is_refused_by_its_joints_and_may_stand_still_or_be_left_out(tmp
     assert (left.left_out, [obj.name for obj in left.scene.objects]) == (("arm",), ["cube"])
 
 
+def test_a_body_without_a_name_has_that_of_the_mesh_that_no_other_has(tmp_path):
+    corners = "0 0 0  0.1 0 0  0 0.1 0  0 0 0.1"
+    meshes = "".join(f'<mesh name="{name}" vertex="{corners}"/>' for name in ("mug", "brick", "tray"))
+    body = '<body pos="{} 0 0.1"><freejoint/><geom type="mesh" mesh="{}"/></body>'
+    bodies = "".join(body.format(x, mesh) for x, mesh in enumerate(("mug", "brick", "brick", "tray")))
+    named = '<body name="tray" pos="9 0 0.1"><freejoint/><geom type="box" size="0.02 0.02 0.02"/></body>'
+    path = tmp_path / "scene.xml"
+    path.write_text(f"<mujoco><asset>{meshes}</asset><worldbody>{bodies}{named}</worldbody></mujoco>")
+    assert [obj.name for obj in import_scene(path).scene.objects] == ["mug", "body 2", "body 3", "body 4", "tray"]
+
+
 def test_sdf_frames_links_joints_and_includes(tmp_path):
     (tmp_path / "brick").mkdir()
     box = "<geometry><box><size>0.2 0.1 0.06</size></box></geometry>"
