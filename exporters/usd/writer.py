@@ -82,15 +82,18 @@ def write_usd_asset(
 
 
 def levels_of(folder: str | Path) -> tuple[int, ...]:
-    """The `levels` that the USD export in `folder` was written with.
+    """The `levels` that the USD export in `folder` was written with; none where it is damaged.
 
     Raises:
         ExportError: usd-core is not installed.
     """
-    from pat3d.exporters.usd.openusd import Sdf
+    from pat3d.exporters.usd.openusd import Sdf, Tf
 
     found = [path for suffix in SUFFIXES[:2] if (path := Path(folder) / f"scene{suffix}").is_file()]
-    layer = Sdf.Layer.FindOrOpen(str(found[0])) if found else None
+    try:
+        layer = Sdf.Layer.FindOrOpen(str(found[0])) if found else None
+    except Tf.ErrorException:
+        return ()
     return () if layer is None else tuple(map(int, layer.customLayerData.get("pat3d", {}).get("levels", ())))
 
 

@@ -98,7 +98,9 @@ def test_validators_and_the_package_take_levels(path):
 def test_what_is_written_anew_has_the_levels_that_it_had(scene, path, tmp_path):
     _, settings = exported(path.parent.parent)
     assert settings == {"text": False, "package": True, "levels": LEVELS}
-    write_usd(scene, tmp_path / "usd")
+    again = write_usd(scene, tmp_path / "usd")
+    assert exported(tmp_path)[1]["levels"] == ()
+    again.write_bytes(b"PXR-USDC damaged")
     assert exported(tmp_path)[1]["levels"] == ()
 
 
