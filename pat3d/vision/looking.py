@@ -9,6 +9,7 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -205,24 +206,19 @@ class _Looking:
     ) -> tuple[Arrays, dict[str, Any]]:
         """What `make` makes, or what an earlier run made of the same."""
         path = cache_root() / "looked" / f"{content_key(shown, {**said, 'weights': _weights(name)})}.npz"
-        begin = time.monotonic()
-        try:
-            with np.load(path, allow_pickle=False) as data:
-                arrays = {key: data[key] for key in data.files if key != "told"}
-                told = json.loads(str(data["told"]))
+        kept = _read_record(path)
+        if kept is not None:
             self.record[role] = {"model": name, "kept": True}
-        except Exception:
-            # A damaged archive raises whatever its damage happens to hit (zip, zlib, header, missing key).
-            arrays, told = make()
-            self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
-            try:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                kept: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
-                with replaced_file(path) as fresh, fresh.open("wb") as file:
-                    np.savez_compressed(file, **kept)
-            except OSError:
-                # A cache that cannot be written costs the next run its time, and this one nothing.
-                return arrays, told
+            return kept
+        begin = time.monotonic()
+        arrays, told = make()
+        self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
+        # A cache that cannot be written costs the next run its time, and this one nothing.
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            written: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
+            with replaced_file(path) as fresh, fresh.open("wb") as file:
+                np.savez_compressed(file, **written)
         return arrays, told
 
 
@@ -294,6 +290,16 @@ def _needed(make: Callable[[], Any] | None, otherwise: str) -> Any:
     if make is None:
         raise SpecError(otherwise)
     return make()
+
+
+def _read_record(path: Path) -> tuple[Arrays, dict[str, Any]] | None:
+    """What `_Looking._kept` has written at `path`; None where there is nothing, or it is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            return {key: data[key] for key in data.files if key != "told"}, json.loads(str(data["told"]))
+    except Exception:
+        # A damaged archive raises whatever its damage happens to hit (zip, zlib, header, missing key).
+        return None
 
 
 def _weights(name: str) -> list[tuple[str, int, int]]:
