@@ -24,8 +24,10 @@ from pat3d.scene.folder import check_target
 from pat3d.scene.replacement import write_bytes
 from pat3d.vision.files import Label, Labels
 from pat3d.vision.looking import Lookers, Photograph, look
+from pat3d.vision.observation import Observation
+from pat3d.vision.occlusion import doubt_of_size, least_occluded
 from pat3d.vision.painting import encoded
-from pat3d.vision.recover import recover
+from pat3d.vision.recover import Recovered, recover
 
 PICTURE = "picture.png"
 """In the scene's folder: what the photograph became, side by side."""
@@ -76,9 +78,9 @@ def generate_from_image(
         assets = _assets(labels, own.seed, libraries, orders, watched)
     with clock("fitting"):
         judge = None if lookers is None or lookers.judge is None else lookers.judge()
-        found = recover(seen, assets, judge=judge, progress=watched)
-        if not labels.metric:
-            found = found.resized({one.name: one.size for one in labels.objects if one.size is not None}, seen)
+        stances = {one.name: one.stance for one in labels.objects}
+        found = recover(seen, assets, stances=stances, judge=judge, progress=watched)
+        found = _measured(found, labels, seen)
         found = replace(found, notes=(*looked.notes, *found.notes))
     request = request_of_recovered(
         found,
@@ -86,6 +88,7 @@ def generate_from_image(
         phrases={one.name: one.name for one in labels.objects},
         record={
             "labels": [asdict(one) for one in labels.objects],
+            "least_occluded": labels.least_occluded,
             **looked.record,
             "picture": photograph.files(),
         },
@@ -99,6 +102,18 @@ def generate_from_image(
     if photograph.picture is None:
         write_bytes(folder / PAINTED, encoded(looked.picture))
     return outcome
+
+
+def _measured(found: Recovered, labels: Labels, seen: Observation) -> Recovered:
+    """`found` in metres: those of the least occluded object where the depth has none, else compared with them."""
+    sizes = {one.name: one.size for one in labels.objects if one.size is not None}
+    if not labels.metric:
+        return found.resized(sizes, seen, said=labels.least_occluded)
+    if not sizes:
+        return found
+    name, _ = least_occluded(found, seen, sizes, labels.least_occluded)
+    doubt = doubt_of_size(found, name, sizes[name])
+    return found if doubt is None else replace(found, notes=(*found.notes, doubt))
 
 
 def _assets(

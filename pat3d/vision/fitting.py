@@ -20,6 +20,7 @@ from pat3d.geometry.rotations import yaw_of
 from pat3d.vision.camera import Array, PlacedCamera
 from pat3d.vision.caster import Caster, Placement, orientation
 from pat3d.vision.observation import Observation
+from pat3d.vision.stance import Stance
 from pat3d.vision.window import Window
 
 YAWS = 24
@@ -100,7 +101,7 @@ class _Guess:
         return Placement(scale=scale, rotation=rotation, position=centre - scale * rotation @ caster.centre)
 
 
-def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster) -> Fit:
+def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, *, stance: Stance | None = None) -> Fit:
     """Scale, place and yaw with which `caster`'s mesh explains the pixels of object `name`.
 
     Where none does, other orientations are tried: pens lean in cups, bananas lie.
@@ -110,20 +111,25 @@ def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster) -> F
         camera: in a frame whose z is up.
         name: of the object.
         caster: its mesh, in a frame whose z is up.
+        stance: how it stands, as somebody says; decides between candidates that the pixels leave nearly as good.
     """
+    said = stance or Stance()
     coarse, fine = (Window(seen, camera, name, pixels) for pixels in (COARSE, FINE))
     rings = [[_aligned(coarse, caster, start, yaw=2 * math.pi * k / YAWS) for k in range(YAWS)] for start in STARTS]
     firsts = [ring[k] for ring in rings for k in _valleys(_costs(coarse, caster, ring))]
     sharp = Window(seen, camera, name, SHARP)
     best = _judged(sharp, caster, _turned_about(fine, caster, _best(coarse, fine, caster, firsts)))
     tilted = False
-    if best[1] > fine.expected + UNEXPLAINED:
+    if said.fallen or best[1] > fine.expected + UNEXPLAINED:
         turned = [_aligned(coarse, caster, start, first=one) for one in _orientations() for start in STARTS]
         order = np.argsort(_costs(coarse, caster, turned), kind="stable")
         found = _best(coarse, fine, caster, [turned[k] for k in order[:TRIED]], leans=True)
         leaning = _judged(sharp, caster, found, leans=True)
-        if leaning[1] - fine.expected < TILT_GAIN * (best[1] - fine.expected):
+        most = best[1] + NEARLY if said.fallen else fine.expected + TILT_GAIN * (best[1] - fine.expected)
+        if leaning[1] < most:
             best, tilted = _straightened(fine, caster, leaning)
+    if not tilted:
+        best = _faced(fine, caster, best, said)
     return _fit(fine, caster, *best, tilted=tilted)
 
 
@@ -202,6 +208,17 @@ def _judged(
         # Between noise and noise, what is not quite at its best is worse than its rival.
         tried = [_settled(sharp, caster, one, leans=leans) for one in tried]
     return min(tried, key=lambda one: one[1])
+
+
+def _faced(window: Window, caster: Caster, best: tuple[_Guess, float], said: Stance) -> tuple[_Guess, float]:
+    """`best`, or what it becomes after turns by quarters where its front points against what is `said`."""
+    if not said.denies(best[0].placed(window, caster).rotation, window.middle):
+        return best
+    turned = [replace(best[0], yaw=best[0].yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
+    agreed = [one for one in turned if not said.denies(one.placed(window, caster).rotation, window.middle)]
+    tried = [_refined(window, caster, one, steps=ROUGH_STEPS) for one in agreed]
+    other = _settled(window, caster, min(tried, key=lambda one: one[1]))
+    return other if other[1] < _cost(window, caster, best[0]) + NEARLY else best
 
 
 def _costs(window: Window, caster: Caster, guesses: list[_Guess]) -> Array:

@@ -271,7 +271,8 @@ def _matched(labels: Labels, masks: Masks) -> Labels:
         if number is not None:
             left.remove((number, phrase))
             kept.append(replace(one, value=number))
-    return replace(labels, objects=tuple(kept))
+    least = labels.least_occluded if any(one.name == labels.least_occluded for one in kept) else None
+    return replace(labels, objects=tuple(kept), least_occluded=least)
 
 
 def _thumbnail(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:

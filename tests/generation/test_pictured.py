@@ -141,7 +141,11 @@ def test_a_prompt_becomes_a_photograph_and_this_a_scene_and_what_models_said_is_
         usual | {"number": 1, "name": "box", "noun": "storage box"},
         usual | {"number": 2, "name": "mug", "noun": "mug"},
     ]
-    replies = [Reply(body=json.dumps(picture).encode()), said({"kinds": kinds}), said({"objects": told})]
+    replies = [
+        Reply(body=json.dumps(picture).encode()),
+        said({"kinds": kinds}),
+        said({"objects": told, "least_occluded": 1}),
+    ]
     truth = Truth(see(THINGS, CAMERA))
     with serving(*replies) as server:
         settings = ModelSettings(name="eyes", base_url=server.url, key="secret", retries=0)
@@ -165,6 +169,7 @@ def test_a_prompt_becomes_a_photograph_and_this_a_scene_and_what_models_said_is_
     assert first["painted_by"]["images"] == 1
     assert first["found_by"]["model"] == first["measured_by"]["model"] == "truth"
     assert first["labelled_by"]["prompt_tokens"] == 200
+    assert first["least_occluded"] == "box"
     assert '1 of 2 "mug" found by truth' in first["notes"]
     assert second["found_by"]["kept"]
     assert second["measured_by"]["kept"]
