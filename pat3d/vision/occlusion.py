@@ -1,7 +1,7 @@
 """Which object of a picture is hidden least: its size tells more of the scene's than any other's (paper, Sec. 3).
 
-A vision-language model says so, and its answer counts while the drawn fits do not contradict it; where nobody says, they
-decide.
+A vision-language model says so, and its answer counts while the drawn fits do not contradict it; where nobody says,
+they decide.
 """
 
 from __future__ import annotations

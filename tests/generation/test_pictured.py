@@ -14,6 +14,7 @@ from pat3d.assets.variant import Variant
 from pat3d.cli.main import main
 from pat3d.cli.photographs import labeller_of
 from pat3d.cli.reading import chat
+from pat3d.errors import ModelError
 from pat3d.generation.pictured import generate_from_image
 from pat3d.generation.request import derived_seed
 from pat3d.geometry.pose import Pose
@@ -26,7 +27,7 @@ from pat3d.vision.listing import ChatLister
 from pat3d.vision.looking import Lookers, Photograph
 from pat3d.vision.painting import ServedPainter
 from tests.loopback import Reply
-from tests.plan.llm_server import said, serving
+from tests.plan.llm_server import fault, said, serving
 from tests.vision.seen import HEIGHT, WIDTH, camera_at, see
 
 CAMERA = camera_at((0.4, -0.8, 0.6), (0.0, 0.0, 0.05))
@@ -176,6 +177,38 @@ def test_a_prompt_becomes_a_photograph_and_this_a_scene_and_what_models_said_is_
     assert second["painted_by"]["cached"] == 1
     assert all(0.97 < one["scale"] < 1.03 for one in second["fits"].values())
     assert "secret" not in json.dumps(reports)
+
+
+def test_a_run_that_a_server_broke_leaves_nothing_and_goes_on_from_the_last_stage_that_was_done(tmp_path, monkeypatch):
+    monkeypatch.setenv("NO_PROXY", "127.0.0.1")
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path / "cache"))
+    Image.fromarray(np.full((HEIGHT, WIDTH, 3), 120, dtype=np.uint8)).save(tmp_path / "photo.png")
+    truth = Truth(see(THINGS, CAMERA))
+    kinds = {"kinds": [{"phrase": "box", "count": 1}, {"phrase": "mug", "count": 1}]}
+    cut = said({"objects": []})
+    cut.sent = 40
+    runs = [
+        ([fault(500, "broken, very-secret")], "status 500", 0),
+        ([said(kinds), cut], "model", 3),
+        ([fault(429, "slow down")], "status 429", 3),
+        ([said("{"), said({"objects": [], "least_occluded": 1}), said("[]")], "no valid answer in 3", 3),
+    ]
+    for replies, says, asked in runs:
+        with serving(*replies) as server:
+            asks = Chat(ModelSettings(name="eyes", base_url=server.url, key="very-secret", retries=0))
+            lookers = Lookers(
+                lister=lambda asks=asks: ChatLister(asks),
+                finder=lambda: truth,
+                labeller=lambda asks=asks: labeller_of(asks),
+                depth=lambda: truth,
+            )
+            with pytest.raises(ModelError, match=says) as raised:
+                generate_from_image(Photograph(picture=tmp_path / "photo.png"), out=tmp_path / "scene", lookers=lookers)
+            assert not server.replies
+        assert truth.asked == asked
+        assert "very-secret" not in str(raised.value)
+        assert {one.name for one in tmp_path.iterdir()} <= {"cache", "photo.png"}
+    assert not any(b"very-secret" in one.read_bytes() for one in tmp_path.rglob("*") if one.is_file())
 
 
 def test_without_depth_and_without_a_model_both_are_named(photographed, tmp_path, monkeypatch, capsys):

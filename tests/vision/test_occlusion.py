@@ -44,7 +44,7 @@ def test_what_hides_an_object_and_what_the_border_cuts_off_count():
     assert visible_share(FOUND, SEEN, "behind") < 0.7
     aside = camera_at((0.0, -1.2, 0.5), (0.22, 0.0, 0.05), angle=35.0)
     cut = see(THINGS, aside)
-    assert 0 == np.nonzero(cut.mask("free"))[1].min()
+    assert np.nonzero(cut.mask("free"))[1].min() == 0
     assert 0.2 < visible_share(replace(FOUND, camera=aside), cut, "free") < 0.8
 
 
