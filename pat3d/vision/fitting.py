@@ -213,7 +213,10 @@ def _sharpened(window: Window, caster: Caster, guess: Guess, *, leans: bool = Fa
     found = polished(window, caster, near, leans=leans)
     if found[1] < window.perfect:
         return found
-    nearer, _ = _refined(window, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
+    if found[1] < window.expected + EXPLAINED:
+        nearer = found[0]
+    else:
+        nearer, _ = _refined(window, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
     return min(found, _refined(window, caster, nearer, leans=leans), key=lambda one: one[1])
 
 

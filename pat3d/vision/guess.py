@@ -30,7 +30,8 @@ STEEP = 3.0
 """A pixel whose range changes by this factor more than that of nearly all is on an edge."""
 SHORTEST, SHORTER = 0.1, 0.4
 """Steps are shortened by the second until the cost is less, down to the first."""
-LEAST_GAIN = 1e-5
+LEAST_GAIN = 1e-5, 1e-3
+"""That another step has to bring: of cost, and over the cost."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +126,7 @@ def polished(
             other = guess.moved(length * step, leans=leans)
             there = drawn(other)
             less = window.cost(there.astype(np.float32), blur)
-            better = less < cost - LEAST_GAIN
+            better = less < cost - max(LEAST_GAIN[0], LEAST_GAIN[1] * cost)
             length *= SHORTER
         if not better:
             break

@@ -58,6 +58,7 @@ class Window:
         grid = np.mgrid[low[0] + stride // 2 : high[0] : stride, low[1] + stride // 2 : high[1] : stride]
         row, column = grid.reshape(2, -1)
         self.own = mask[row, column]
+        self.others = (seen.instances[row, column] > 0) & ~self.own
         self.whole = None if whole is None else whole[row, column]
         """Where the object would be seen if nothing hid it; None where nobody knows."""
         self.origin = camera.position
@@ -115,6 +116,8 @@ class Window:
         with np.errstate(invalid="ignore"):
             nearer = drawn - self.smooth
             free = np.where(nearer > self.calm, 0.0, np.where(nearer > -self.calm, UNSURE, 1.0))
+            # Where another object is seen, what touches it from behind is where it should be.
+            free = np.where(self.others, np.clip(-nearer / self.calm, 0.0, 1.0), free)
         return np.where(np.isfinite(self.smooth), free, UNSURE)
 
     def overlap(self, drawn: Ranges) -> float:
