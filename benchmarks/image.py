@@ -285,8 +285,8 @@ def compare(
         tally.centre.append(centre)
         tally.scale.append(scale)
         tally.worst.append(
-            {"view": len(tally.gravity) - 1, "scene": scene.prompt, "object": obj.name,
-             "centre": centre, "scale": scale, "yaw": yaw, "supports": right, "found": sorted(kinds[1]), "true": sorted(kinds[0]),
+            {"view": len(tally.gravity) - 1, "scene": scene.prompt, "object": obj.name, "centre": centre,
+             "scale": scale, "yaw": yaw, "supports": right, "found": sorted(kinds[1]), "true": sorted(kinds[0]),
              "cost": found.fits[obj.name].cost, "overlap": found.fits[obj.name].overlap,
              "pixels": int(seen.mask(obj.name).sum()), "tilted": found.fits[obj.name].tilted}
         )  # fmt: skip
