@@ -120,7 +120,7 @@ def polished(
         weighted = slopes[near] / sigma[near, None]
         normal = weighted.T @ weighted
         damped = normal + np.diag(DAMPING * normal.diagonal() + 1e-9 * normal.max() + 1e-12)
-        step = -np.linalg.solve(damped, weighted.T @ (error[near] / sigma[near]))
+        step = -np.asarray(np.linalg.solve(damped, weighted.T @ (error[near] / sigma[near])), dtype=np.float64)
         length, better = 1.0, False
         while length > SHORTEST and not better:
             other = guess.moved(length * step, leans=leans)

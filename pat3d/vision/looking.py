@@ -60,6 +60,8 @@ class Photograph:
     """JSON or YAML, see `pat3d.vision.files.LABELS_SCHEMA`."""
     camera: Path | None = None
     """See `pat3d.vision.intrinsics`; None for what the photograph's own notes or the depth model say."""
+    relative: bool = False
+    """Whether the depth is right up to a factor, also where the labels do not say so."""
 
     def files(self) -> dict[str, dict[str, str]]:
         """Name and checksum of every file.
@@ -67,7 +69,7 @@ class Photograph:
         Raises:
             SpecError: one cannot be read.
         """
-        given = {name: path for name, path in vars(self).items() if path is not None}
+        given = {name: path for name, path in vars(self).items() if isinstance(path, Path)}
         return {name: {"file": path.name, "sha256": _hash(path)} for name, path in given.items()}
 
 
@@ -242,6 +244,10 @@ def look(photograph: Photograph, lookers: Lookers, *, prompt: str, progress: Pro
     depth, measured = looking.depth(picture)
     if labels is None:
         labels = looking.labels(picture, values)
+    if photograph.relative:
+        labels = replace(labels, metric=False)
+        if all(one.size is None for one in labels.objects):
+            raise SpecError("depth that is right up to a factor needs the size of at least one object in the labels.")
     instances = instances_of(values, labels)
     height, width = depth.shape
     if photograph.camera is not None:

@@ -73,6 +73,12 @@ def test_what_a_photograph_needs_is_said(photographed, tmp_path, capsys):
     assert "--paint needs a PROMPT" in capsys.readouterr().err
 
 
+def test_relative_depth_is_a_file_s(photographed, tmp_path, capsys):
+    del photographed["--depth"]
+    assert main(["generate", *words(photographed), "--relative-depth", "--out", str(tmp_path / "scene")]) == 2
+    assert "give it as --depth FILE" in capsys.readouterr().err
+
+
 def test_every_model_that_is_missing_is_named_at_once(tmp_path, monkeypatch, capsys):
     for name in ("PAT3D_DEPTH_MODEL", "PAT3D_SEGMENTATION_MODEL", "PAT3D_IMAGE_MODEL", "PAT3D_MODEL", "PAT3D_CONFIG"):
         monkeypatch.delenv(name, raising=False)

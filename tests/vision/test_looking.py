@@ -1,12 +1,13 @@
 """What a model measured of a photograph is kept, and measured again where the record of it is damaged."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from pat3d.errors import ModelError
+from pat3d.errors import ModelError, SpecError
 from pat3d.progress import silent
 from pat3d.vision.depth import MeasuredDepth
 from pat3d.vision.looking import Lookers, Photograph, look
@@ -42,7 +43,11 @@ def looked(tmp_path, monkeypatch):
         picture=tmp_path / "photo.png", masks=tmp_path / "masks.png", labels=tmp_path / "labels.json"
     )
     counted = Counted()
-    return counted, lambda: look(photograph, Lookers(depth=lambda: counted), prompt="", progress=silent), tmp_path
+
+    def once(**more):
+        return look(replace(photograph, **more), Lookers(depth=lambda: counted), prompt="", progress=silent)
+
+    return counted, once, tmp_path
 
 
 @pytest.mark.parametrize("damage", [lambda data: b"", lambda data: data[: len(data) // 2], lambda data: b"no zip"])
@@ -66,3 +71,12 @@ def test_what_a_model_cannot_do_is_its_own_error_and_leaves_no_record(looked):
         once()
     assert caught.value.__context__ is None
     assert not (folder / "cache" / "looked").exists()
+
+
+def test_depth_up_to_a_factor_needs_a_size(looked):
+    _, once, folder = looked
+    assert once().labels.metric
+    with pytest.raises(SpecError, match="needs the size of at least one object"):
+        once(relative=True)
+    (folder / "labels.json").write_text(json.dumps({"objects": [{"name": "mug", "size": 0.1}]}))
+    assert not once(relative=True).labels.metric
