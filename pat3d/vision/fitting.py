@@ -3,8 +3,9 @@
 Every candidate is drawn and judged by the pixels around the mask (`pat3d.vision.window`). The camera sees directions
 well and distances badly, so the search is over direction and distance of the middle, the angle that the asset fills,
 and yaw: for each of many yaws the first three follow from areas and medians, and the best few are refined by the
-simplex method, which does not mind that the judgement has steps. It begins with a larger sigma, so that what is far
-off still feels where it belongs.
+simplex method, which does not mind that the judgement has steps, and by Gauss and Newton's, which ends at the least
+squares of the ranges (`pat3d.vision.guess`). It begins with a larger sigma, so that what is far off still feels where
+it belongs.
 """
 
 from __future__ import annotations
@@ -28,8 +29,6 @@ YAWS = 24
 """First guesses."""
 TRIED, REFINED = 7, 3
 """Yaws that are refined roughly, the best of the first guesses that are no neighbours; and of those, exactly."""
-EXPLAINED = 0.1
-"""Cost above which more of them are refined exactly."""
 STARTS = (1.0, 2.2)
 """Sizes of first guesses, over what the mask would say if nothing hid the object."""
 BLUR, HALFWAY = 12.0, 3.5
@@ -152,7 +151,7 @@ def _turned_about(window: Window, caster: Caster, found: list[tuple[Guess, float
         return found
     quarters = [best.yaw + quarter * math.pi / 2 for quarter in (1, 2, 3)]
     others = [replace(best, yaw=yaw) for yaw in quarters]
-    if cost > window.expected + EXPLAINED:
+    if cost > window.explained:
         # Turned by a quarter, what is longer than wide has another size too: only the mask tells which.
         others += [_aligned(window, caster, start, yaw=yaw) for start in STARTS for yaw in (best.yaw, *quarters)]
     tried = [_sharpened(window, caster, other) for other in others]
@@ -169,7 +168,7 @@ def _judged(
     costs = sorted(((one.cost(sharp, caster), k) for k, one in enumerate(rivals)))
     closest = [rivals[k] for cost, k in costs if cost < costs[0][0] + NEARLY / 3][:2]
     tried = [_refined(sharp, caster, one, leans=leans, steps=ROUGH_STEPS) for one in closest]
-    if len(tried) > 1 and sharp.expected >= EXPLAINED:
+    if len(tried) > 1 and sharp.noisy:
         # Between noise and noise, what is not quite at its best is worse than its rival.
         tried = [_settled(sharp, caster, one, leans=leans) for one in tried]
     return min(tried, key=lambda one: one[1])
@@ -201,7 +200,7 @@ def _best(
     for guess, _ in rough:
         exact.append(_sharpened(fine, caster, guess, leans=leans))
         least = min(cost for _, cost in exact)
-        if least < fine.perfect or (len(exact) >= REFINED and least < fine.expected + EXPLAINED):
+        if least < fine.perfect or (len(exact) >= REFINED and least < fine.explained):
             break
     exact = sorted(exact, key=lambda one: one[1])
     return [_settled(fine, caster, exact[0], leans=leans), *exact[1:]]
@@ -213,7 +212,7 @@ def _sharpened(window: Window, caster: Caster, guess: Guess, *, leans: bool = Fa
     found = polished(window, caster, near, leans=leans)
     if found[1] < window.perfect:
         return found
-    if found[1] < window.expected + EXPLAINED:
+    if found[1] < window.explained:
         nearer = found[0]
     else:
         nearer, _ = _refined(window, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
