@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 
 import numpy as np
@@ -20,6 +21,14 @@ from pat3d.studio.workbench import needed
 
 pytestmark = pytest.mark.slow
 
+RECORDER = """
+window.shaders = [];
+const { shaderSource } = WebGL2RenderingContext.prototype;
+WebGL2RenderingContext.prototype.shaderSource = function (shader, text) {
+    window.shaders.push(text);
+    return shaderSource.call(this, shader, text);
+};
+"""
 SENTENCE = "a red mug on a cutting board"
 LONG = "a stack of ten books, a vase, a red mug, a bowl with six apples and a laptop on a desk"
 
@@ -33,6 +42,7 @@ def studio(tmp_path_factory):
 @pytest.fixture(scope="module")
 def browser(studio):
     with page() as made:
+        made.add_init_script(RECORDER)
         made.goto(studio.address)
         made.get_by_role("button", name="Make").wait_for()
         yield made
@@ -75,6 +85,20 @@ def test_where_the_processor_draws_edges_are_not_smoothed(browser):
     )
     assert wishes["antialias"] is False
     assert wishes["preserveDrawingBuffer"] is True
+
+
+def test_where_the_processor_draws_surfaces_are_matt_until_shadows_and_reflections_are_asked_for(browser):
+    def lit():
+        """For every lit surface that was compiled: whether it shines."""
+        shaders = [text for text in browser.evaluate("window.shaders") if "RE_Direct_Physical" in text]
+        return [re.search(r"#define RE_Direct\s+(\w+)", text).group(1) == "RE_Direct_Physical" for text in shaders]
+
+    assert lit()
+    assert not any(lit())
+    box = browser.get_by_text("Shadows, reflections", exact=True)
+    box.click()
+    until(lambda: any(lit()))
+    box.click()
 
 
 def test_a_click_selects_what_is_under_it(studio, browser, shot):
