@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.geometry.pose import Pose
-from pat3d.scene.model import Scene, SceneObject
+from pat3d.scene.model import Scene
 
 if TYPE_CHECKING:
     import viser
@@ -83,6 +83,19 @@ def arranged(eye: Eye, points: NDArray[np.float64], names: Sequence[str]) -> tup
     return tuple(found)
 
 
+def standing(scene: Scene) -> dict[str, NDArray[np.float64]]:
+    """Where the names of the objects of `scene` stand if nothing is in the way [m], shape (3,)."""
+    carriers = {relation.parent for relation in scene.relations}
+    found = {}
+    for obj in scene.objects:
+        points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.parts])
+        low, high = points.min(axis=0), points.max(axis=0)
+        x, y, _ = (low + high) / 2.0
+        # Over the middle of what carries others stand those.
+        found[obj.name] = np.array([x, low[1] if obj.name in carriers else y, high[2] + ABOVE])
+    return found
+
+
 class Names:
     """The names that the browsers of a server show, each in places of its own."""
 
@@ -100,7 +113,7 @@ class Names:
     def show(self, scene: Scene | None) -> None:
         """The names of the objects of `scene`; none where it is None."""
         with self._lock:
-            self._points = {} if scene is None else {obj.name: _above(obj) for obj in scene.objects}
+            self._points = {} if scene is None else standing(scene)
             self._paths = {name: self._paths.get(name) or self._path("names", name) for name in self._points}
             for client, _ in self._shown.values():
                 self._place(client)
@@ -142,10 +155,3 @@ class Names:
             if place is not None:
                 handles[name].position = place
             handles[name].visible = place is not None
-
-
-def _above(obj: SceneObject) -> NDArray[np.float64]:
-    """Above the middle of an object [m], shape (3,)."""
-    points = np.concatenate([obj.pose.apply(part.vertices) for part in obj.parts])
-    low, high = points.min(axis=0), points.max(axis=0)
-    return np.array([*(low + high)[:2] / 2.0, high[2] + ABOVE])

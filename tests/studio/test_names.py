@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from pat3d.studio.names import AROUND, FARTHEST, HEIGHT, LETTER, Eye, arranged
+from pat3d.scene.io import load_scene
+from pat3d.studio.names import AROUND, FARTHEST, HEIGHT, LETTER, Eye, arranged, standing
+from tests.studio.bricks import bricks_in
 
 UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Of an eye that looks along +y."""
@@ -63,6 +65,13 @@ def test_no_name_overlaps_another_however_many_there_are(seed):
         seen_by.seen(np.stack([place, point])) for place, point in zip(places, points, strict=True) if place is not None
     ]
     assert all(pair[1, 1] - pair[0, 1] <= FARTHEST * HEIGHT + 1e-6 for pair in away)
+
+
+def test_what_carries_others_is_named_at_its_front(tmp_path):
+    points = standing(load_scene(bricks_in(tmp_path / "bricks")))
+    np.testing.assert_allclose(points["board"][:2], (0.0, -0.1), atol=1e-9)
+    np.testing.assert_allclose(points["brick"][:2], (0.05, 0.0), atol=1e-9)
+    assert points["brick"][2] > 0.06
 
 
 def test_what_is_behind_the_eye_or_has_no_room_has_no_name():
