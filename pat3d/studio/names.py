@@ -54,20 +54,23 @@ class Eye:
             return np.stack([self.focal * right / depth, self.focal * down / depth, depth], axis=1)
 
 
-def arranged(eye: Eye, points: NDArray[np.float64], names: Sequence[str]) -> tuple[NDArray[np.float64] | None, ...]:
+def arranged(eye: Eye, points: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
     """Where names stand [m], the middle of their lower edge, so that none overlaps another.
 
-    The lowest in the picture comes first; the others stand above what they would overlap. None where a name is behind
-    the eye or too far above its point.
+    The lowest in the picture comes first; the others stand above what they would overlap. Not a number where a
+    name is behind the eye or too far above its point.
 
     Args:
         eye: what sees them.
         points: where they stand if nothing is in the way [m], shape (n, 3).
         names: of every point.
+
+    Returns:
+        Shape (n, 3).
     """
     seen = eye.seen(points)
     taken: list[tuple[float, float, float]] = []
-    found: list[NDArray[np.float64] | None] = [None] * len(names)
+    found = np.full_like(points, np.nan)
     for index in sorted(np.flatnonzero(seen[:, 2] > 0.0), key=lambda one: -seen[one, 1]):
         x, y, depth = seen[index]
         half = (LETTER * len(names[index]) + AROUND) / 2.0
@@ -80,7 +83,7 @@ def arranged(eye: Eye, points: NDArray[np.float64], names: Sequence[str]) -> tup
             continue
         taken.append((x - half, x + half, foot))
         found[index] = points[index] - eye.rotation[:, 1] * (y - foot) * depth / eye.focal
-    return tuple(found)
+    return found
 
 
 def standing(scene: Scene) -> dict[str, NDArray[np.float64]]:
@@ -152,6 +155,6 @@ class Names:
                 handles[name] = client.scene.add_label(
                     self._paths[name], name, visible=False, font_screen_scale=1.0, anchor="bottom-center"
                 )
-            if place is not None:
+            if seen := bool(np.isfinite(place[0])):
                 handles[name].position = place
-            handles[name].visible = place is not None
+            handles[name].visible = seen
