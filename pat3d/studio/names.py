@@ -71,7 +71,7 @@ def arranged(eye: Eye, points: NDArray[np.float64], names: Sequence[str]) -> NDA
     seen = eye.seen(points)
     taken: list[tuple[float, float, float]] = []
     found = np.full_like(points, np.nan)
-    for index in sorted(np.flatnonzero(seen[:, 2] > 0.0), key=lambda one: -seen[one, 1]):
+    for index in sorted(np.flatnonzero(seen[:, 2] > 0.0).tolist(), key=lambda one: -seen[one, 1]):
         x, y, depth = seen[index]
         half = (LETTER * len(names[index]) + AROUND) / 2.0
         foot = y
