@@ -166,7 +166,7 @@ class _Auditor(Compared):
         asked = self.tasks.strip() or self.undone or "is read as the scene" in self.quoted
         made: list[tuple[int, str]] = []
         for at, word in enumerate(words):
-            if at in named or word in phrases or word in SILENT or not word[0].isalpha():
+            if at in named or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3]} or word in SILENT or not word[0].isalpha():
                 continue
             if find_colour(word) or find_material(word) in materials:
                 continue

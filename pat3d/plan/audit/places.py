@@ -161,7 +161,7 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
             told = before[-1:] if before and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
             yield from _fewer(it, at, told, wanted, f"{word} {place}")
             continue
-        if word == "either" or place == "other":
+        if word == "either" or place == "other" or (it.said.words[at - 1] == "of" and not place[:1].isalnum()):
             continue
         own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
         if own:

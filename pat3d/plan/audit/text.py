@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
@@ -105,6 +106,8 @@ class Said:
 def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
     prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
+    prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)
     found = _names(said.words, find)
@@ -273,6 +276,9 @@ def _whose(said: Said, at: int) -> tuple[tuple[Mention, ...], bool]:
     if words[back] in ("them", "which") and back > 1 and words[back - 1] == "of":
         # "Three mugs on a tray, two of which hold spoons"
         return before, words[back - 2] in ("both", "all", "each")
+    if words[back] in ("former", "latter"):
+        pairs = [pair for pair in pairwise(before) if words[pair[0].end : pair[1].first] == ["and"]]
+        return (pairs[-1][words[back] == "latter"],) if pairs else (), False
     if words[back] in ("both", "each") and words[back - 1] not in PLACING:
         return before, True
     if back < 1 or words[back] not in ("which", "that"):

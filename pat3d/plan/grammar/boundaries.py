@@ -77,7 +77,7 @@ class Boundaries:
             return True
         if not words:
             # "one contains three pens", where nothing is called a contains.
-            headless = self._tokens[at - 1].text in lexicon.NUMBERS if at else False
+            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other")
             return headless and (word,) in LINKS and self._begins(at + 1)
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
@@ -114,7 +114,7 @@ class Boundaries:
         """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
         word = self._tokens[at].text
         verb = word in lexicon.PARTICIPLES or (word,) in LINKS
-        if verb and self._begins(at + 1):
+        if verb and (self._begins(at + 1) or words[-1] in ("former", "latter")):
             return True
         if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
             return False

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
@@ -38,10 +39,11 @@ _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
 _EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
 _SILENT = tuple(tuple(said.split()) for said in (
-    "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about", "and nothing else",
+    "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about", "and nothing else", "in that order",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
+_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
@@ -51,13 +53,13 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = _without(tokens, _SILENT)
+    tokens = counted(_fronted(_asked(_without(tokens, _SILENT))), nouns)
     _refuse_negations(tokens)
     tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
     _refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(_plain_words(_kinds(tokens, nouns), nouns), nouns))
+    return of_what(_relatives(_by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
 
 
 def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
@@ -338,6 +340,41 @@ def _relatives(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         else:
             at += 1
     return made
+
+
+def _by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a bed, next to which there is a rug" as "a bed, and next to the bed is a rug"."""
+    made = list(tokens)
+    for at in range(len(tokens) - 3, 0, -1):
+        size = link_at(tokens, at)
+        which = at + size
+        after = which + 1 + (tokens[min(which + 1, len(tokens) - 1)].text == "there")
+        if not size or tokens[which].text != "which" or tokens[min(after, len(tokens) - 1)].text not in _FINITE:
+            continue
+        end = at - (tokens[at - 1].text == ",")
+        name = next((n for n in (3, 2, 1) if n <= end and nouns.match([token.text for token in tokens[end - n : end]])), 0)
+        if name:
+            joint, the = replace(tokens[at], text="and"), replace(tokens[which], text="the")
+            made[end:after] = [joint, *tokens[at:which], the, *tokens[end - name : end]]
+    return made
+
+
+def _asked(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "could you set up a desk" as "create a desk"."""
+    at = next((n for n, token in enumerate(tokens) if token.text not in _ASKING), 0)
+    words = [token.text for token in tokens[at : at + 3]]
+    if words[:2] != ["set", "up"] or words[2] in lexicon.DEFINITE:
+        return list(tokens)
+    return [replace(tokens[at], text="create"), *tokens[at + 2 :]]
+
+
+def _fronted(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
+    verb = next((n for n, token in enumerate(tokens) if token.text in ("is", "are")), 0)
+    if verb < 3 or tokens[0].text not in ("stacked", "piled") or not link_at(tokens, 1):
+        return list(tokens)
+    end = next(n for n in range(verb, len(tokens)) if tokens[n].mark)
+    return [*tokens[1:end], replace(tokens[0], text="stacked"), *tokens[end:]]
 
 
 def _gap(tokens: Sequence[Token], start: int, nouns: Nouns) -> tuple[int, int, int] | None:
