@@ -71,12 +71,17 @@ def _opens(it: Compared, claim: Claim) -> bool:
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
     """Whether what "it" or "its left" in `claim` may mean is named before it, and the plan has the relation to that."""
     before = _before(it, claim.at)
-    child = before[-1:] if claim.place in ("its left", "its right") and before and before[-1].end == claim.at else []
+    child = before[-1:] if before and before[-1].end == claim.at else []
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     landmarks = {obj.name for obj in it.plan.objects if obj.name not in named} | {
         obj.name for mention in before[: len(before) - len(child)] for obj in it.of(mention)
     }
-    children = {obj.name for mention in child for obj in it.which(mention)} or here
+    children = {obj.name for mention in child for obj in it.which(mention)}
+    # What carries it, or is on it, stands there for it.
+    children |= {name for child in children for name in it.above(child)} | {
+        obj.name for obj in it.plan.objects if children & set(it.above(obj.name))
+    }
+    children = children or here
     kinds = KINDS[claim.place]
     tables = {obj.name for obj in it.plan.objects if obj.noun in it.furniture}
     said = {obj.name: obj.phrase for obj in it.plan.objects}

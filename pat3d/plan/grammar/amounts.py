@@ -44,6 +44,8 @@ def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if at is None or (at and words[at - 1] in ("half", "twice", "times")):
         return list(tokens)
     end = next((n for n in range(at + 3, min(at + 6, len(words))) if words[n] == "as"), None)
+    if end is not None and words[end + 1] == "there":
+        return list(tokens)
     if end is not None:
         namely = next((n for n in range(end, len(words) - 1) if words[n] == "namely" and _is_number(words[n + 1])), None)
         if namely is not None:
