@@ -98,8 +98,13 @@ def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
 
 def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> bool:
     if claim.place == "with":
-        owned = any(mention.end == claim.at for mention in it.said.mentions)
-        return not (owned or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
+        owner = next((mention for mention in it.said.mentions if mention.end == claim.at), None)
+        if owner is not None and not claim.whose and claim.said.startswith("with "):
+            # "a desk with a lamp", and "a mug on a desk with a spoon in it"
+            own = {obj.name for obj in it.which(owner)}
+            led = any(each.of is owner for each in it.said.claims)
+            here = own | {a for a, _, b in it.edges if b in own and led} | (set() if own else here)
+        return not (owner or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
     if claim.place == "holding":
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}

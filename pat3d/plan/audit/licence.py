@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -15,6 +16,10 @@ _ASIDE = frozenset({"left", "right", "side", "sides", "row", "line", "end", "end
                     "at", "leans", "leaning", "lean"})  # fmt: skip
 """Words that put things beside one another and lead to no landmark."""
 _ADDING = frozenset({"too", "also", "likewise", "but"})
+_HEADLESS_INSIDE = re.compile(
+    r"\b(in|inside|into|within|contains?|containing|holds?|holding) ((?!and\b)[a-z]+ ){0,3}"
+    r"(one|another|others?|larger|smaller|largest|smallest|bigger)\b"
+)
 _NEAR = 6
 """Words between names that are joined."""
 
@@ -27,7 +32,11 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
     objects = {obj.name: obj for obj in it.plan.objects}
     pairs: dict[tuple[str, str], list[Relation]] = {}
     for rel in it.plan.relations:
-        if rel.parent in objects and objects[rel.child].noun != objects[rel.parent].noun:
+        alike = rel.parent in objects and objects[rel.child].noun == objects[rel.parent].noun
+        nested = _HEADLESS_INSIDE.search(" ".join(it.said.words)) or any(_nests(it, c, rel) for c in it.said.claims)
+        if alike and rel.kind == "in" and not nested:
+            yield f'assumed: "{rel.child}" in "{rel.parent}"'
+        if rel.parent in objects and not alike:
             pairs.setdefault((objects[rel.child].phrase, objects[rel.parent].phrase), []).append(rel)
     broken = [_said_of(it, claim) for claim in it.said.claims if f'not as said: "{claim.said}"' in found]
     for (child, parent), relations in pairs.items():
@@ -37,6 +46,14 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
                  for rel in relations)  # fmt: skip
         if child != parent and not any(given) and parent.lower() not in noted and child.lower() not in it.told:
             yield f'assumed: "{child}" {relations[0].kind.replace("_", " ")} "{parent}"'
+
+
+def _nests(it: Compared, claim: Claim, rel: Relation) -> bool:
+    """Whether `claim` may say that one of two likes is in the other."""
+    if claim.of is not None:
+        return claim.place in ("in", "holding") and bool({rel.child, rel.parent} & _names(it, [claim.of]))
+    near = [mention for mention in it.said.mentions if mention.end == claim.at]
+    return claim.place == "in" and all(rel.child in _names(it, [mention]) for mention in near)
 
 
 def _stands(it: Compared, rel: Relation) -> bool:
@@ -51,7 +68,8 @@ def _stands(it: Compared, rel: Relation) -> bool:
 
 def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
-    if not {child, parent} <= named or _ADDING & set(it.said.words):
+    inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
+    if inside or not {child, parent} <= named or _ADDING & set(it.said.words):
         return True
     for claim in it.said.claims:
         below, above = _landmarks(it, claim), _said_of(it, claim)

@@ -17,6 +17,8 @@ from pat3d.scene.relations import carriers_of
 
 _LYING = frozenset({"rug", "mat", "carpet", "doormat", "bath mat", "blanket"})
 """On the floor is what is on these too."""
+_LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
+"""How many there are at least of what a word without a noun is one of."""
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -83,6 +85,24 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
         inside = word == "bottom" and "on" not in words[max(at - 2, 0) : at] and "in" in kinds
         if whole is not None and it.which(whole) and not inside and not re.search(rf"\b{word}\b", it.quoted):
             yield at, f'not modelled: "{word}" of "{whole.text}"'
+
+
+def others(it: Compared) -> Iterator[tuple[int, str]]:
+    """ "The other", "another", "the second" where there is one of what is named before only."""
+    words = it.said.words
+    leading = {at for mention in it.said.mentions for at in range(mention.first, mention.end)}
+    for at, word in enumerate(words):
+        least = _LEAST.get(word, 0)
+        follower = words[at + 1] if at + 1 < len(words) else "."
+        if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
+            continue
+        before = [mention for mention in it.said.mentions if mention.end <= at]
+        ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
+        named = ones[-1:] if word in ("other", "others") and ones else before
+        kinds = [{obj.noun for obj in it.which(mention)} for mention in named]
+        likes = [[obj for obj in it.plan.objects if obj.noun in nouns] for nouns in kinds]
+        if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
+            yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
 
 
 def middles(it: Compared) -> Iterator[tuple[int, str]]:
