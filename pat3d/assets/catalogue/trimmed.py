@@ -125,7 +125,7 @@ def _seen(hull: NDArray[np.float64], solids: Sequence[manifold3d.Manifold]) -> l
     low, high = hull.min(axis=0), hull.max(axis=0)
     boxes = np.array([solid.bounding_box() for solid in solids])
     near = (boxes[:, :3] < high).all(axis=1) & (boxes[:, 3:] > low).all(axis=1)
-    inside = [solids[k] ^ part for k in np.flatnonzero(near)]
+    inside = [solid ^ part for solid, meets in zip(solids, near, strict=True) if meets]
     return [solid for solid in inside if not solid.is_empty()]
 
 
