@@ -28,6 +28,10 @@ LEANING = 5.0
 """The same where objects touch in a point or along an edge, in those distances: what leans a little further on leans on
 the same, while a floor that is not there carries nothing."""
 
+DEEPER = 3e-4
+"""Where parts touch in an area, surfaces may be this much further from it than the nearest and carry [m]: a lid is not
+level, and what lies on it does not reach down to its low side."""
+
 TOLERANCE = 1e-5
 """By this much a mesh may stick out of its parts, or end below them [m]."""
 
@@ -60,6 +64,8 @@ class Patch:
     """What the meshes of both objects have there; None for the ground."""
     allowed: tuple[float, float]
     """Distances within which the surfaces of both may carry [m]."""
+    deeper: float
+    """How much further from the plane than the nearest surfaces others may be and carry [m]."""
 
     @cached_property
     def air(self) -> float:
@@ -79,6 +85,8 @@ class Patch:
     def corners(self, distance: float, *, limited: bool = False) -> NDArray[np.float64]:
         """Corners in the plane of where both surfaces are within `distance`, and allowed if `limited`, shape (n, 2)."""
         limits = self.allowed if limited else (np.inf, np.inf)
+        if limited and np.isfinite(self.deeper):
+            distance = min(distance, self.air + self.deeper)
         above, below = (
             rectangle(self.window) if side is None else side.within(min(distance, limit) + self.gap / 2 + TOLERANCE)
             for side, limit in zip(self.sides, limits, strict=True)
@@ -106,7 +114,7 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
         flat = plane.seen(points)[:, :2]
         beside = _BESIDE * min(sizes[body] for body in (first, second) if body != GROUND_INDEX)
         window = np.stack([flat.min(axis=0) - beside, flat.max(axis=0) + beside])
-        factor = 1.0 if _spans_area(flat) else LEANING
+        factor, deeper = (1.0, DEEPER) if _spans_area(flat) else (LEANING, np.inf)
         found.append(
             Patch(
                 bodies=(first, second),
@@ -124,6 +132,7 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
                     np.inf if body == GROUND_INDEX else factor * max(LEAST_ALLOWED, SHARE_ALLOWED * sizes[body])
                     for body in (first, second)
                 ),
+                deeper=deeper,
             )
         )
     return found

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import manifold3d
 import numpy as np
@@ -28,8 +28,9 @@ MORE = 4
 MOST_PARTS = 8
 """With these; an object of more has those of its recipe."""
 
-WORTH = 0.6
-"""Share of its former reach to which a part has to come, if not to what is allowed; else it stays simple."""
+WORTH, WORTHWHILE = 0.6, 0.4
+"""Shares of their former reach to which a part, and the furthest of an object, have to come, if not to what is allowed;
+else they stay simple."""
 
 _PICTURE = 0.95
 """Share of what is allowed to which parts are cut: the hull of what is seen inside may itself be beyond it."""
@@ -66,6 +67,12 @@ class _Piece:
     """How far the recipe's part reaches beyond the hull of what is seen [m]."""
     reach: float
     """How far `corners` do [m]."""
+    recipe: NDArray[np.float64]
+    """Corners of the recipe's part [m], shape (k, 3)."""
+
+    def whole(self) -> _Piece:
+        """With the recipe's part."""
+        return replace(self, corners=self.recipe, reach=self.before)
 
 
 def trimmed(shapes: Sequence[Shape], scale: float) -> list[Shape]:
@@ -86,18 +93,26 @@ def trimmed(shapes: Sequence[Shape], scale: float) -> list[Shape]:
                 piece = _piece(_seen(hull, solids), hull, limit, None)
                 if piece is not None:
                     far[number, place] = piece
-    found = {which: [piece.corners] for which, piece in far.items() if piece.reach <= max(limit, WORTH * piece.before)}
-    found |= _halved(far, limit, min(MORE, MOST_PARTS - sum(len(shape.hulls) for shape in shapes)))
+    pieces = {
+        which: [piece if piece.reach <= max(limit, WORTH * piece.before) else piece.whole()]
+        for which, piece in far.items()
+    }
+    pieces |= _halved(far, limit, min(MORE, MOST_PARTS - sum(len(shape.hulls) for shape in shapes)))
+    before, after = (
+        max((piece.reach for own in some for piece in own), default=0.0)
+        for some in ([[piece.whole()] for piece in far.values()], pieces.values())
+    )
+    if after > max(limit, WORTHWHILE * before):
+        return list(shapes)
+    found = {which: [piece.corners for piece in own] for which, own in pieces.items()}
     return [
         Shape(shape.solid, tuple(one for k, hull in enumerate(shape.hulls) for one in found.get((number, k), [hull])))
         for number, shape in enumerate(shapes)
     ]
 
 
-def _halved(
-    parts: Mapping[tuple[int, int], _Piece], limit: float, more: int
-) -> dict[tuple[int, int], list[NDArray[np.float64]]]:
-    """Corners of the pieces of `parts` that are cut in two, those first that reach furthest; `more` pieces at most.
+def _halved(parts: Mapping[tuple[int, int], _Piece], limit: float, more: int) -> dict[tuple[int, int], list[_Piece]]:
+    """The pieces of `parts` that are cut in two, those first that reach furthest; `more` pieces at most.
 
     None where that does not bring the whole object to what is allowed, or to WORTH of how far it reached.
     """
@@ -116,7 +131,7 @@ def _halved(
         pieces[which] = [half for piece in pieces[which] for half in (halves if piece is worst else [piece])]
     if furthest()[1].reach > max(limit, WORTH * before):
         return {}
-    return {which: [piece.corners for piece in own] for which, own in pieces.items() if len(own) > 1}
+    return {which: own for which, own in pieces.items() if len(own) > 1}
 
 
 def _seen(hull: NDArray[np.float64], solids: Sequence[manifold3d.Manifold]) -> list[manifold3d.Manifold]:
@@ -139,7 +154,7 @@ def _piece(
         hull = None
     if hull is None or (planes is None and _beyond(corners, hull.equations).max() <= limit):
         return None
-    planes = _planes(corners) if planes is None else planes
+    recipe, planes = corners, _planes(corners) if planes is None else planes
     touching = _merged(hull.equations, float(np.ptp(corners, axis=0).max()))
     middle = hull.points[hull.vertices].mean(axis=0)
     before = reach = float(_beyond(corners, touching).max())
@@ -171,7 +186,7 @@ def _piece(
             continue
         bounds, corners = more, fewer
         reach = float(_beyond(corners, touching).max())
-    return _Piece(seen=seen, planes=planes, corners=corners, before=before, reach=reach)
+    return _Piece(seen=seen, planes=planes, corners=corners, before=before, reach=reach, recipe=recipe)
 
 
 def _halves(piece: _Piece, limit: float) -> list[_Piece]:
