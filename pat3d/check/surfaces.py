@@ -6,6 +6,7 @@ objects may press where both meshes are within a distance of the plane.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -28,9 +29,10 @@ LEANING = 5.0
 """The same where objects touch in a point or along an edge, in those distances: what leans a little further on leans on
 the same, while a floor that is not there carries nothing."""
 
-DEEPER = 3e-4
-"""Where parts touch in an area, surfaces may be this much further from it than the nearest and carry [m]: a lid is not
-level, and what lies on it does not reach down to its low side."""
+DEEPER, LEVEL = 3e-4, math.tan(math.radians(1.0))
+"""Where parts touch in an area, surfaces may be this much further from it than the nearest and carry: a distance [m], or
+a share of its length. What has to tip by more than what counts as still, to reach the low side of a lid, does not
+lie there."""
 
 TOLERANCE = 1e-5
 """By this much a mesh may stick out of its parts, or end below them [m]."""
@@ -114,7 +116,8 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
         flat = plane.seen(points)[:, :2]
         beside = _BESIDE * min(sizes[body] for body in (first, second) if body != GROUND_INDEX)
         window = np.stack([flat.min(axis=0) - beside, flat.max(axis=0) + beside])
-        factor, deeper = (1.0, DEEPER) if _spans_area(flat) else (LEANING, np.inf)
+        length = float(np.ptp(flat, axis=0).max())
+        factor, deeper = (1.0, max(DEEPER, LEVEL * length)) if _spans_area(flat) else (LEANING, np.inf)
         found.append(
             Patch(
                 bodies=(first, second),
