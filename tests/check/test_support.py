@@ -84,7 +84,7 @@ def test_a_cube_over_a_filled_recess_floats(depth, held):
 
 @pytest.mark.parametrize(("step", "held"), [(0.0002, True), (0.0006, False)])
 def test_what_lies_on_the_high_side_of_a_lid_is_not_carried_by_its_low_side(step, held):
-    """4 mm of the cube are on a ledge; under its weight the lid is lower, and it has to tip by degrees to reach that."""
+    """4 mm of the cube are on a ledge; under its weight the lid is lower, and it tips by degrees to reach that."""
     whole = box(0.1, 0.1, 0.05)
     low = box(0.1, 0.2, 0.01).moved(x=0.03, z=0.05 - step).solid
     lid = asset_of(Shape(whole.solid - low, whole.hulls), noun="lid")
