@@ -30,8 +30,8 @@ LEANING = 5.0
 the same, while a floor that is not there carries nothing."""
 
 DEEPER, LEVEL = 3e-4, math.tan(math.radians(1.0))
-"""Where parts touch in an area, surfaces may be this much further from it than the nearest and carry: a distance [m], or
-a share of the area's length. What has to tip by more than what counts as still to reach the low side of a lid does not
+"""Where parts touch in an area, surfaces may be this much further off than the nearest and carry: a distance [m], or a
+share of the area's length. What has to tip by more than what counts as still to reach the low side of a lid does not
 lie there."""
 
 TOLERANCE = 1e-5

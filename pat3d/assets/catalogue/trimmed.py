@@ -26,7 +26,10 @@ MORE = 4
 """Parts that an object may have beyond those of its recipe: they cost time in every stage and every engine."""
 
 MOST_PARTS = 8
-"""With these; an object of more has those of its recipe."""
+"""With these; an object of more has no more than its recipe."""
+
+_DOZEN = 12
+"""An object of more parts keeps its recipe's: the most of them cost time for the little that one of them reaches out."""
 
 WORTH, WORTHWHILE = 0.6, 0.4
 """Shares of their former reach to which a part, and the furthest of an object, have to come, if not to what is allowed;
@@ -82,6 +85,9 @@ def trimmed(shapes: Sequence[Shape], scale: float) -> list[Shape]:
         shapes: of one object; each is in the parts of all of them, if not in its own.
         scale: by which the object is scaled afterwards, for what is allowed is in metres.
     """
+    count = sum(len(shape.hulls) for shape in shapes)
+    if count > _DOZEN:
+        return list(shapes)
     points = np.concatenate([hull for shape in shapes for hull in shape.hulls])
     limit = allowed(float(np.ptp(points, axis=0).max()) * scale) / scale
     solids = [shape.solid for shape in shapes]
@@ -97,7 +103,7 @@ def trimmed(shapes: Sequence[Shape], scale: float) -> list[Shape]:
         which: [piece if piece.reach <= max(limit, WORTH * piece.before) else piece.whole()]
         for which, piece in far.items()
     }
-    pieces |= _halved(far, limit, min(MORE, MOST_PARTS - sum(len(shape.hulls) for shape in shapes)))
+    pieces |= _halved(far, limit, min(MORE, MOST_PARTS - count))
     before, after = (
         max((piece.reach for own in some for piece in own), default=0.0)
         for some in ([[piece.whole()] for piece in far.values()], pieces.values())
