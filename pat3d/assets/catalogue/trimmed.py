@@ -29,7 +29,7 @@ MOST_PARTS = 8
 """With these; an object of more has no more than its recipe."""
 
 _DOZEN = 12
-"""An object of more parts keeps its recipe's: the most of them cost time for the little that one of them reaches out."""
+"""An object of more parts keeps its recipe's: they are many already, and corners of all of them cost time."""
 
 WORTH, WORTHWHILE = 0.6, 0.4
 """Shares of their former reach to which a part, and the furthest of an object, have to come, if not to what is allowed;
