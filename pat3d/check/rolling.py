@@ -30,8 +30,11 @@ _WINDOW = 0.2
 _BENT = 0.5
 """A window should be no wider, to either side, than this share of the radius of curvature in it."""
 
-_CLOSER = 8
-"""Windows that are tried, at most, none less than half as wide as the one before."""
+_CLOSER = 6
+"""Windows that are tried for lines, each half as wide as the one before."""
+
+_PARALLEL = 0.99
+"""Cosine of the angle between lines along which a surface is straight."""
 
 _FLAT = 1e-9
 """Faces with normals of this cosine below one are in one plane."""
@@ -83,17 +86,51 @@ def curvature(
         size: the longest side of the mesh [m].
     """
     local = (plane.seen(vertices) - [*at, 0.0]) * [1.0, 1.0, side]
-    edges = _edges(local, faces)
-    reach, found = _WINDOW * size, None
-    for _ in range(_CLOSER):
-        closer = _fitted(_around(local, edges, reach) / reach, reach)
-        found = found if closer is None else closer
-        bent = 2.0 * _BENT if found is None else float(np.abs(np.linalg.eigvalsh(found)).max()) * reach
-        if bent <= _BENT or (closer is None and found is not None):
-            break
-        # What is slender is rounder than a window of its length: looked at closer, as long as there is enough to see.
+    reach = _WINDOW * size
+    found = _fitted(_within(local, reach), reach)
+    if found is None:
+        return _ruled(local, _edges(local, faces), reach)
+    # What is slender is rounder than a window of its length: looked at closer, as long as there is enough to see.
+    while (bent := float(np.abs(np.linalg.eigvalsh(found)).max()) * reach) > _BENT:
         reach *= max(0.5, _BENT / bent)
+        closer = _fitted(_within(local, reach), reach)
+        if closer is None:
+            break
+        found = closer
     return found
+
+
+def _within(points: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+    """Those of `points` (along, across, height) near the origin [m]."""
+    near = np.hypot(points[:, 0], points[:, 1]) < reach
+    return points[near & (points[:, 2] < reach) & (points[:, 2] > -0.1 * reach)]
+
+
+def _ruled(local: NDArray[np.float64], edges: NDArray[np.int64], reach: float) -> NDArray[np.float64] | None:
+    """Curvature of what is straight along one way: a log has no vertices between its ends, but lines.
+
+    Windows are made smaller until it is smooth there, and seen to be as round as it is.
+    """
+    smooth = None
+    start, along = local[edges[:, 0]], local[edges[:, 1]] - local[edges[:, 0]]
+    flat = np.linalg.norm(along[:, :2], axis=1)
+    for _ in range(_CLOSER):
+        long = flat > 2.0 * reach
+        middle = -np.einsum("ei,ei->e", start[long, :2], along[long, :2]) / flat[long] ** 2
+        steps = middle[:, None] + np.linspace(-0.9, 0.9, _STEPS) * (reach / flat[long, None])
+        points = start[long, None] + steps[:, :, None] * along[long, None]
+        beside = np.hypot(points[..., 0], points[..., 1]) < reach
+        on = beside & (steps > 0.0) & (steps < 1.0) & (np.abs(points[..., 2]) < reach)
+        ways = along[long][on.any(axis=1), :2] / flat[long][on.any(axis=1), None]
+        found = _fitted(_within(points[on], reach), reach) if len(ways) else None
+        if found is not None and (np.abs(ways @ ways[0]) > _PARALLEL).all():
+            smooth = found
+            if float(np.abs(np.linalg.eigvalsh(found)).max()) * reach <= _BENT:
+                break
+        elif smooth is not None:
+            break
+        reach *= 0.5
+    return smooth
 
 
 def _edges(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -108,27 +145,10 @@ def _edges(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
     return every[pairs[cosine < 1.0 - _FLAT]]
 
 
-def _around(local: NDArray[np.float64], edges: NDArray[np.int64], reach: float) -> NDArray[np.float64]:
-    """Points of a mesh within `reach` of the origin [m], shape (n, 3).
-
-    They are vertices, and points of edges as long as the window is wide, which are straight lines of the surface: a log
-    has no vertices between its ends.
-    """
-    start, along = local[edges[:, 0]], local[edges[:, 1]] - local[edges[:, 0]]
-    flat = np.linalg.norm(along[:, :2], axis=1)
-    start, along, flat = (one[flat > 2.0 * reach] for one in (start, along, flat))
-    middle = -np.einsum("ei,ei->e", start[:, :2], along[:, :2]) / flat**2
-    steps = middle[:, None] + np.linspace(-0.9, 0.9, _STEPS) * (reach / flat[:, None])
-    on = (steps > 0.0) & (steps < 1.0)
-    points = np.concatenate([local, (start[:, None] + steps[:, :, None] * along[:, None])[on]])
-    near = np.hypot(points[:, 0], points[:, 1]) < reach
-    return points[near & (points[:, 2] < reach) & (points[:, 2] > -0.1 * reach)]
-
-
 def _fitted(points: NDArray[np.float64], reach: float) -> NDArray[np.float64] | None:
-    """Curvature [1/m] at the origin of a surface through `points` [reach]; None where it is flat or not smooth."""
-    x, y, z = points.T
-    if len(np.unique(np.round(points[:, :2], 4), axis=0)) < _LEAST_VERTICES:
+    """Curvature [1/m] at the origin of a surface through `points` [m]; None where it is flat or not smooth."""
+    x, y, z = points.T / reach
+    if len(np.unique(np.round(points[:, :2] / reach, 4), axis=0)) < _LEAST_VERTICES:
         return None
     if np.ptp(z) < _LEAST_RISE:
         return None

@@ -28,6 +28,9 @@ MORE = 4
 MOST_PARTS = 8
 """With these; an object of more has no more than its recipe."""
 
+HALVED = 1.25
+"""What reaches so many times further than is allowed is cut in two; less is not worth a part."""
+
 _DOZEN = 12
 """An object of more parts keeps its recipe's: they are many already, and corners of all of them cost time."""
 
@@ -127,11 +130,11 @@ def _halved(parts: Mapping[tuple[int, int], _Piece], limit: float, more: int) ->
     def furthest() -> tuple[tuple[int, int], _Piece]:
         return max(((which, piece) for which, own in pieces.items() for piece in own), key=lambda one: one[1].reach)
 
-    if more <= 0 or not pieces or (before := furthest()[1].reach) <= limit:
+    if more <= 0 or not pieces or (before := furthest()[1].reach) <= HALVED * limit:
         return {}
     for _ in range(more):
         which, worst = furthest()
-        halves = _halves(worst, limit) if worst.reach > limit else []
+        halves = _halves(worst, limit) if worst.reach > HALVED * limit else []
         if not halves or max(half.reach for half in halves) > max(limit, WORTH * worst.reach):
             break
         pieces[which] = [half for piece in pieces[which] for half in (halves if piece is worst else [piece])]
