@@ -28,8 +28,9 @@ MORE = 4
 MOST_PARTS = 8
 """With these; an object of more has no more than its recipe."""
 
-HALVED = 1.25
-"""What reaches so many times further than is allowed is cut in two; less is not worth a part."""
+HALVED, FITTED = 1.25, 48
+"""What reaches so many times further than is allowed is cut in two, unless it has so many corners: these were fitted by
+the recipe, and the halves of a pancake carry less evenly than it does."""
 
 _DOZEN = 12
 """An object of more parts keeps its recipe's: they are many already, and corners of all of them cost time."""
@@ -126,6 +127,7 @@ def _halved(parts: Mapping[tuple[int, int], _Piece], limit: float, more: int) ->
     None where that does not bring the whole object to what is allowed, or to WORTH of how far it reached.
     """
     pieces = {which: [piece] for which, piece in parts.items()}
+    fitted = {which for which, piece in parts.items() if len(piece.recipe) > FITTED}
 
     def furthest() -> tuple[tuple[int, int], _Piece]:
         return max(((which, piece) for which, own in pieces.items() for piece in own), key=lambda one: one[1].reach)
@@ -134,7 +136,7 @@ def _halved(parts: Mapping[tuple[int, int], _Piece], limit: float, more: int) ->
         return {}
     for _ in range(more):
         which, worst = furthest()
-        halves = _halves(worst, limit) if worst.reach > HALVED * limit else []
+        halves = _halves(worst, limit) if worst.reach > HALVED * limit and which not in fitted else []
         if not halves or max(half.reach for half in halves) > max(limit, WORTH * worst.reach):
             break
         pieces[which] = [half for piece in pieces[which] for half in (halves if piece is worst else [piece])]
