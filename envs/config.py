@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
+from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.physics.world import cameras_of
 from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
@@ -88,6 +89,9 @@ class TabletopConfig(EpisodeConfig):
     """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
     max_objects: int | None = None
     """Rows of the state's "objects"; None for as many as the scene's moving objects."""
+    vary: float | None = None
+    """By how much a reset moves the objects along x and y [m], see pat3d.envs.physics.variation; None for as much as
+    the suite says, 0 without one."""
     sleep: bool = True
     """Leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer)."""
     render_mode: str | None = None
@@ -104,6 +108,9 @@ class TabletopConfig(EpisodeConfig):
         one_of("camera", self.render_camera, valid)
         if self.render_mode is not None:
             one_of("render mode", self.render_mode, RENDER_MODES)
+        suited = 0.0 if self.suite is None else Suite.open(self.suite).request.vary
+        vary = suited if self.vary is None else self.vary
+        self._set("vary", number("vary", vary, 0.0, LARGEST, "m"))
         self._set("image_size", picture_size("image_size", self.image_size))
         if self.max_objects is not None:
             whole("max_objects", self.max_objects, 1)

@@ -15,6 +15,7 @@ from pat3d.envs.grasping.standing import Placement
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.variation import vary
 from pat3d.envs.physics.world import compose
 from pat3d.envs.rendering.pictures import Pictures
 from pat3d.envs.reward import dense
@@ -124,7 +125,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         """Start an episode.
 
         Args:
-            seed: of the robot's posture; the same seed gives the same episode bit for bit.
+            seed: of the robot's posture, and with `vary` of where the objects are; the same seed gives the same episode
+                bit for bit.
             options: "scene" (a folder or a scene) and "task" change what the episode is about, from now on; "index"
                 says which scene of the suite this episode is about.
         """
@@ -136,6 +138,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self.config.start_noise
         self.simulation.reset(noise)
+        if vary(self.simulation, self.np_random, self.config.vary or 0.0):
+            self.simulation.restart()
         observation, info = self._begin()
         return observation, {**info, "placement": self.placement.describe()}
 

@@ -13,10 +13,14 @@ import numpy as np
 
 from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
-from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.request import MAX_OBJECTS, Request
 from pat3d.envs.suites.structures import CORES, SIDES, Core
 from pat3d.generation.request import derived_seed
 from pat3d.plan.scene_plan import ScenePlan
+
+SILHOUETTE = 0.007
+"""Width times height of what covers a percent of the agent's picture, roughly [m^2]: smaller things are hardly ever
+accepted where so much has to be visible, so they are not tried."""
 
 _DRAWS = 200
 """Of nouns and colours for one composition; most need one."""
@@ -44,16 +48,26 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
     kind, split = request.task_of(place), request.split_of(place)
     part, _, held_out = split.partition("/")
     structures = structure_splits(request, kind)["train" if held_out == "object" else part]
-    nouns = partition(request.seed)
+    nouns, level = partition(request.seed), request.clutter_of(place)
+    if level is not None:
+        structures = [one for one in structures if one[1].size + request.alike <= level] or structures
     for draw in range(_DRAWS):
         rng = np.random.default_rng([seed, draw])
         core, side = structures[int(rng.integers(len(structures)))]
         composer = Composer(rng, moved=nouns[part if held_out == "object" else "train"], others=nouns["train"])
         try:
+            composer.least_silhouette = SILHOUETTE * request.visible
+            if request.alike:
+                composer.size_words(kind)
             task = core.build(composer)
             side.build(composer)
-            least = max(request.objects[0], core.size + side.size)
-            composer.fill(int(rng.integers(least, request.objects[1] + 1)))
+            composer.lookalikes(request.alike)
+            least = core.size + side.size + request.alike
+            if level is None:
+                least = max(request.objects[0], least)
+                composer.fill(int(rng.integers(least, request.objects[1] + 1)))
+            else:
+                composer.fill(max(core.size + level, least))
         except ExhaustedError:
             continue
         return Draft(
@@ -69,8 +83,8 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
 
 def structure_splits(request: Request, kind: str) -> dict[str, list[tuple[Core, Core]]]:
     """The structures of a task, dealt to "train", "val" and "test"; a tenth and at least one to each of the last."""
-    most = request.objects[1]
-    known = [(core, side) for core in CORES[kind] for side in SIDES if core.size + side.size <= most]
+    most = MAX_OBJECTS if request.clutter else request.objects[1]
+    known = [(core, side) for core in CORES[kind] for side in SIDES if core.size + side.size + request.alike <= most]
     order = np.random.default_rng([request.seed, *f"structures {kind}".encode()]).permutation(len(known))
     few = max(1, round(len(known) / 10))
     dealt = [known[place] for place in order]
