@@ -87,6 +87,9 @@ class TabletopConfig(EpisodeConfig):
     """Height and width of the pictures [pixel]."""
     segmentation: bool = False
     """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
+    goal_image: bool = False
+    """Whether observations come with "goal_image": how the first camera would show the scene with the task done, the
+    robot as it starts; black for a task without a goal picture."""
     max_objects: int | None = None
     """Rows of the state's "objects"; None for as many as the scene's moving objects."""
     vary: float | None = None

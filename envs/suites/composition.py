@@ -7,7 +7,7 @@ no training scene: they are what validation and testing by layout and by object 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,8 +15,11 @@ from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.request import MAX_OBJECTS, Request
 from pat3d.envs.suites.structures import CORES, SIDES, Core
+from pat3d.envs.tasks.goals import Rearrange, rearranged
+from pat3d.envs.tasks.task import split
 from pat3d.generation.request import derived_seed
 from pat3d.plan.scene_plan import ScenePlan
+from pat3d.scene.model import Scene
 
 SILHOUETTE = 0.007
 """Width times height of what covers a percent of the agent's picture, roughly [m^2]: smaller things are hardly ever
@@ -32,7 +35,7 @@ class Draft:
 
     plan: ScenePlan
     task: str
-    """As `parse_task` reads it."""
+    """As `parse_task` reads it; of a rearrangement the objects alone, see `pointed`."""
     structure: str
     """Core and side group."""
     moved: tuple[str, ...]
@@ -45,8 +48,8 @@ class Draft:
 def draft(request: Request, place: int, candidate: int) -> Draft:
     """The `candidate`-th composition for a place of the suite, both from 0; the same arguments give the same one."""
     seed = derived_seed(request.seed, "suite", place, candidate)
-    kind, split = request.task_of(place), request.split_of(place)
-    part, _, held_out = split.partition("/")
+    kind, own = request.task_of(place), request.split_of(place)
+    part, _, held_out = own.partition("/")
     structures = structure_splits(request, kind)["train" if held_out == "object" else part]
     nouns, level = partition(request.seed), request.clutter_of(place)
     if level is not None:
@@ -79,6 +82,19 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
             scene_seed=derived_seed(seed, "scene"),
         )
     raise RuntimeError(f"no composition for place {place} of {request}")
+
+
+def pointed(made: Draft, scene: Scene) -> Draft:
+    """The draft with the points to which a rearrangement moves its objects, drawn where its scene leaves room.
+
+    Raises:
+        TaskError: it leaves none.
+    """
+    kind, names = split(made.task)
+    if kind != Rearrange.kind:
+        return made
+    random = np.random.default_rng(derived_seed(made.scene_seed, "points"))
+    return replace(made, task=rearranged(scene, names, random).spec)
 
 
 def structure_splits(request: Request, kind: str) -> dict[str, list[tuple[Core, Core]]]:

@@ -18,7 +18,7 @@ from pat3d.generation.request import derived_seed
 from pat3d.scene.model import check_least_tilt
 from pat3d.scene.physics import LEAST_TILT
 
-TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve", "chain")
+TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve", "chain", "rearrange")
 
 SPLITS = ("train", "val", "test", "val/layout", "val/object", "test/layout", "test/object")
 """What may be asked for; a scene belongs to "train" or to one of those with a slash."""

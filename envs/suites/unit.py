@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pat3d.envs.suites.composition import Draft, draft
+from pat3d.envs.suites.composition import Draft, draft, pointed
 from pat3d.envs.suites.folder import RECORD, SuiteFolder, checksum_of, write_document
 from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.sight import UnseenError, require_seen
@@ -103,6 +103,7 @@ class Making:
         with self.clock("task"):
             if not reason and attempt.checked is not None:
                 try:
+                    made = pointed(made, attempt.checked.scene)
                     placement = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request)
                 except TaskError as error:
                     reason, message = "task", str(error)

@@ -58,6 +58,13 @@ _RETRIEVE = (
     "carefully fetch {it}{source} so that nothing else topples",
 )
 
+_REARRANGE = (
+    "move {them} to where the goal picture shows them",
+    "make the table look like the goal picture: {them}",
+    "rearrange {them} as in the goal picture",
+    "put {them} as the picture of the goal has them",
+)
+
 WORDINGS = {
     "pick": _PICK,
     "place": _PLACE,
@@ -65,6 +72,7 @@ WORDINGS = {
     "sort": _SORT,
     "unload": _UNLOAD,
     "retrieve": _RETRIEVE,
+    "rearrange": _REARRANGE,
 }
 """By kind of task; the first is the instruction itself."""
 
@@ -81,6 +89,11 @@ _IN_TURN = (
 def in_turn(steps: Sequence[str]) -> tuple[str, ...]:
     """All wordings of several things to do in this order."""
     return tuple(f"{before}{between.join(steps[:-1])}{last}{steps[-1]}" for before, between, last in _IN_TURN)
+
+
+def listed(parts: Sequence[str]) -> str:
+    """Several things in a sentence: "a", "a and b", "a, b and c"."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def worded(kind: str, **words: str) -> tuple[str, ...]:

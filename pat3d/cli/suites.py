@@ -35,7 +35,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     *fields(
         Request,
         {
-            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve and chain"},
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "pick to unload"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
             "clutter": {"nargs": None, "metavar": "N,N", "default": "", "shown": "as --objects leaves"},
             "visible": {"metavar": "PERCENT"},
