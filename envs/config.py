@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
+from pat3d.envs.observations import OBSERVATIONS
 from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.physics.world import cameras_of
 from pat3d.envs.registration import IMAGE_SIDE
@@ -59,14 +60,32 @@ class EpisodeConfig:
     """Actions a second [1/s]."""
     start_noise: float = 0.02
     """Standard deviation of the robot's posture at the start [rad]."""
+    cameras: Sequence[str] = ("agentview", "wrist")
+    """Those of the rgb and rgbd observations."""
+    image_size: tuple[int, int] = (IMAGE_SIDE, IMAGE_SIDE)
+    """Height and width of the pictures [pixel]."""
+    segmentation: bool = False
+    """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
 
     def __post_init__(self) -> None:
         own = default_robot() if self.suite is None else Suite.open(self.suite).request.robot
         self._set("robot", robot_name(self.robot) or own)
+        one_of("observation", self.obs, OBSERVATIONS)
         one_of("reward", self.reward, REWARDS)
         self._set("discount", number("discount", self.discount, 0.0, 1.0, "a step"))
         self._set("start_noise", number("start_noise", self.start_noise, 0.0, 0.5, "rad"))
         self._set("control_freq", number("control_freq", self.control_freq, 0.1, 1000.0, "actions a second"))
+        self._set("image_size", picture_size("image_size", self.image_size))
+        # Of two arms, "wrist" is the camera of either.
+        several = not isinstance(self.cameras, str) and isinstance(self.cameras, Sequence)
+        given = tuple(self.cameras) if several else (self.cameras,)
+        wrists = tuple(f"{side}_wrist" for side in self._sides) or ("wrist",)
+        cameras = [one for name in given for one in (wrists if name == "wrist" else (name,))]
+        self._set("cameras", names("camera", cameras, cameras_of(self._sides)))
+
+    @property
+    def _sides(self) -> Sequence[str]:
+        return () if pair_of(self.arms) is None else SIDES
 
     @property
     def arms(self) -> str:
@@ -81,12 +100,6 @@ class EpisodeConfig:
 class TabletopConfig(EpisodeConfig):
     """Arguments of `pat3d.envs.env.TabletopEnv`."""
 
-    cameras: Sequence[str] = ("agentview", "wrist")
-    """Those of the rgb and rgbd observations."""
-    image_size: tuple[int, int] = (IMAGE_SIDE, IMAGE_SIDE)
-    """Height and width of the pictures [pixel]."""
-    segmentation: bool = False
-    """Whether pictures come with whose every pixel is: 0 nothing, 1 robot, 2 + index of the object."""
     goal_image: bool = False
     """Whether observations come with "goal_image": how the first camera would show the scene with the task done, the
     robot as it starts; black for a task without a goal picture."""
@@ -106,24 +119,15 @@ class TabletopConfig(EpisodeConfig):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        sides = () if pair_of(self.arms) is None else SIDES
-        valid = cameras_of(sides)
-        one_of("camera", self.render_camera, valid)
+        one_of("camera", self.render_camera, cameras_of(self._sides))
         if self.render_mode is not None:
             one_of("render mode", self.render_mode, RENDER_MODES)
         suited = 0.0 if self.suite is None else Suite.open(self.suite).request.vary
         vary = suited if self.vary is None else self.vary
         self._set("vary", number("vary", vary, 0.0, LARGEST, "m"))
-        self._set("image_size", picture_size("image_size", self.image_size))
         if self.max_objects is not None:
             whole("max_objects", self.max_objects, 1)
         self._set("render_size", picture_size("render_size", self.render_size))
-        # Of two arms, "wrist" is the camera of either.
-        several = not isinstance(self.cameras, str) and isinstance(self.cameras, Sequence)
-        given = tuple(self.cameras) if several else (self.cameras,)
-        wrists = tuple(f"{side}_wrist" for side in sides) or ("wrist",)
-        cameras = [one for name in given for one in (wrists if name == "wrist" else (name,))]
-        self._set("cameras", names("camera", cameras, valid))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -140,8 +144,15 @@ class BatchConfig(EpisodeConfig):
             whole("max_episode_steps", self.max_episode_steps, 1)
         super().__post_init__()
         one_of("control", self.control, CONTROLS)
-        if self.obs != "state":
-            raise EnvironmentSetupError(f'on a GPU there is no observation "{self.obs}", only "state".')
+        if pair_of(self.arms) is not None:
+            raise EnvironmentSetupError(
+                f'on a GPU a robot is one arm, not two ("{self.arms}"); vectorization_mode="async" runs two on CPUs.'
+            )
+        if self.suite is not None and Suite.open(self.suite).request.vary:
+            raise EnvironmentSetupError(
+                "resets of this suite move its objects, which those of worlds on a GPU do not; "
+                'vectorization_mode="async" runs it on CPUs.'
+            )
 
 
 Config = TypeVar("Config", bound=EpisodeConfig)

@@ -62,10 +62,6 @@ class ObservationSpec:
     goal_image: bool = False
     """Whether there is a picture of the goal."""
 
-    def __post_init__(self) -> None:
-        if self.kind not in OBSERVATIONS:
-            raise EnvironmentSetupError(f'no observation "{self.kind}". Observations: {", ".join(OBSERVATIONS)}.')
-
     def space(self, world: World) -> spaces.Dict:
         """The observation space for a robot; it is the same for every scene."""
         unit = np.ones(4, dtype=np.float32)

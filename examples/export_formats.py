@@ -1,7 +1,7 @@
 """One scene in MJCF, USD, URDF and SDF, each read back by the parsers that are installed.
 
 `export` writes the formats. `parity` loads a written file again and compares mass, centre of mass, inertia, friction,
-hull volume and pose of every body with the scene; at most one part in a million may differ.
+convex parts and pose of every body with the scene; at most one part in a million may differ.
 
     python examples/export_formats.py            # writes scenes/pens and exports/pens
 """

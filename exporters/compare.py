@@ -1,7 +1,8 @@
 """Is what was written the Scene? Every format reloaded by its own parsers and compared, body by body.
 
-The relative error of mass, inertia, friction and hull volume, the distance of the centres of mass in object lengths,
-and the distance and angle between the poses all have to be at most a millionth.
+The relative error of mass, inertia, friction and the volume of each hull, the distance of the centres of mass and the
+reach of a hull beyond the scene's in object lengths, and the distance and angle between the poses all have to be at
+most a millionth.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
 
 from pat3d.errors import ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
@@ -23,12 +27,13 @@ from pat3d.exporters.common.xml_files import convex_volume
 from pat3d.exporters.left_out import left_out
 from pat3d.geometry.hulls import slivers
 from pat3d.geometry.normals import triangle_areas
-from pat3d.scene.model import Scene, SceneObject
+from pat3d.geometry.planes import plane_distances, planes
+from pat3d.scene.model import Asset, Scene, SceneObject
 
 TOLERANCE = 1e-6
 """Largest error that passes: relative, or in metres and radians for poses."""
 
-QUANTITIES = ("mass", "centre", "inertia", "friction", "hull_volume", "position", "rotation")
+QUANTITIES = ("mass", "centre", "inertia", "friction", "hulls", "position", "rotation")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,8 +50,9 @@ class BodyParity:
     """Relative, of the tensor and of each principal moment, whichever is larger."""
     friction: float | None
     """Relative."""
-    hull_volume: float | None
-    """Relative."""
+    hulls: float | None
+    """Of the worst convex part: the relative error of its volume, or how far it reaches beyond the scene's over the
+    object's longest side, whichever is larger; infinite where their number differs."""
     position: float
     """[m]"""
     rotation: float
@@ -210,7 +216,7 @@ def locate(path: Path) -> tuple[str, Path]:
 def _reading(scene: Scene, found: Sequence[BodyReadback], reader: _Reader, name: str, path: Path) -> Reading:
     slugs = body_names(scene)
     there = {body.name: body for body in found}
-    volumes: dict[int, float] = {}
+    seen: set[int] = set()
     bodies, failures = [], []
     for obj in scene.objects:
         body = there.pop(slugs[obj.name], None)
@@ -220,10 +226,10 @@ def _reading(scene: Scene, found: Sequence[BodyReadback], reader: _Reader, name:
         if "fixed" not in reader.silent and body.fixed != obj.fixed:
             now, then = ("fixed", "free") if body.fixed else ("free", "fixed")
             failures.append(f'"{obj.name}" is {then} in the scene but {now} in {path}.')
-        if id(obj.asset) not in volumes:
-            volumes[id(obj.asset)] = sum(convex_volume(part.vertices) for part in obj.asset.parts)
+        if id(obj.asset) not in seen:
+            seen.add(id(obj.asset))
             failures += _narrow_faces(obj)
-        errors = _errors(obj, body, volumes[id(obj.asset)], reader.silent)
+        errors = _errors(obj, body, reader.silent)
         bodies.append(errors)
         failures += _lines(obj, body, errors, path)
     if "fixed" not in reader.silent:
@@ -242,12 +248,12 @@ def _narrow_faces(obj: SceneObject) -> list[str]:
     return lines
 
 
-def _errors(obj: SceneObject, body: BodyReadback, volume: float, silent: frozenset[str]) -> BodyParity:
+def _errors(obj: SceneObject, body: BodyReadback, silent: frozenset[str]) -> BodyParity:
     properties, asset = obj.asset.mass_properties, obj.asset
     inertia = np.array(properties.inertia)
     errors: dict[str, float | None] = {
         "friction": _relative(body.friction, asset.material.friction),
-        "hull_volume": _relative(body.hull_volume, volume),
+        "hulls": None if "hulls" in silent else _hulls_apart(obj.asset, body.hulls),
         "mass": None,
         "centre": None,
         "inertia": None,
@@ -268,6 +274,28 @@ def _errors(obj: SceneObject, body: BodyReadback, volume: float, silent: frozens
         rotation=math.atan2(float(sine), 0.5 * (float(np.trace(turn)) - 1.0)),
         **errors,  # type: ignore[arg-type]
     )
+
+
+def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
+    """Largest difference of a convex part from the collider that lies nearest.
+
+    A convex set inside another one of the same volume is that set.
+    """
+    if len(found) != len(asset.parts) or any(len(points) == 0 for points in found):
+        return math.inf
+    here = np.array([part.bounds.ravel() for part in asset.parts])
+    there = np.array([np.concatenate([points.min(axis=0), points.max(axis=0)]) for points in found])
+    if not np.isfinite(there).all():
+        return math.nan
+    length = float(asset.size.max())
+    worst = 0.0
+    for index, other in zip(*linear_sum_assignment(cdist(here, there)), strict=True):
+        part, points = asset.parts[index], found[other]
+        beyond = float(plane_distances(points, planes(part)).max()) / length
+        volume = _relative(convex_volume(points), convex_volume(part.vertices))
+        # max() would drop a NaN that stands second.
+        worst = float(np.max([worst, beyond, volume]))
+    return worst
 
 
 def _moments(found: np.ndarray, expected: np.ndarray) -> float:
@@ -297,9 +325,9 @@ def _lines(obj: SceneObject, body: BodyReadback, errors: BodyParity, path: Path)
     if "friction" in wrong:
         friction = obj.asset.material.friction
         lines.append(f'"{obj.name}" has friction {body.friction:.4g} in {path} instead of {friction:.4g}.')
-    for name, words in (("centre", "centre of mass"), ("inertia", "inertia"), ("hull_volume", "volume of hulls")):
+    for name, words in (("centre", "centre of mass"), ("inertia", "inertia"), ("hulls", "convex parts")):
         if name in wrong:
-            lines.append(f'"{obj.name}": the {words} in {path} is off by {getattr(errors, name):.2g} (relative).')
+            lines.append(f'"{obj.name}": the {words} in {path} differ by {getattr(errors, name):.2g} (relative).')
     return lines
 
 
@@ -337,7 +365,7 @@ def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
             name="PyBullet",
             package="pybullet",
             read=lambda path: read_with_pybullet(path.parent),
-            silent=frozenset({"hull_volume"}),
+            silent=frozenset({"hulls"}),
         ),
         _Reader(name="Drake", package="drake", read=lambda path: read_with_drake(path.parent)),
     )

@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.errors import CheckError
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import Volumes, common, convex_volume, in_body_axes
+from pat3d.exporters.common.xml_files import MeshCorners, box_corners, common, in_body_axes
 from pat3d.exporters.urdf.load_drake import load_drake, plant_config
 from pat3d.exporters.urdf.load_pybullet import load_pybullet
 from pat3d.exporters.urdf.mesh_paths import mesh_file
@@ -32,16 +33,15 @@ def read_with_yourdfpy(folder: str | Path) -> tuple[BodyReadback, ...]:
     )
     if not robot.validate():
         raise CheckError(f"yourdfpy finds errors in {folder / 'scene.urdf'}: {robot.errors[:3]}")
-    volumes = Volumes()
+    meshes = MeshCorners()
     return tuple(
-        _link(link, robot.get_transform(name), folder, volumes)
+        _link(link, robot.get_transform(name), folder, meshes)
         for name, link in robot.link_map.items()
         if name != "world"
     )
 
 
-def _link(link: Any, transform: np.ndarray, folder: Path, volumes: Volumes) -> BodyReadback:
-    shapes = [collision.geometry for collision in link.collisions]
+def _link(link: Any, transform: np.ndarray, folder: Path, meshes: MeshCorners) -> BodyReadback:
     origin = link.inertial.origin
     return BodyReadback(
         name=link.name,
@@ -49,13 +49,23 @@ def _link(link: Any, transform: np.ndarray, folder: Path, volumes: Volumes) -> B
         centre=origin[:3, 3],
         inertia=in_body_axes(link.inertial.inertia, origin[:3, :3]),
         friction=math.nan,
-        hull_volume=sum(
-            float(np.prod(shape.box.size)) if shape.box else volumes.of(mesh_file(shape.mesh.filename, folder, folder))
-            for shape in shapes
-        ),
+        hulls=tuple(_link_corners(collision, folder, meshes) for collision in link.collisions),
         pose=Pose.from_matrix(transform[:3, :3], transform[:3, 3]),
         fixed=True,
     )
+
+
+def _link_corners(collision: Any, folder: Path, meshes: MeshCorners) -> NDArray[np.float64]:
+    """Corners of a collider [m], in the frame of its link, shape (corners, 3)."""
+    shape = collision.geometry
+    if shape.box:
+        corners = box_corners(shape.box.size)
+    else:
+        corners = meshes.of(mesh_file(shape.mesh.filename, folder, folder))
+        if shape.mesh.scale is not None:
+            corners = corners * np.asarray(shape.mesh.scale)
+    place = collision.origin
+    return corners if place is None else corners @ place[:3, :3].T + place[:3, 3]
 
 
 def read_with_pybullet(folder: str | Path) -> tuple[BodyReadback, ...]:
@@ -91,7 +101,7 @@ def _bullet_body(pybullet: Any, client: int, entry: dict[str, Any], body: int) -
         centre=np.array(centre),
         inertia=in_body_axes(np.diag(moments), axes),
         friction=friction,
-        hull_volume=math.nan,
+        hulls=(),
         pose=Pose(position=position, quat_wxyz=(w, x, y, z)),
         fixed=mass == 0.0,
     )
@@ -142,15 +152,19 @@ def _drake_body(plant: Any, context: Any, inspector: Any, name: str, body: Any) 
         centre=np.array(centre),
         inertia=inertia,
         friction=common([value for one in frictions for value in (one.static_friction(), one.dynamic_friction())]),
-        hull_volume=sum(_drake_volume(inspector.GetShape(geometry)) for geometry in geometries),
+        hulls=tuple(_drake_corners(inspector, geometry) for geometry in geometries),
         pose=Pose.from_matrix(transform.rotation().matrix(), transform.translation()),
         fixed=bool(plant.IsAnchored(body)),
     )
 
 
-def _drake_volume(shape: Any) -> float:
-    """Volume [m^3] of a box, or of the hull that Drake computes of a convex mesh."""
+def _drake_corners(inspector: Any, geometry: Any) -> NDArray[np.float64]:
+    """Corners [m] of a box, or of the hull that Drake computes of a convex mesh, in the frame of the body."""
+    shape = inspector.GetShape(geometry)
     if hasattr(shape, "size"):
-        return float(np.prod(shape.size()))
-    hull = shape.GetConvexHull()
-    return convex_volume(np.array([hull.vertex(number) for number in range(hull.num_vertices())]))
+        corners = box_corners(shape.size())
+    else:
+        hull = shape.GetConvexHull()
+        corners = np.array([hull.vertex(number) for number in range(hull.num_vertices())])
+    place = inspector.GetPoseInFrame(geometry)
+    return corners @ place.rotation().matrix().T + place.translation()

@@ -9,7 +9,7 @@ import numpy as np
 import warp as wp
 
 from pat3d.envs.batch.kernels import aim_hand, aim_joints, move_fingers, torque_kernels
-from pat3d.envs.physics.world import World
+from pat3d.envs.batch.merged import Merged
 from pat3d.envs.robots.controllers import LARGEST, STIFFNESS
 from pat3d.envs.robots.robot import Robot, finger_targets
 from pat3d.errors import EnvironmentSetupError
@@ -21,7 +21,7 @@ class BatchedController:
     """Turns actions in [-1, 1] of every world into controls: arm first, the gripper's opening last.
 
     Args:
-        world: with the robot.
+        merged: the worlds.
         data: MuJoCo Warp's.
         kind: "osc" or "joint_position".
 
@@ -29,12 +29,13 @@ class BatchedController:
         EnvironmentSetupError: no such kind here.
     """
 
-    def __init__(self, world: World, data: Any, kind: str) -> None:
+    def __init__(self, merged: Merged, data: Any, kind: str) -> None:
         if kind not in CONTROLS:
             raise EnvironmentSetupError(
                 f'on a GPU there is no control "{kind}". Controls there: {", ".join(CONTROLS)}; others run on CPUs: '
                 'gymnasium.make_vec(..., vectorization_mode="async").'
             )
+        world = merged.world
         model, robot, prefix = world.model, world.robot, world.prefix
         self.kind, self._data = kind, data
         self._worlds = data.nworld
@@ -58,9 +59,13 @@ class BatchedController:
         self._site = int(model.site(prefix + robot.grip_site).id)
         import mujoco
 
-        base = mujoco.MjData(model)
-        mujoco.mj_kinematics(model, base)
-        self._base = wp.mat33d(*base.site_xmat[model.site(prefix + robot.base_site).id])
+        axes = []
+        for one in merged.kinds:
+            own = one.world.model
+            base = mujoco.MjData(own)
+            mujoco.mj_kinematics(own, base)
+            axes.append(base.site_xmat[own.site(prefix + robot.base_site).id].reshape(3, 3).copy())
+        self._base = self._array(axes, wp.mat33d)
         self._mass = data.M.reshape((self._worlds, -1))
         self._place = self._array(_places(model, data, dofs), int)
         self._operational, self._joint_position = torque_kernels(count)

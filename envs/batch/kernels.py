@@ -38,7 +38,7 @@ def rotation_by(turn: wp.vec3d) -> wp.mat33d:
 def aim_hand(
     action: wp.array2d[wp.float32],
     scale: wp.array[wp.float64],
-    base: wp.mat33d,
+    base: wp.array[wp.mat33d],
     site: int,
     site_position: wp.array2d[wp.vec3],
     site_rotation: wp.array2d[wp.mat33],
@@ -47,13 +47,14 @@ def aim_hand(
 ):
     """The hand's goal: its present pose, moved by the action along the axes of the robot's base."""
     world = wp.tid()
+    axes = base[world % base.shape[0]]
     shift = wp.vec3d()
     turn = wp.vec3d()
     for k in range(3):
         shift[k] = wp.float64(action[world, k]) * scale[k]
         turn[k] = wp.float64(action[world, 3 + k]) * scale[3 + k]
-    goal_position[world] = wp.vec3d(site_position[world, site]) + base * shift
-    goal_rotation[world] = base * rotation_by(turn) * wp.transpose(base) * wp.mat33d(site_rotation[world, site])
+    goal_position[world] = wp.vec3d(site_position[world, site]) + axes * shift
+    goal_rotation[world] = axes * rotation_by(turn) * wp.transpose(axes) * wp.mat33d(site_rotation[world, site])
 
 
 @wp.kernel
@@ -313,7 +314,7 @@ def note_touches(
     distance: wp.array[wp.float32],
     address: wp.array2d[int],
     of_world: wp.array[int],
-    owner: wp.array[int],
+    owner: wp.array2d[int],
     finger: wp.array[int],
     touching: wp.array3d[wp.bool],
     pinched: wp.array3d[wp.bool],
@@ -324,7 +325,7 @@ def note_touches(
         return
     world = of_world[contact]
     first, second = geoms[contact][0], geoms[contact][1]
-    a, b = owner[first], owner[second]
+    a, b = owner[world % owner.shape[0], first], owner[world % owner.shape[0], second]
     if a != b:
         touching[world, a, b] = True
         touching[world, b, a] = True

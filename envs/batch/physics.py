@@ -1,18 +1,11 @@
-"""Many copies of one world on MuJoCo Warp, stepped together.
-
-MuJoCo Warp computes in single precision and knows no contact margins beside multi-contact collision. The exported
-contacts are stiffer than single precision can resolve: at rest, surfaces overlap by tenths of a micrometre, and
-coordinates are known to hundredths of one. `in_single_precision` softens the contacts to overlaps of some ten
-micrometres; that what stood still stands still then too is checked on the device before anything else.
-"""
+"""Many worlds on MuJoCo Warp, stepped together: copies of one, or of several."""
 
 from __future__ import annotations
 
-import copy
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,26 +14,16 @@ from numpy.typing import NDArray
 
 from pat3d.envs.batch.controllers import BatchedController
 from pat3d.envs.batch.kernels import note_peaks, note_touches
+from pat3d.envs.batch.merged import Merged
+from pat3d.envs.batch.precision import CCD_TOLERANCE, SOLIMP, SOLREF
 from pat3d.envs.physics.loading import store_record
-from pat3d.envs.physics.mujoco_state import fingers
 from pat3d.envs.physics.predicates import OWNERS
 from pat3d.envs.physics.simulation import Simulation
-from pat3d.envs.physics.world import World
 from pat3d.errors import EnvironmentSetupError, UnsettledSceneError
 from pat3d.scene.cache import cache_root
 from pat3d.scene.physics import STILL_SECONDS
 
 Array = NDArray[np.float32]
-
-SOLREF, SOLIMP = (0.01, 1.0), (0.99, 0.99, 0.001, 0.5, 2.0)
-"""Time constant [s], damping ratio and impedance of the scene's contacts.
-
-A body at rest overlaps with what carries it by g (1 - d) t^2 = 10 um. A smaller impedance d overlaps as much with a
-shorter time constant, but what leans creeps then: friction gives way in proportion to 1 - d.
-"""
-
-CCD_TOLERANCE = 1.0e-6
-"""Of collision detection [m]: finer ones are below the rounding of single precision, and no contact is found."""
 
 SPARE = 2.0
 """Room in the buffers over what the scene needs at rest."""
@@ -55,30 +38,6 @@ MAX_MM, MAX_DEGREES = 1.0, 1.0
 """What stands still moves less in that time."""
 
 
-def in_single_precision(model: Any) -> Any:
-    """A copy of `model` whose contacts single precision resolves; masses, shapes, friction and time step are the same.
-
-    Contacts lose their margins; stiff ones get `SOLREF` and `SOLIMP`. Friction cones are pyramids: MuJoCo Warp steps
-    them five times as fast as elliptic ones. A pyramid's friction is as soft as its normal force, where an elliptic
-    cone's is stiffer by impratio; so the soft contacts, which are the robot's, get as much closer to impedance 1, or
-    what a hand holds would creep out of it. Boxes collide by their own routine: the general one loses contacts of
-    boxes that overlap by micrometres.
-    """
-    import mujoco
-
-    fit = copy.copy(model)
-    fit.geom_margin[:], fit.geom_gap[:] = 0.0, 0.0
-    stiff = fit.geom_solref[:, 0] < SOLREF[0]
-    fit.geom_solref[stiff], fit.geom_solimp[stiff] = SOLREF, SOLIMP
-    fit.geom_solimp[~stiff, :2] = 1.0 - (1.0 - fit.geom_solimp[~stiff, :2]) / model.opt.impratio
-    fit.opt.ccd_tolerance = CCD_TOLERANCE
-    fit.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_NATIVECCD)
-    fit.opt.cone, fit.opt.impratio = mujoco.mjtCone.mjCONE_PYRAMIDAL, 1.0
-    fit.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
-    fit.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    return fit
-
-
 @dataclass(frozen=True)
 class Capacity:
     """Capacity of the buffers, a world."""
@@ -88,15 +47,15 @@ class Capacity:
     """Of the constraint matrix."""
 
 
-def capacity_for(world: World, control: str, control_freq: float) -> Capacity:
-    """Buffers for a world, from the most that it needs within a second of standing still on the CPU."""
-    fit = replace(world, model=in_single_precision(world.model))
-    simulation = Simulation(fit, control, control_freq, sleep=False)
-    simulation.reset()
+def capacity_for(all_worlds: Merged, control: str, control_freq: float) -> Capacity:
+    """Buffers for a world, from the most that any needs within a second of standing still on the CPU."""
     contacts = rows = 0
-    for _ in range(round(control_freq)):
-        simulation.step(np.zeros(simulation.controller.size))
-        contacts, rows = max(contacts, simulation.data.ncon), max(rows, simulation.data.nefc)
+    for kind in all_worlds.kinds:
+        simulation = Simulation(kind.world, control, control_freq, sleep=False)
+        simulation.reset()
+        for _ in range(round(control_freq)):
+            simulation.step(np.zeros(simulation.controller.size))
+            contacts, rows = max(contacts, simulation.data.ncon), max(rows, simulation.data.nefc)
     return Capacity(
         contacts=round(SPARE * contacts) + ROBOT_CONTACTS,
         rows=round(SPARE * rows) + ROBOT_CONTACTS * ROWS_PER_CONTACT,
@@ -104,11 +63,11 @@ def capacity_for(world: World, control: str, control_freq: float) -> Capacity:
 
 
 class BatchedPhysics:
-    """Copies of a world under control; between calls positions, velocities and contacts are those of the present state.
+    """Worlds under control; between calls positions, velocities and contacts are those of the present state.
 
     Args:
-        world: what every copy starts as.
-        worlds: number of copies.
+        merged: what the worlds start as.
+        worlds: number of them.
         control: kind of controller.
         control_freq: actions a second [1/s].
         device: Warp's name of it.
@@ -120,36 +79,47 @@ class BatchedPhysics:
 
     def __init__(
         self,
-        world: World,
+        merged: Merged,
         worlds: int,
         control: str,
         control_freq: float,
         device: str,
         capacity: Capacity | None = None,
     ) -> None:
+        import mujoco
+
         self._engine = mujoco_warp()
-        self.world = replace(world, model=in_single_precision(world.model))
+        self.merged, self.world = merged, merged.world
         model = self.world.model
-        self.capacity = capacity_for(world, control, control_freq) if capacity is None else capacity
-        single = Simulation(self.world, control, control_freq, sleep=False)
-        single.reset()
-        home = single.data
-        self.substeps, self.period = single.substeps, single.period
+        self.capacity = capacity_for(merged, control, control_freq) if capacity is None else capacity
+        starts = []
+        for kind in merged.kinds:
+            single = Simulation(kind.world, control, control_freq, sleep=False)
+            single.reset()
+            starts.append(single.data.qpos.copy())
+            self.substeps, self.period = single.substeps, single.period
+        self._home = merged.home(starts)
+        home = mujoco.MjData(model)
+        home.qpos[:] = self._home[0]
+        mujoco.mj_forward(model, home)
         self.worlds, self.device = worlds, device
         with wp.ScopedDevice(device):
             try:
                 self._model = self._engine.put_model(model)
+                merged.fill(self._model)
                 self.data = self._engine.put_data(
                     model, home, nworld=worlds, naconmax=worlds * self.capacity.contacts, njmax=self.capacity.rows
                 )
+                merged.place(self.data)
+                self.data.qpos.assign(self._home[np.arange(worlds) % len(self._home)])
             except (NotImplementedError, ValueError) as error:
-                raise EnvironmentSetupError(f"MuJoCo Warp cannot run {world.robot.name} here: {error}") from error
-            self.controller = BatchedController(self.world, self.data, control)
-            self._arm = np.array([int(model.joint(world.prefix + name).qposadr[0]) for name in world.robot.arm_joints])
-            self._home = home.qpos.astype(np.float32)
-            count = OWNERS + len(world.scene.objects)
-            self._owner = wp.array(world.owner + OWNERS, dtype=int)
-            self._finger = wp.array(fingers(world), dtype=int)
+                raise EnvironmentSetupError(f"MuJoCo Warp cannot run {self.world.robot.name} here: {error}") from error
+            self.controller = BatchedController(merged, self.data, control)
+            joints = [self.world.prefix + name for name in self.world.robot.arm_joints]
+            self._arm = np.array([int(model.joint(name).qposadr[0]) for name in joints])
+            count = OWNERS + merged.most_objects
+            self._owner = wp.array(merged.owner + OWNERS, dtype=int)
+            self._finger = wp.array(merged.fingers, dtype=int)
             self._touching = wp.zeros((worlds, count, count), dtype=wp.bool)
             self._pinched = wp.zeros((worlds, 2, count), dtype=wp.bool)
             self._peaks = wp.zeros(3, dtype=int)
@@ -189,7 +159,7 @@ class BatchedPhysics:
         data = self.data
         position, velocity, warm = data.qpos.numpy(), data.qvel.numpy(), data.qacc_warmstart.numpy()
         time, control, lost = data.time.numpy(), data.ctrl.numpy(), self._lost.numpy()
-        position[worlds] = self._home
+        position[worlds] = self._home[worlds % len(self._home)]
         position[np.ix_(worlds, self._arm)] += noise
         for array in (velocity, warm, time, control, lost):
             array[worlds] = 0
@@ -284,19 +254,19 @@ def mujoco_warp() -> Any:
 
 
 def require_still(
-    world: World,
-    checksum: str,
+    merged: Merged,
+    checksums: Sequence[str],
     control: str,
     control_freq: float,
     device: str,
     capacity: Capacity,
     seconds: float = STILL_SECONDS,
 ) -> None:
-    """Refuse a scene that moves on this device while the robot stands still; known results are not tried again.
+    """Refuse scenes that move on this device while the robot stands still; known results are not tried again.
 
     Args:
-        world: with the scene.
-        checksum: of the scene's files.
+        merged: the worlds.
+        checksums: of the files of each kind's scene.
         control: kind of controller.
         control_freq: actions a second [1/s].
         device: Warp's name of it.
@@ -307,36 +277,52 @@ def require_still(
         UnsettledSceneError: an object moves by 1 mm or 1 degree; names it and its drift.
     """
     engine = f"mujoco_warp {mujoco_warp().__version__} on {wp.get_device(device).name}"
-    about = "\0".join((checksum, engine, f"{seconds:g}", repr((SOLREF, SOLIMP, CCD_TOLERANCE))))
-    kept = cache_root() / "settled" / f"{hashlib.sha256(about.encode()).hexdigest()[:32]}-mujoco_warp.json"
-    moved = _stored(kept)
-    if moved is None:
-        moved = drift(BatchedPhysics(world, 1, control, control_freq, device, capacity), seconds)
-        store_record(kept, moved)
-    wrong = {name: (mm, degrees) for name, (mm, degrees) in moved.items() if mm > MAX_MM or degrees > MAX_DEGREES}
-    if wrong:
-        what = ", ".join(f'"{name}" by {mm:.3g} mm and {degrees:.3g} degrees' for name, (mm, degrees) in wrong.items())
+    files = []
+    for checksum in checksums:
+        about = "\0".join((checksum, engine, f"{seconds:g}", repr((SOLREF, SOLIMP, CCD_TOLERANCE))))
+        files.append(cache_root() / "settled" / f"{hashlib.sha256(about.encode()).hexdigest()[:32]}-mujoco_warp.json")
+    found = [_stored(file) for file in files]
+    if any(moved is None for moved in found):
+        found = drift(BatchedPhysics(merged, len(files), control, control_freq, device, capacity), seconds)
+        for file, moved in zip(files, found, strict=True):
+            store_record(file, moved)
+    lines = []
+    for number, moved in enumerate(found):
+        wrong = [
+            f'"{name}" by {mm:.3g} mm and {degrees:.3g} degrees'
+            for name, (mm, degrees) in (moved or {}).items()
+            if mm > MAX_MM or degrees > MAX_DEGREES
+        ]
+        if wrong:
+            lines.append((f"scene {number}: " if len(files) > 1 else "") + ", ".join(wrong))
+    if lines:
         raise UnsettledSceneError(
-            f"the scene does not stay still in {engine}: within {seconds:g} s it moved {what}. "
+            f"the scene does not stay still in {engine}: within {seconds:g} s it moved {'; '.join(lines)}. "
             'In double precision it does: gymnasium.make_vec(..., vectorization_mode="async") runs on CPUs.'
         )
 
 
-def drift(physics: BatchedPhysics, seconds: float) -> dict[str, tuple[float, float]]:
+def drift(physics: BatchedPhysics, seconds: float) -> list[dict[str, Sequence[float]]]:
     """How far every object is from where it started after `seconds` of the robot standing still: [mm], [degrees].
 
-    What is no longer finite is infinitely far.
+    What is no longer finite is infinitely far. One dictionary for each kind of world, of its worst world.
     """
-    world = physics.world
-    bodies = [world.bodies[name] for name in world.objects]
-    place, turn = physics.data.xpos.numpy()[:, bodies], physics.data.xquat.numpy()[:, bodies]
+    kinds = physics.merged.kinds
+    # On a CPU what is not copied is MuJoCo Warp's own memory.
+    place, turn = physics.data.xpos.numpy().copy(), physics.data.xquat.numpy().copy()
     for _ in range(round(seconds / physics.period)):
         physics.step(np.zeros((physics.worlds, physics.controller.size), dtype=np.float32))
-    far = 1e3 * np.linalg.norm(physics.data.xpos.numpy()[:, bodies] - place, axis=2)
-    cosine = np.abs(np.sum(physics.data.xquat.numpy()[:, bodies] * turn, axis=2))
+    far = 1e3 * np.linalg.norm(physics.data.xpos.numpy() - place, axis=2)
+    cosine = np.abs(np.sum(physics.data.xquat.numpy() * turn, axis=2))
     angle = np.degrees(2 * np.arccos(np.clip(cosine, 0.0, 1.0)))
-    worst = np.nan_to_num(np.stack([far, angle]), nan=np.inf).max(axis=1)
-    return {name: (float(mm), float(degrees)) for name, mm, degrees in zip(world.objects, *worst, strict=True)}
+    moved = np.nan_to_num(np.stack([far, angle]), nan=np.inf)
+    found = []
+    for number, kind in enumerate(kinds):
+        world = kind.world
+        bodies = kind.bodies[[world.bodies[name] for name in world.objects]]
+        worst = moved[:, number :: len(kinds)].max(axis=1)[:, bodies]
+        found.append(dict(zip(world.objects, map(tuple, worst.T.tolist()), strict=True)))
+    return found
 
 
 def _stored(path: Any) -> dict[str, Sequence[float]] | None:

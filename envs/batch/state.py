@@ -2,42 +2,73 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.envs.batch.physics import BatchedPhysics
-from pat3d.envs.physics.snapshot import Array, Snapshot
+from pat3d.envs.physics.predicates import OWNERS
+from pat3d.envs.physics.snapshot import Array, Mask, Snapshot
 from pat3d.envs.physics.state import States
 
 
+class Downloaded(NamedTuple):
+    """The present state of all worlds in the computer's own memory, in the order of their common model."""
+
+    qpos: Array
+    qvel: Array
+    xpos: Array
+    xquat: Array
+    xmat: Array
+    xipos: Array
+    sites: Array
+    site_xmat: Array
+    touching: Mask
+    pinched: Mask
+
+
+def download(physics: BatchedPhysics) -> Downloaded:
+    """Fetch the state after a control step, in double precision, for which predicates are compiled."""
+    data = physics.data
+    arrays = (data.qpos, data.qvel, data.xpos, data.xquat, data.xmat, data.xipos, data.site_xpos, data.site_xmat)
+    qpos, qvel, xpos, xquat, xmat, xipos, sites, site_xmat = (one.numpy().astype(np.float64) for one in arrays)
+    worlds = physics.worlds
+    return Downloaded(
+        qpos, qvel, xpos, xquat, xmat.reshape(worlds, -1, 9), xipos, sites, site_xmat.reshape(worlds, -1, 9),
+        *physics.touches(),
+    )  # fmt: skip
+
+
 class BatchState(States):
-    """The present state of all worlds in the computer's own memory."""
+    """The present state of the worlds of one kind, by the numbers of that kind's own model."""
 
-    def __init__(self, physics: BatchedPhysics) -> None:
-        super().__init__(physics.world, physics.worlds)
-        self._physics = physics
-        self.refresh()
-        self.take_start(np.arange(physics.worlds))
+    def __init__(self, physics: BatchedPhysics, number: int, now: Downloaded) -> None:
+        kinds = physics.merged.kinds
+        self._kind = kinds[number]
+        self._worlds = slice(number, physics.worlds, len(kinds))
+        self.rows = np.arange(physics.worlds)[self._worlds]
+        """Numbers of its worlds among all."""
+        super().__init__(self._kind.world, len(self.rows))
+        self.take(now)
+        self.take_start(self.everyone)
 
-    def refresh(self) -> None:
-        """Fetch the state after a control step."""
-        data, worlds = self._physics.data, self.count
-        touching, pinched = self._physics.touches()
-        self.qpos, self.xquat = _double(data.qpos), _double(data.xquat)
-        self.site_xmat = data.site_xmat.numpy().reshape(worlds, -1, 9)
+    def take(self, now: Downloaded) -> None:
+        """Take its part of what was fetched."""
+        kind, count = self._kind, OWNERS + len(self.bodies)
+
+        def own(values: NDArray[Any], numbers: NDArray[np.int64]) -> Array:
+            return values[self._worlds].take(numbers, axis=1)
+
+        self.qpos, self.xquat = own(now.qpos, kind.positions), own(now.xquat, kind.bodies)
+        self.site_xmat = own(now.site_xmat, kind.sites)
         self.snapshot = Snapshot(
-            xpos=_double(data.xpos),
-            xmat=_double(data.xmat).reshape(worlds, -1, 9),
-            xipos=_double(data.xipos),
-            qvel=_double(data.qvel),
-            sites=_double(data.site_xpos),
-            touching=touching,
-            pinched=pinched,
+            xpos=own(now.xpos, kind.bodies),
+            xmat=own(now.xmat, kind.bodies),
+            xipos=own(now.xipos, kind.bodies),
+            qvel=own(now.qvel, kind.dofs),
+            sites=own(now.sites, kind.sites),
+            touching=np.ascontiguousarray(now.touching[self._worlds, :count, :count]),
+            pinched=np.ascontiguousarray(now.pinched[self._worlds, :, :count]),
             **self._about,
         )
-
-
-def _double(array: Any) -> Array:
-    """A copy in double precision, for which predicates and observations are compiled."""
-    return array.numpy().astype(np.float64)

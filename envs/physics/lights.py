@@ -105,17 +105,17 @@ class Lights:
     def __init__(self, model: Any, data: Any) -> None:
         lamp = model.vis.headlight
         on = np.flatnonzero(model.light_active)
-        self._ambient = (np.array(lamp.ambient) + model.light_ambient[on].sum(axis=0)).astype(np.float32)
-        self._lamp = np.array(lamp.diffuse, dtype=np.float32)
-        self._diffuse = model.light_diffuse[on].astype(np.float32)
+        self.ambient = (np.array(lamp.ambient) + model.light_ambient[on].sum(axis=0)).astype(np.float32)
+        self.lamp = np.array(lamp.diffuse, dtype=np.float32)
+        self.diffuse = model.light_diffuse[on].astype(np.float32)
         towards = -data.light_xdir[on]
-        self._towards = (towards / np.linalg.norm(towards, axis=1, keepdims=True)).astype(np.float32)
+        self.towards = (towards / np.linalg.norm(towards, axis=1, keepdims=True)).astype(np.float32)
         self._casts = model.light_castshadow[on].astype(np.bool_)
 
     @property
     def sun(self) -> Array | None:
         """Direction of the first light that casts shadows, shape (3,); None where none does."""
-        return self._towards[np.argmax(self._casts)] if self._casts.any() else None
+        return self.towards[np.argmax(self._casts)] if self._casts.any() else None
 
     def on(self, normal: Array, facing: Array, shaded: NDArray[np.bool_]) -> Array:
         """Brightness of surfaces with unit `normal`, seen at a slope of `facing`; shape (n, 3).
@@ -125,8 +125,8 @@ class Lights:
             facing: the cosine of the angle between it and the view, shape (n,).
             shaded: from the lights that cast shadows, shape (n,).
         """
-        found = self._ambient + facing[:, None] * self._lamp
-        for towards, diffuse, casts in zip(self._towards, self._diffuse, self._casts, strict=True):
+        found = self.ambient + facing[:, None] * self.lamp
+        for towards, diffuse, casts in zip(self.towards, self.diffuse, self._casts, strict=True):
             falls = np.maximum(normal @ towards, np.float32(0.0))
             found += (falls * ~shaded if casts else falls)[:, None] * diffuse
         return found

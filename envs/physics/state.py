@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from abc import ABC, abstractmethod
 from typing import Any, Literal
 
 import numpy as np
@@ -24,7 +23,7 @@ TOUCH = 1e-3
 """Surfaces nearer than this touch [m]."""
 
 
-class States(ABC):
+class States:
     """The present state of worlds that are copies of one another; the first axis of every array is the world.
 
     A subclass fills the arrays and reads the contacts.
@@ -63,10 +62,6 @@ class States(ABC):
             "hand": self.hand,
             "surface": float(world.placement.surface - predicates.EDGE),
         }
-
-    @abstractmethod
-    def refresh(self) -> None:
-        """Read the present state after a control step."""
 
     def take_start(self, worlds: Numbers) -> None:
         """Take the present poses of `worlds` as the start of their episodes."""

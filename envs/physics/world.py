@@ -108,15 +108,33 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement) -> Wor
 
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
-        for one, where in _mounts(robot, placement):
-            _attach(mujoco, spec, one.robot, where, one.prefix)
+        _man(mujoco, spec, robot, placement)
         furnish(spec, placement)
-        for one, _ in _mounts(robot, placement):
-            spec.camera(one.prefix + one.robot.wrist_camera).name = f"{one.key}wrist"
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise EnvironmentSetupError(f"{mjcf}: MuJoCo {mujoco.__version__} refuses the scene: {error}") from error
     return index(model, scene, robot, placement)
+
+
+def _man(mujoco: Any, spec: Any, robot: Robot, placement: Placement) -> None:
+    """Attach all arms of a placement to an MjSpec, with their cameras."""
+    for one, where in _mounts(robot, placement):
+        _attach(mujoco, spec, one.robot, where, one.prefix)
+        spec.camera(one.prefix + one.robot.wrist_camera).name = f"{one.key}wrist"
+
+
+def without_scene(world: World) -> Any:
+    """An MjSpec of the robot and the cameras of a world alone, with that world's options."""
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    for name in dir(spec.option):
+        if not name.startswith("_") and hasattr(world.model.opt, name):
+            setattr(spec.option, name, getattr(world.model.opt, name))
+    _man(mujoco, spec, world.robot, world.placement)
+    for name in ANGLES:
+        spec.worldbody.add_camera(name=name)
+    return spec
 
 
 def cameras_of(sides: Sequence[str]) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,6 @@ class Body:
     """The drawn surfaces of one body in its own frame."""
 
     number: int
-    scene: RayScene
     corners: Array
     """Of every face [m], shape (faces, 3, 3)."""
     centre: Array
@@ -36,6 +36,11 @@ class Body:
     """Of every face, -1 for none, shape (faces,)."""
     geom: NDArray[np.int32]
     """Of every face, shape (faces,)."""
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """Its triangles for rays traced on the CPU."""
+        return RayScene(self.corners)
 
 
 class Surfaces:
@@ -84,7 +89,6 @@ class Surfaces:
         centre = (flat.min(axis=0) + flat.max(axis=0)) / 2.0
         return Body(
             number=number,
-            scene=RayScene(points),
             corners=points,
             centre=centre,
             radius=float(np.linalg.norm(flat - centre, axis=1).max()),

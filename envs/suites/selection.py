@@ -49,6 +49,15 @@ class Selection:
         """Objects of the suite's largest scene, so that all its splits share one observation space."""
         return self._suite.most_objects
 
+    @property
+    def count(self) -> int:
+        """Of the scenes selected."""
+        return len(self._entries)
+
+    def take(self, index: int) -> tuple[LoadedScene, str]:
+        """The scene of this index, and its task."""
+        return self._take(self._check(index))
+
     def first(self) -> tuple[LoadedScene, str]:
         """The scene to begin with, and its task."""
         return self._take(self._only or 0)

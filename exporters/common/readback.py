@@ -27,8 +27,8 @@ class BodyReadback:
     """Inertia tensor [kg m^2] about the centre of mass, in the axes of the body frame, shape (3, 3)."""
     friction: float
     """Sliding friction coefficient [-] of the body's colliders."""
-    hull_volume: float
-    """Sum over the body's colliders of the volume of each one's convex hull [m^3]."""
+    hulls: tuple[NDArray[np.float64], ...]
+    """Corners of each collider [m] in the body frame, each of shape (corners, 3)."""
     pose: Pose
     """Of the body frame in the world."""
     fixed: bool

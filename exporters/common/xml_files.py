@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pat3d.errors import ExportError
 from pat3d.scene.obj_files import read_obj
@@ -93,16 +94,21 @@ def convex_volume(points: NDArray[np.float64]) -> float:
         return math.nan
 
 
-class Volumes:
-    """Volumes of the convex hulls of mesh files, each read once."""
+def box_corners(size: ArrayLike) -> NDArray[np.float64]:
+    """The corners [m] of a box of this size [m] about the origin, shape (8, 3)."""
+    return np.array(list(itertools.product((-0.5, 0.5), repeat=3))) * np.asarray(size, dtype=np.float64)
+
+
+class MeshCorners:
+    """The vertices of mesh files, each read once."""
 
     def __init__(self) -> None:
-        self._known: dict[Path, float] = {}
+        self._known: dict[Path, NDArray[np.float64]] = {}
 
-    def of(self, path: Path) -> float:
-        """[m^3]."""
+    def of(self, path: Path) -> NDArray[np.float64]:
+        """[m], shape (vertices, 3)."""
         if path not in self._known:
-            self._known[path] = convex_volume(read_obj(path)[0])
+            self._known[path] = np.asarray(read_obj(path)[0], dtype=np.float64)
         return self._known[path]
 
 

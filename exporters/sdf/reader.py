@@ -6,10 +6,21 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.errors import ExportError, SpecError
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
+from pat3d.exporters.common.xml_files import (
+    MeshCorners,
+    beside,
+    box_corners,
+    common,
+    in_body_axes,
+    numbers,
+    only,
+    read_xml,
+    tensor,
+)
 from pat3d.geometry.pose import Pose
 
 
@@ -21,8 +32,8 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
     """
     path = Path(path)
     world = only(read_xml(path, "sdf"), "world", str(path))
-    volumes = Volumes()
-    return tuple(_body(model, path, volumes) for model in world.findall("model") if model.get("name") != "ground")
+    meshes = MeshCorners()
+    return tuple(_body(model, path, meshes) for model in world.findall("model") if model.get("name") != "ground")
 
 
 def hangs(path: str | Path) -> bool:
@@ -33,7 +44,7 @@ def hangs(path: str | Path) -> bool:
         return False
 
 
-def _body(model: ET.Element, path: Path, volumes: Volumes) -> BodyReadback:
+def _body(model: ET.Element, path: Path, meshes: MeshCorners) -> BodyReadback:
     where = f"{path}: {model.get('name')}"
     link = only(model, "link", where)
     inertial = only(link, "inertial", where)
@@ -51,7 +62,7 @@ def _body(model: ET.Element, path: Path, volumes: Volumes) -> BodyReadback:
         centre=np.array(frame.position),
         inertia=in_body_axes(moments, frame.rotation),
         friction=common(frictions),
-        hull_volume=sum(_volume(collision, path, volumes, where) for collision in collisions),
+        hulls=tuple(_corners(collision, path, meshes, where) for collision in collisions),
         pose=_pose(model, where),
         fixed=model.findtext("static", "false").strip() in ("true", "1"),
     )
@@ -72,9 +83,13 @@ def _pose(parent: ET.Element, where: str) -> Pose:
         raise ExportError(f"{where}: {error}") from error
 
 
-def _volume(collision: ET.Element, path: Path, volumes: Volumes, where: str) -> float:
+def _corners(collision: ET.Element, path: Path, meshes: MeshCorners, where: str) -> NDArray[np.float64]:
+    """Corners of a collider [m], in the frame of its link, shape (corners, 3)."""
     geometry = only(collision, "geometry", where)
     box = geometry.find("box")
     if box is not None:
-        return float(np.prod(numbers(only(box, "size", where).text, 3, where)))
-    return volumes.of(beside(only(only(geometry, "mesh", where), "uri", where).text, path.parent, path.parent))
+        corners = box_corners(numbers(only(box, "size", where).text, 3, where))
+    else:
+        uri = only(only(geometry, "mesh", where), "uri", where).text
+        corners = meshes.of(beside(uri, path.parent, path.parent))
+    return _pose(collision, where).apply(corners) if collision.find("pose") is not None else corners

@@ -10,11 +10,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pat3d.errors import ExportError, SpecError
 from pat3d.exporters.common.frames import rotation_of
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import Volumes, beside, common, in_body_axes, numbers, only, read_xml, tensor
+from pat3d.exporters.common.xml_files import (
+    MeshCorners,
+    beside,
+    box_corners,
+    common,
+    in_body_axes,
+    numbers,
+    only,
+    read_xml,
+    tensor,
+)
 from pat3d.exporters.urdf.mesh_paths import PACKAGE, mesh_file
 from pat3d.exporters.urdf.writer import FORMAT, VERSION
 from pat3d.geometry.pose import Pose
@@ -44,12 +55,12 @@ def read_urdf(folder: str | Path) -> tuple[BodyReadback, ...]:
         ExportError: anything is missing, unknown or malformed.
     """
     folder = Path(folder)
-    volumes, known = Volumes(), {}
+    meshes, known = MeshCorners(), {}
     bodies = []
     for entry in read_manifest(folder)["objects"]:
         if entry["file"] not in known:
             path = beside(entry["file"], folder, folder)
-            known[entry["file"]] = read_robot(path, folder, volumes)
+            known[entry["file"]] = read_robot(path, folder, meshes)
         link, body = known[entry["file"]]
         if entry["link"] != link:
             raise ExportError(f'{entry["file"]} has the link "{link}", not "{entry["link"]}".')
@@ -67,7 +78,7 @@ def read_urdf(folder: str | Path) -> tuple[BodyReadback, ...]:
     return tuple(bodies)
 
 
-def read_robot(path: Path, root: Path, volumes: Volumes) -> tuple[str, BodyReadback]:
+def read_robot(path: Path, root: Path, meshes: MeshCorners) -> tuple[str, BodyReadback]:
     """The name of the one link of the URDF at `path`, and the link as a body at the origin.
 
     Raises:
@@ -98,7 +109,7 @@ def read_robot(path: Path, root: Path, volumes: Volumes) -> tuple[str, BodyReadb
         centre=centre,
         inertia=in_body_axes(moments, axes),
         friction=common(frictions),
-        hull_volume=sum(_volume(collision, path, root, volumes, where) for collision in collisions),
+        hulls=tuple(_corners(collision, path, root, meshes, where) for collision in collisions),
         pose=Pose(),
         fixed=False,
     )
@@ -111,14 +122,20 @@ def _origin(element: ET.Element, where: str) -> tuple[np.ndarray, np.ndarray]:
     return numbers(origin.get("xyz"), 3, where), rotation_of(*numbers(origin.get("rpy"), 3, where))
 
 
-def _volume(collision: ET.Element, path: Path, root: Path, volumes: Volumes, where: str) -> float:
+def _corners(collision: ET.Element, path: Path, root: Path, meshes: MeshCorners, where: str) -> NDArray[np.float64]:
+    """Corners of a collider [m], in the frame of its link, shape (corners, 3)."""
     geometry = only(collision, "geometry", where)
     box = geometry.find("box")
     if box is not None:
-        return float(np.prod(numbers(box.get("size"), 3, where)))
-    mesh = only(geometry, "mesh", where)
-    scale = numbers(mesh.get("scale", "1 1 1"), 3, where)
-    return volumes.of(mesh_file(mesh.get("filename"), path.parent, root)) * float(np.prod(scale))
+        corners = box_corners(numbers(box.get("size"), 3, where))
+    else:
+        mesh = only(geometry, "mesh", where)
+        scale = numbers(mesh.get("scale", "1 1 1"), 3, where)
+        corners = meshes.of(mesh_file(mesh.get("filename"), path.parent, root)) * scale
+    if collision.find("origin") is None:
+        return corners
+    position, turn = _origin(collision, where)
+    return corners @ turn.T + position
 
 
 def _words(values: Any) -> str:
@@ -140,7 +157,7 @@ def read_directives(folder: str | Path) -> tuple[BodyReadback, ...]:
     """
     folder = Path(folder)
     path = folder / "scene.dmd.yaml"
-    volumes = Volumes()
+    meshes = MeshCorners()
     files: dict[str, str] = {}
     placed: dict[str, tuple[bool, Mapping[str, Any]]] = {}
     try:
@@ -157,7 +174,7 @@ def read_directives(folder: str | Path) -> tuple[BodyReadback, ...]:
             if name == "ground":
                 continue
             fixed, transform = placed[name]
-            _, body = read_robot(beside(files[name], folder, folder), folder, volumes)
+            _, body = read_robot(beside(files[name], folder, folder), folder, meshes)
             bodies.append(replace(body, name=name, fixed=fixed, pose=_transform(transform)))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ExportError(f"{path}: not the directives of a scene ({error}).") from error

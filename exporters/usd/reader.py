@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from pat3d.errors import ExportError
@@ -52,7 +51,7 @@ def _read(body: Body, cache: Any, path: str | Path) -> BodyReadback:
         centre=centre,
         inertia=inertia,
         friction=_friction(body),
-        hull_volume=sum(_volume(collider, body, cache, path) for collider in body.colliders),
+        hulls=tuple(_corners(collider, body, cache, path) for collider in body.colliders),
         pose=Pose.from_matrix(place[:3, :3], place[:3, 3]),
         fixed=body.fixed,
     )
@@ -90,12 +89,9 @@ def _friction(body: Body) -> float:
     return values.pop() if len(values) == 1 and None not in found else float("nan")
 
 
-def _volume(collider: Prim, body: Body, cache: Any, path: str | Path) -> float:
-    """Volume of the convex hull of a collider [m^3]."""
+def _corners(collider: Prim, body: Body, cache: Any, path: str | Path) -> NDArray[np.float64]:
+    """Points that span a collider [m], in the frame of its body, shape (points, 3)."""
     points = collider_points(collider)
     if points is None:
         raise ExportError(f"{path}: {collider.GetPath()} is a {collider.GetTypeName()}; colliders are Mesh or Cube.")
-    try:
-        return float(ConvexHull(transformed(points, matrix(collider, cache, body.prim))).volume)
-    except (QhullError, ValueError) as error:
-        raise ExportError(f"{path}: {collider.GetPath()} spans no volume.") from error
+    return transformed(points, matrix(collider, cache, body.prim))

@@ -59,9 +59,10 @@ def test_stands_on_a_flat_base_below_its_centre_of_mass(noun, seed):
     support = ConvexHull(feet)
     near = points[points[:, 2] < 1e-4]
     assert near[:, 2].max() < 1e-9, "corners a hair above the base would carry load after it settles"
-    centre = np.array(asset.mass_properties.centre_of_mass[:2])
+    *centre, height = asset.mass_properties.centre_of_mass
     margin = -np.max(support.equations[:, :2] @ centre + support.equations[:, 2])
-    assert margin > 0.06 * np.sqrt(support.volume)
+    # It stands where the ground is tilted by five degrees; balls do so by their lowest ring.
+    assert margin > np.tan(np.radians(5.0)) * height
 
 
 @pytest.mark.parametrize("noun", sampled(NOUNS))

@@ -63,7 +63,8 @@ def test_turned_part_stands_on_a_flat_base():
     base = SHAPES["ball"].hulls[0]
     lowest = base[np.abs(base[:, 2] + 1.0) < 1e-12]
     assert len(lowest) >= 8
-    assert np.linalg.norm(lowest[:, :2], axis=1).min() > 0.01
+    # As wide as the lowest ring that is drawn: 39 steps from pole to pole.
+    assert np.linalg.norm(lowest[:, :2], axis=1).min() > math.sin(math.pi / 39)
 
 
 def test_clear_radius_is_the_widest_free_cylinder():

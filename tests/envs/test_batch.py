@@ -17,7 +17,9 @@ from gymnasium.vector import AsyncVectorEnv, AutoresetMode  # noqa: E402
 
 from pat3d.envs.batch import physics as batch_physics  # noqa: E402
 from pat3d.envs.batch.controllers import BatchedController  # noqa: E402
-from pat3d.envs.batch.physics import Capacity, in_single_precision, require_still  # noqa: E402
+from pat3d.envs.batch.merged import alone  # noqa: E402
+from pat3d.envs.batch.physics import Capacity, require_still  # noqa: E402
+from pat3d.envs.batch.precision import in_single_precision  # noqa: E402
 from pat3d.envs.env import TabletopEnv  # noqa: E402
 from pat3d.envs.physics.state import SimState  # noqa: E402
 from pat3d.envs.vector import BatchedTabletopEnv, make_vector  # noqa: E402
@@ -58,7 +60,7 @@ def test_torques_are_those_of_robosuite_s_controllers(robot, kind):
     simulation = env.simulation
     model, data = simulation.model, simulation.data
     arm = [int(model.joint("robot/" + name).qposadr[0]) for name in simulation.world.robot.arm_joints]
-    ours = BatchedController(simulation.world, mirrored(data), kind)
+    ours = BatchedController(alone(simulation.world), mirrored(data), kind)
     ours.reset(np.arange(WORLDS), np.tile(data.qpos[arm], (WORLDS, 1)))
     assert ours.size == simulation.controller.size
     random = np.random.default_rng(1)
@@ -225,7 +227,7 @@ def test_what_tasks_see_of_a_world_is_what_they_see_of_the_single_environment(bl
     many = BatchedTabletopEnv(2, device="cpu", scene=block, start_noise=0.0)
     env.reset(seed=0)
     many.reset(seed=0)
-    one, other = env.simulation.state, SimState(many.state, 1)
+    one, other = env.simulation.state, SimState(many.groups[0].states, 1)
     for name in env.objects:
         np.testing.assert_allclose(other.position(name), one.position(name), atol=1e-5)
         np.testing.assert_allclose(other.rotation(name), one.rotation(name), atol=1e-5)
@@ -255,13 +257,13 @@ def test_a_scene_that_moves_in_single_precision_is_refused_by_name_the_second_ti
 
     def fallen(physics, seconds):
         tried.append(seconds)
-        return {"red mug": (12.0, 3.0), "banana": (0.1, 0.1)}
+        return [{"red mug": (12.0, 3.0), "banana": (0.1, 0.1)}]
 
     monkeypatch.setattr(batch_physics, "drift", fallen)
     monkeypatch.setattr(batch_physics, "BatchedPhysics", lambda *_: None)
     for _ in range(2):
         with pytest.raises(UnsettledSceneError, match=r'"red mug" by 12 mm and 3 degrees\.'):
-            require_still(env.simulation.world, "0" * 64, "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
+            require_still(alone(env.simulation.world), ["0" * 64], "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
     assert len(tried) == 1
 
 
@@ -269,7 +271,9 @@ def test_a_scene_that_moves_in_single_precision_is_refused_by_name_the_second_ti
     ("wrong", "says"),
     [
         ({"device": "tpu"}, 'no device "tpu"'),
-        ({"device": "cuda", "obs": "rgb"}, 'only "state"'),
+        ({"device": "cuda", "obs": "smell"}, "state, rgb, rgbd"),
+        ({"device": "cuda", "obs": "rgb", "cameras": ("topview",)}, "agentview, frontview, closeview, wrist"),
+        ({"device": "cuda", "robot": "panda+panda"}, "one arm, not two"),
         ({"device": "cuda", "control": "levitation"}, "osc, joint_velocity, joint_position"),
         ({"device": "cuda", "reward": "huge"}, "sparse, dense"),
         ({"device": "cuda", "start_noise": float("nan")}, "0 to 0.5"),

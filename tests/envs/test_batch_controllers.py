@@ -10,6 +10,7 @@ pytest.importorskip("gymnasium")
 import mujoco
 
 from pat3d.envs.batch.controllers import BatchedController
+from pat3d.envs.batch.merged import alone
 from pat3d.envs.env import TabletopEnv
 from tests.envs.mirror import WORLDS, mirrored
 from tests.envs.own_arm import jaw_arm, own_arm
@@ -42,7 +43,7 @@ def test_a_batch_s_torques_are_those_of_one_world(request, arm, kind):
     env.reset(seed=0)
     simulation = env.simulation
     model, data, one = simulation.model, simulation.data, simulation.controller
-    batch = BatchedController(simulation.world, mirrored(data), kind)
+    batch = BatchedController(alone(simulation.world), mirrored(data), kind)
     batch.reset(np.arange(WORLDS), np.tile(simulation.arm, (WORLDS, 1)))
     random = np.random.default_rng(1)
     for action in random.uniform(-1, 1, (3, one.size)):

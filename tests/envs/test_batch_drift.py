@@ -27,7 +27,9 @@ class Drifting:
         worlds, bodies = self.metres.shape
         names = tuple(f"object {number}" for number in range(bodies))
         # The world itself is body 0.
-        self.world = SimpleNamespace(objects=names, bodies={name: k + 1 for k, name in enumerate(names)})
+        world = SimpleNamespace(objects=names, bodies={name: k + 1 for k, name in enumerate(names)})
+        kind = SimpleNamespace(world=world, bodies=np.arange(bodies + 1))
+        self.merged = SimpleNamespace(kinds=[kind])
         self.worlds, self.period, self.steps = worlds, 0.05, 0
         self.controller = SimpleNamespace(size=7)
         self.data = SimpleNamespace(xpos=self._array(self._places), xquat=self._array(self._turns))
@@ -59,7 +61,7 @@ class Drifting:
 def test_drift_is_the_largest_of_any_world_over_the_time_asked_for():
     """Twenty steps of 50 ms; each object is furthest in another world, and turns furthest in yet another."""
     physics = Drifting([[1e-4, 2e-4, 0.0], [3e-4, 1e-4, 0.0]], [[1e-3, 0.0, 0.0], [-5e-4, 2e-3, 0.0]])
-    found = drift(physics, 1.0)
+    (found,) = drift(physics, 1.0)
     assert physics.steps == 20
     assert list(found) == ["object 0", "object 1", "object 2"]
     wanted = [(6.0, math.degrees(0.02)), (4.0, math.degrees(0.04)), (0.0, 0.0)]
@@ -67,9 +69,30 @@ def test_drift_is_the_largest_of_any_world_over_the_time_asked_for():
     assert all(isinstance(value, float) for pair in found.values() for value in pair)
 
 
+def test_every_kind_of_world_has_its_own_drift_by_its_own_names():
+    """Worlds take turns: the first, third, ... are of the first kind, whose second object is the model's first."""
+    physics = Drifting([[1e-4, 2e-4], [3e-4, 1e-4], [5e-4, 0.0]], np.zeros((3, 2)))
+    other = SimpleNamespace(objects=("cup", "plate"), bodies={"cup": 2, "plate": 1})
+    physics.merged.kinds.append(SimpleNamespace(world=other, bodies=np.array([0, 2, 1])))
+    first, second = drift(physics, 0.5)
+    np.testing.assert_allclose([first["object 0"][0], first["object 1"][0]], [5.0, 2.0], atol=1e-5)
+    np.testing.assert_allclose([second["cup"][0], second["plate"][0]], [3.0, 1.0], atol=1e-5)
+
+
+def test_a_scene_of_several_that_moves_is_named_by_its_number(monkeypatch, tmp_path):
+    from pat3d.envs.batch import physics
+
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path))
+    monkeypatch.setattr(physics, "mujoco_warp", lambda: SimpleNamespace(__version__="0"))
+    monkeypatch.setattr(physics, "BatchedPhysics", lambda *_: None)
+    monkeypatch.setattr(physics, "drift", lambda *_: [{"mug": (0.1, 0.1)}, {"mug": (0.1, 4.0)}])
+    with pytest.raises(UnsettledSceneError, match=r'it moved scene 1: "mug" by 0\.1 mm and 4 degrees\.'):
+        require_still(None, ["0" * 64, "1" * 64], "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
+
+
 def test_what_is_no_longer_finite_is_infinitely_far_in_whichever_world():
     physics = Drifting([[1e-4, 0.0], [0.0, np.nan]], [[0.0, 0.0], [np.nan, 0.0]])
-    found = drift(physics, 0.5)
+    (found,) = drift(physics, 0.5)
     assert found["object 0"] == (pytest.approx(1.0), math.inf)
     assert found["object 1"] == (math.inf, pytest.approx(0.0, abs=1e-5))
 
@@ -81,15 +104,15 @@ def test_a_millimetre_and_a_degree_are_still(moved, passes, monkeypatch, tmp_pat
     monkeypatch.setenv("PAT3D_CACHE", str(tmp_path))
     monkeypatch.setattr(physics, "mujoco_warp", lambda: SimpleNamespace(__version__="0"))
     monkeypatch.setattr(physics, "BatchedPhysics", lambda *_: None)
-    monkeypatch.setattr(physics, "drift", lambda *_: {"mug": moved, "tray": (0.0, 0.0)})
+    monkeypatch.setattr(physics, "drift", lambda *_: [{"mug": moved, "tray": (0.0, 0.0)}])
     for _ in range(2):
         if passes:
-            require_still(None, "0" * 64, "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
+            require_still(None, ["0" * 64], "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
         else:
             with pytest.raises(
                 UnsettledSceneError, match=r'it moved "mug" by [\d.]+ mm and [\d.]+ degrees\. In double'
             ):
-                require_still(None, "0" * 64, "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
+                require_still(None, ["0" * 64], "osc", 20.0, "cpu", Capacity(contacts=9, rows=9))
 
 
 @pytest.mark.parametrize("kind", ["osc", "joint_position"])

@@ -365,7 +365,7 @@ def test_a_scene_with_more_objects_than_the_space_is_refused_and_nothing_changes
         ({"task": "pick:teapot"}, "Objects that can move: red mug, green apple"),
         ({"task": "juggle"}, "Tasks: pick:OBJECT"),
         ({"task": "place:banana"}, "does not fit"),
-        ({"obs": "smell"}, "Observations: state, rgb, rgbd"),
+        ({"obs": "smell"}, "Valid: state, rgb, rgbd"),
         ({"control": "telepathy"}, "Controls: osc"),
         ({"reward": "praise"}, "Valid: sparse, dense"),
         ({"obs": "rgb", "cameras": ("ceiling",)}, "Cameras: agentview, frontview, closeview, wrist"),

@@ -4,7 +4,9 @@ import json
 import math
 import re
 import shutil
+from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -60,16 +62,16 @@ PLANTED = [
     ("mjcf", "scene.xml", r'<body name="pencil_co".*?diaginertia="(\S+) ', "inertia"),
     ("mjcf", "scene.xml", r'<body name="red_mug_2".*?<inertial pos="\S+ \S+ (\S+)"', "centre of mass"),
     ("mjcf", "scene.xml", r'name="red_mug_2_part_000" friction="(\S+) ', "friction"),
-    ("mjcf", "meshes/red_mug_1/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("mjcf", "meshes/red_mug_1/part_000.obj", r"v (\S+) ", "convex parts"),
     ("urdf", MUG, r'<mass value="(\S+)"', "weighs"),
     ("urdf", PENCIL, r'izz="(\S+)"', "inertia"),
     ("urdf", PENCIL, r'<origin xyz="\S+ \S+ \S+" rpy="\S+ (\S+) ', "inertia"),
     ("urdf", MUG, r'<origin xyz="\S+ \S+ (\S+)"', "centre of mass"),
     ("urdf", MUG, r'<lateral_friction value="(\S+)"', "friction"),
     ("urdf", MUG, r'<drake:mu_dynamic value="(\S+)"', "friction"),
-    ("urdf", "objects/wooden_table/part_000.obj", r"v (\S+) ", "volume of hulls"),
-    ("sdf", "scene.sdf", r'<model name="wooden_table".*?<collision.*?<size>(\S+) ', "volume of hulls"),
-    ("urdf", "objects/ball/part_003.obj", r"v (\S+) ", "volume of hulls"),
+    ("urdf", "objects/wooden_table/part_000.obj", r"v (\S+) ", "convex parts"),
+    ("sdf", "scene.sdf", r'<model name="wooden_table".*?<collision.*?<size>(\S+) ', "convex parts"),
+    ("urdf", "objects/ball/part_000.obj", r"v (\S+) ", "convex parts"),
     ("urdf", "manifest.json", r'"position": \[\s*(0\.1),', "stands elsewhere"),
     ("urdf", "scene.dmd.yaml", r"translation: \[(0\.1),", "stands elsewhere"),
     (
@@ -82,7 +84,7 @@ PLANTED = [
     ("sdf", "scene.sdf", r'<model name="red_mug_1">\s*<pose rotation_format="quat_xyzw">(\S+) ', "stands elsewhere"),
     ("sdf", "scene.sdf", r'<model name="pencil_co".*?<iyy>(\S+)</iyy>', "inertia"),
     ("sdf", "scene.sdf", r'<model name="red_mug_2".*?<mu>(\S+)</mu>', "friction"),
-    ("sdf", "models/red_mug_1/meshes/part_000.obj", r"v (\S+) ", "volume of hulls"),
+    ("sdf", "models/red_mug_1/meshes/part_000.obj", r"v (\S+) ", "convex parts"),
 ]
 
 
@@ -90,11 +92,32 @@ PLANTED = [
 def test_one_number_off_by_a_hundred_thousandth_is_found(scene, written, tmp_path, name, file, pattern, words):
     shutil.copytree(written[name].parent, tmp_path / name)
     path = tmp_path / name / file
-    # One corner of one of many parts moves the sum of their volumes little.
-    path.write_text(_scaled(path.read_text(), pattern, 1.01 if file.endswith(".obj") else 1 + 1e-5))
+    # The ball's first corner lies 4 mm from its axis, and a hundred-thousandth of that is within the tolerance.
+    path.write_text(_scaled(path.read_text(), pattern, 1 + (1e-4 if "ball" in file else 1e-5)))
     report = parity(scene, tmp_path / name / written[name].name)
     assert not report.passed
     assert any(words in line for line in report.failures), report.failures
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "pattern", "place"),
+    [
+        ("mjcf", "scene.xml", r'name="wooden_table_part_000"[^>]* pos="([^"]*)"', "0 0 0.0201"),
+        ("mjcf", "scene.xml", r'name="ball_part_000"[^>]*( )mesh=', ' pos="0 0 0.0001" '),
+        ("urdf", MUG, r'<collision.*?<origin xyz="([^"]*)"', "0 0.0001 0"),
+        ("urdf", MUG, r'<collision.*?<origin xyz="0 0 0" rpy="([^"]*)"', "0.01 0 0"),
+        ("sdf", "scene.sdf", r'<model name="wooden_table".*?<collision.*?<pose[^>]*>([^<]*)<', "0 0 0.0201 0 0 0 1"),
+    ],
+)
+def test_a_collider_that_was_moved_in_its_body_is_found(scene, written, tmp_path, name, file, pattern, place):
+    shutil.copytree(written[name].parent, tmp_path / name)
+    path = tmp_path / name / file
+    text = path.read_text()
+    found = re.search(pattern, text, re.DOTALL)
+    assert found is not None
+    path.write_text(text[: found.start(1)] + place + text[found.end(1) :])
+    failures = parity(scene, tmp_path / name / written[name].name).failures
+    assert any("the convex parts" in line for line in failures), failures
 
 
 @pytest.mark.parametrize(
@@ -133,7 +156,7 @@ def test_the_report_is_json(scene, written):
 
 
 LONG = placed("plank", asset_of(box(0.1, 0.2, 0.4)), (1.0, 2.0, 3.0))
-VOLUME = 0.1 * 0.2 * 0.4
+CORNERS = LONG.asset.parts[0].vertices
 
 
 def _as_read(**changed) -> BodyReadback:
@@ -144,16 +167,16 @@ def _as_read(**changed) -> BodyReadback:
         centre=np.array(properties.centre_of_mass),
         inertia=np.array(properties.inertia),
         friction=LONG.asset.material.friction,
-        hull_volume=VOLUME,
+        hulls=(CORNERS,),
         pose=LONG.pose,
         fixed=False,
     )
     return replace(read, **changed)
 
 
-def _wrong(silent=frozenset(), **changed) -> dict[str, float | None]:
+def _wrong(silent: Iterable[str] = (), **changed: Any) -> dict[str, Any]:
     """The errors of a reading with these values in place of the plank's own."""
-    found = errors_of(LONG, _as_read(**changed), VOLUME, frozenset(silent))
+    found = errors_of(LONG, _as_read(**changed), frozenset(silent))
     return {name: getattr(found, name) for name in QUANTITIES}
 
 
@@ -162,7 +185,12 @@ def _wrong(silent=frozenset(), **changed) -> dict[str, float | None]:
     [
         ({"mass": 1.03 * LONG.asset.mass_properties.mass}, "mass", 0.03),
         ({"friction": 0.9 * LONG.asset.material.friction}, "friction", 0.1),
-        ({"hull_volume": 1.2 * VOLUME}, "hull_volume", 0.2),
+        # Twice as large about its middle: eight times the volume.
+        ({"hulls": (2.0 * CORNERS - CORNERS.mean(axis=0),)}, "hulls", 7.0),
+        # 4 mm along y, where the longest side has 400.
+        ({"hulls": (CORNERS + (0.0, 0.004, 0.0),)}, "hulls", 0.01),
+        ({"hulls": (CORNERS, CORNERS)}, "hulls", math.inf),
+        ({"hulls": ()}, "hulls", math.inf),
         # 3 mm along x and 4 mm along y are 5 mm, and the longest side has 400.
         (
             {"centre": np.array(LONG.asset.mass_properties.centre_of_mass) + (0.003, 0.004, 0.0)},
@@ -180,6 +208,14 @@ def test_the_error_of_each_quantity_is_in_the_unit_it_is_said_to_be_in_and_of_no
     assert all(error == pytest.approx(0.0, abs=1e-12) for error in found.values())
     if quantity not in ("position", "rotation"):
         assert _wrong({quantity}, **changed)[quantity] is None
+
+
+def test_a_collider_that_spans_no_volume_is_neither_equal_nor_passed_over():
+    """NaN must not be lost among the errors of the other parts."""
+    flat = CORNERS * (1.0, 1.0, 0.0)
+    assert math.isnan(_wrong(hulls=(flat,))["hulls"])
+    assert math.isnan(_wrong(hulls=(np.full((4, 3), np.nan),))["hulls"])
+    assert _wrong(hulls=(np.empty((0, 3)),))["hulls"] == math.inf
 
 
 def test_the_error_of_inertia_is_the_larger_of_the_tensor_s_and_of_its_moments():

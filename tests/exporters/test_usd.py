@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull
+from scipy.spatial.distance import cdist
 from scipy.spatial.transform import Rotation
 
 pytest.importorskip("pxr")
@@ -96,14 +96,17 @@ def test_the_file_says_what_the_scene_says_to_a_millionth(scene, written):
     for obj in scene.objects:
         body, expected = found[names[obj.name]], obj.asset.mass_properties
         inertia = np.array(expected.inertia)
-        volume = sum(ConvexHull(part.vertices).volume for part in obj.asset.parts)
         assert body.mass == pytest.approx(expected.mass, rel=1e-6)
         np.testing.assert_allclose(
             body.centre, expected.centre_of_mass, atol=1e-6 * np.linalg.norm(expected.centre_of_mass)
         )
         np.testing.assert_allclose(body.inertia, inertia, atol=1e-6 * np.abs(inertia).max())
         assert body.friction == pytest.approx(obj.asset.material.friction, rel=1e-6)
-        assert body.hull_volume == pytest.approx(volume, rel=1e-6)
+        assert len(body.hulls) == len(obj.asset.parts)
+        for points, part in zip(body.hulls, obj.asset.parts, strict=True):
+            # OpenUSD keeps points in single precision; a cube's corners have an order of their own.
+            apart = cdist(points, part.vertices)
+            assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-7 * obj.asset.size.max()
         np.testing.assert_allclose(body.pose.position, obj.pose.position, atol=1e-12)
         np.testing.assert_allclose(body.pose.rotation, obj.pose.rotation, atol=1e-8)
         assert body.fixed == obj.fixed

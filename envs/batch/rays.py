@@ -1,0 +1,198 @@
+"""What one pixel of one world shows: the ray tracer of `pat3d.envs.rendering.raytrace` as Warp kernels."""
+# Variables of a kernel that change have to be made with their type.
+# ruff: noqa: UP018, RUF046
+# pyright: reportInvalidTypeForm=false, reportOperatorIssue=false, reportIndexIssue=false, reportReturnType=false
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportArgumentType=false, reportAttributeAccessIssue=false
+# pyright: reportAssignmentType=false
+
+import warp as wp
+
+from pat3d.envs.physics.lights import FADES, FLOOR
+from pat3d.envs.rendering.raytrace import TILE
+
+ACROSS, DOWN = 8, 4
+"""Pixels of the tile that the threads of one warp draw, whose rays so meet the same bodies."""
+
+NEAR, FAR = wp.constant(FADES[0]), wp.constant(FADES[1])
+SIDE = wp.constant(TILE)
+LIGHT_TILE, DARK_TILE = wp.constant(wp.vec3(*FLOOR[0])), wp.constant(wp.vec3(*FLOOR[1]))
+
+
+@wp.struct
+class Drawn:
+    """What there is to see: bodies and planes of every kind of world, faces of all bodies one after the other."""
+
+    body: wp.array2d[int]
+    """MuJoCo's number, -1 beyond the last, shape (kinds, bodies)."""
+    mesh: wp.array2d[wp.uint64]
+    centre: wp.array2d[wp.vec3]
+    radius: wp.array2d[float]
+    first: wp.array2d[int]
+    """Its first face."""
+    geom: wp.array2d[int]
+    """Its first geom in `label`."""
+    label: wp.array2d[int]
+    """What segmentation calls every geom, shape (kinds, geoms)."""
+    normals: wp.array[wp.vec3]
+    """Of the three corners of every face."""
+    uv: wp.array[wp.vec2]
+    colour: wp.array[wp.vec3]
+    texture: wp.array[int]
+    part: wp.array[int]
+    """Geom of every face, counted from its body's first."""
+    texels: wp.array[wp.vec3]
+    image: wp.array[wp.vec3i]
+    """First texel, height and width of every texture."""
+    planes: wp.array2d[wp.mat33]
+    """Axes of planes as columns, zero beyond the last, shape (kinds, planes)."""
+    place: wp.array2d[wp.vec3]
+    tint: wp.array2d[wp.vec3]
+    sky: wp.vec3
+    ambient: wp.vec3
+    lamp: wp.vec3
+    towards: wp.array[wp.vec3]
+    """Unit vectors to the lights that are far away."""
+    diffuse: wp.array[wp.vec3]
+
+
+@wp.kernel(enable_backward=False)
+def bound(
+    drawn: Drawn,
+    position: wp.array2d[wp.vec3],
+    rotation: wp.array2d[wp.mat33],
+    spheres: wp.array2d[wp.vec4],
+):
+    """Where the sphere around each body is now: middle and square of the radius, which is -1 beyond the last."""
+    world, slot = wp.tid()
+    kind = world % drawn.body.shape[0]
+    body = drawn.body[kind, slot]
+    if body < 0:
+        spheres[world, slot] = wp.vec4(0.0, 0.0, 0.0, -1.0)
+        return
+    middle = position[world, body] + rotation[world, body] * drawn.centre[kind, slot]
+    reach = drawn.radius[kind, slot]
+    spheres[world, slot] = wp.vec4(middle[0], middle[1], middle[2], reach * reach)
+
+
+@wp.func
+def brightness(drawn: Drawn, normal: wp.vec3, facing: float) -> wp.vec3:
+    """See `Lights.on`; nothing lies in the shadow."""
+    found = drawn.ambient + facing * drawn.lamp
+    for number in range(drawn.towards.shape[0]):
+        found += wp.max(wp.dot(normal, drawn.towards[number]), 0.0) * drawn.diffuse[number]
+    return found
+
+
+@wp.func
+def texel(drawn: Drawn, texture: int, uv: wp.vec2) -> wp.vec3:
+    """See `nearest_texels`."""
+    about = drawn.image[texture]
+    row = wp.clamp(int((uv[1] - wp.floor(uv[1])) * float(about[1])), 0, about[1] - 1)
+    column = wp.clamp(int((uv[0] - wp.floor(uv[0])) * float(about[2])), 0, about[2] - 1)
+    return drawn.texels[about[0] + row * about[2] + column]
+
+
+@wp.func
+def byte(value: float) -> wp.uint8:
+    """A colour in [0, 1] as 8 bits."""
+    return wp.uint8(int(wp.clamp(value * 255.0 + 0.5, 0.0, 255.0)))
+
+
+@wp.kernel(enable_backward=False)
+def draw(
+    drawn: Drawn,
+    spheres: wp.array2d[wp.vec4],
+    position: wp.array2d[wp.vec3],
+    rotation: wp.array2d[wp.mat33],
+    eyes: wp.array2d[wp.vec3],
+    views: wp.array2d[wp.mat33],
+    camera: int,
+    scale: wp.array[float],
+    farthest: wp.array[float],
+    image: wp.array4d[wp.uint8],
+    depth: wp.array3d[float],
+    labels: wp.array3d[wp.uint16],
+):
+    """Colour, depth and label of one pixel; depth and labels may have no worlds."""
+    world, pixel = wp.tid()
+    height, width = image.shape[1], image.shape[2]
+    tiles = (width + ACROSS - 1) / ACROSS
+    tile, inside = pixel / (ACROSS * DOWN), pixel % (ACROSS * DOWN)
+    column = (tile % tiles) * ACROSS + inside % ACROSS
+    row = (tile / tiles) * DOWN + inside / ACROSS
+    if row >= height or column >= width:
+        return
+    kind = world % drawn.body.shape[0]
+    eye = eyes[world, camera]
+    view = views[world, camera]
+    across = (float(column) + 0.5 - 0.5 * float(width)) * scale[kind]
+    up = (0.5 * float(height) - float(row) - 0.5) * scale[kind]
+    length = wp.sqrt(1.0 + across * across + up * up)
+    ray = view * (wp.vec3(across, up, -1.0) / length)
+
+    reach = float(1.0e10)
+    slot = int(-1)
+    face = int(0)
+    u = float(0.0)
+    v = float(0.0)
+    for number in range(spheres.shape[1]):
+        sphere = spheres[world, number]
+        away = wp.vec3(sphere[0], sphere[1], sphere[2]) - eye
+        along = wp.max(wp.dot(away, ray), 0.0)
+        if wp.dot(away, away) - along * along <= sphere[3]:
+            body = drawn.body[kind, number]
+            back = wp.transpose(rotation[world, body])
+            hit = wp.mesh_query_ray(drawn.mesh[kind, number], back * (eye - position[world, body]), back * ray, reach)
+            if hit.result:
+                reach = hit.t
+                slot = number
+                face = hit.face
+                u = hit.u
+                v = hit.v
+    plane = int(-1)
+    for number in range(drawn.planes.shape[1]):
+        axes = drawn.planes[kind, number]
+        axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
+        slope = wp.dot(ray, axis)
+        if slope < -1.0e-4:
+            distance = wp.dot(drawn.place[kind, number] - eye, axis) / slope
+            if distance > 0.0 and distance < reach:
+                reach = distance
+                plane = number
+
+    colour = drawn.sky
+    label = int(0)
+    if plane >= 0:
+        axes = drawn.planes[kind, plane]
+        point = wp.transpose(axes) * (eye + reach * ray - drawn.place[kind, plane])
+        odd = (int(wp.floor(point[0] / SIDE)) + int(wp.floor(point[1] / SIDE))) & 1
+        axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
+        tiled = DARK_TILE
+        if odd != 0:
+            tiled = LIGHT_TILE
+        light = brightness(drawn, axis, wp.abs(wp.dot(ray, axis)))
+        fade = wp.clamp((reach - NEAR) / (FAR - NEAR), 0.0, 1.0)
+        own = wp.cw_mul(wp.cw_mul(tiled, drawn.tint[kind, plane]), light)
+        colour = own * (1.0 - fade) + drawn.sky * fade
+    elif slot >= 0:
+        one = drawn.first[kind, slot] + face
+        w = 1.0 - u - v
+        body = drawn.body[kind, slot]
+        mixed = u * drawn.normals[3 * one] + v * drawn.normals[3 * one + 1] + w * drawn.normals[3 * one + 2]
+        normal = wp.normalize(rotation[world, body] * mixed)
+        facing = -wp.dot(normal, ray)
+        if facing < 0.0:
+            normal = -normal
+        own = drawn.colour[one]
+        texture = drawn.texture[one]
+        if texture >= 0:
+            uv = u * drawn.uv[3 * one] + v * drawn.uv[3 * one + 1] + w * drawn.uv[3 * one + 2]
+            own = wp.cw_mul(own, texel(drawn, texture, uv))
+        colour = wp.cw_mul(own, brightness(drawn, normal, wp.abs(facing)))
+        label = drawn.label[kind, drawn.geom[kind, slot] + drawn.part[one]]
+    for channel in range(3):
+        image[world, row, column, channel] = byte(colour[channel])
+    if depth.shape[0] > 0:
+        depth[world, row, column] = wp.min(reach / length, farthest[kind])
+    if labels.shape[0] > 0:
+        labels[world, row, column] = wp.uint16(label)

@@ -1,0 +1,105 @@
+"""Pictures of many worlds are those of the single environment's ray tracer, drawn in Warp on the CPU or a GPU."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import mujoco
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium")
+wp = pytest.importorskip("warp")
+
+from pat3d.envs.batch.pictures import TOLERANCE, BatchedPictures  # noqa: E402
+from pat3d.envs.env import TabletopEnv  # noqa: E402
+from pat3d.envs.observations import ObservationSpec, pictured  # noqa: E402
+from tests.envs.own_arm import own_arm  # noqa: E402
+
+DEVICES = ["cpu", pytest.param("cuda", marks=pytest.mark.skipif(not wp.is_cuda_available(), reason="no GPU"))]
+SPEC = ObservationSpec(
+    kind="rgbd", cameras=("agentview", "wrist"), height=60, width=90, segmentation=True, max_objects=5
+)
+"""No side is a multiple of a tile's."""
+
+
+@pytest.fixture(scope="module")
+def envs(tmp_path_factory):
+    """The shipped scene with the arm in another posture, and with everything turned and moved."""
+    path = tmp_path_factory.mktemp("robots") / "arm.xml"
+    path.write_text(own_arm())
+    made = [TabletopEnv(robot=str(path), task=task, start_noise=0.3) for task in ("pick:red mug", "pick:banana")]
+    for number, env in enumerate(made):
+        env.reset(seed=number)
+    data, world = made[1].simulation.data, made[1].simulation.world
+    for first in world.positions.tolist():
+        data.qpos[first : first + 3] += (0.03, -0.02, 0.05)
+        turned = np.array(data.qpos[first + 3 : first + 7]) + (0.1, 0.3, -0.2, 0.1)
+        data.qpos[first + 3 : first + 7] = turned / np.linalg.norm(turned)
+    mujoco.mj_forward(made[1].simulation.model, data)
+    yield made
+    for env in made:
+        env.close()
+
+
+def _stacked(envs, worlds: int, device: str):
+    """States of MuJoCo as MuJoCo Warp holds them, turn by turn."""
+    data = [envs[world % len(envs)].simulation.data for world in range(worlds)]
+
+    def array(name, dtype, shape):
+        return wp.array(
+            np.stack([np.asarray(getattr(one, name), np.float32).reshape(shape) for one in data]), dtype=dtype
+        )
+
+    with wp.ScopedDevice(device):
+        return SimpleNamespace(
+            nworld=worlds,
+            qpos=wp.zeros((worlds, 1)),
+            xpos=array("xpos", wp.vec3, (-1, 3)),
+            xmat=array("xmat", wp.mat33, (-1, 3, 3)),
+            cam_xpos=array("cam_xpos", wp.vec3, (-1, 3)),
+            cam_xmat=array("cam_xmat", wp.mat33, (-1, 3, 3)),
+        )
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_every_world_is_drawn_as_by_itself(envs, device):
+    """Colours to TOLERANCE; depth and labels but for rays that graze an edge, one in a thousand."""
+    worlds = [env.simulation.world for env in envs]
+    model = worlds[0].model
+    many = BatchedPictures(
+        worlds,
+        [np.arange(world.model.nbody) for world in worlds],
+        [model.camera(name).id for name in SPEC.cameras],
+        SPEC,
+        _stacked(envs, 3, device),
+    )
+    seen = many.take()
+    assert set(seen) == set(many.arrays)
+    for number in range(3):
+        alone = pictured(SPEC, envs[number % 2].pictures)
+        assert set(alone) == set(seen)
+        for name, expected in alone.items():
+            found = seen[name][number]
+            assert found.shape == expected.shape
+            assert found.dtype == expected.dtype
+            if name.endswith("_image"):
+                assert np.abs(found.astype(float) - expected).mean() < TOLERANCE
+                assert (found == expected).mean() > 0.99
+            else:
+                assert (np.abs(found.astype(float) - expected) > 1e-3).mean() < 1e-3
+    # The two scenes differ, so a world that is drawn in another's place is seen.
+    assert np.abs(seen["agentview_image"][0].astype(float) - seen["agentview_image"][1]).mean() > 2 * TOLERANCE
+    np.testing.assert_array_equal(seen["agentview_image"][0], seen["agentview_image"][2])
+
+
+def test_an_observation_is_not_changed_by_the_next_one(envs):
+    world = envs[0].simulation.world
+    data = _stacked(envs[:1], 1, "cpu")
+    spec = ObservationSpec(kind="rgb", cameras=("wrist",), height=16, width=16, segmentation=False, max_objects=5)
+    many = BatchedPictures([world], [np.arange(world.model.nbody)], [world.model.camera("wrist").id], spec, data)
+    before = many.take()["wrist_image"]
+    kept = before.copy()
+    data.cam_xpos.assign(data.cam_xpos.numpy() + np.float32(0.2))
+    assert not np.array_equal(many.take()["wrist_image"], kept)
+    np.testing.assert_array_equal(before, kept)
