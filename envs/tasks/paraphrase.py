@@ -65,6 +65,20 @@ _REARRANGE = (
     "put {them} as the picture of the goal has them",
 )
 
+_CARRY = (
+    "lift {it}{source} with both hands and keep it level",
+    "take {it}{source} with both arms and hold it up without tilting it",
+    "with two hands, raise {it}{source}; it has to stay level",
+    "carry {it}{source} together, one hand on each side",
+)
+
+_HANDOVER = (
+    "pick up {it}{source} with the left hand and hand it over to the right hand",
+    "take {it}{source} with your left hand, then hold it with the right one alone",
+    "pass {it}{source} from the left arm to the right arm",
+    "left hand, give {it}{source} to the right hand",
+)
+
 WORDINGS = {
     "pick": _PICK,
     "place": _PLACE,
@@ -73,6 +87,8 @@ WORDINGS = {
     "unload": _UNLOAD,
     "retrieve": _RETRIEVE,
     "rearrange": _REARRANGE,
+    "carry": _CARRY,
+    "handover": _HANDOVER,
 }
 """By kind of task; the first is the instruction itself."""
 

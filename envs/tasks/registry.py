@@ -11,11 +11,12 @@ from pat3d.envs.tasks.chain import AND_THEN, Chain
 from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Pick, Place, Stack
 from pat3d.envs.tasks.task import Task, split
+from pat3d.envs.tasks.together import Carry, HandOver
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
 TASKS: dict[str, type[Task]] = {
-    kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange)
+    kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Carry, HandOver)
 }
 """Every kind of task by the first word of its specification."""
 
@@ -48,10 +49,10 @@ def _step(spec: str) -> Task:
 
 
 def possible_tasks(scene: Scene) -> Iterator[Task]:
-    """Every task that the scene's tree and sizes allow but chains and rearrangements; reach is the placement's."""
+    """Every task that the scene's tree and sizes allow one arm, but for chains and rearrangements."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
-        if kind in (Chain, Rearrange):
+        if kind in (Chain, Rearrange, Carry, HandOver):
             continue
         count = len(fields(kind))
         combinations = (

@@ -56,8 +56,8 @@ def test_a_request_survives_its_json_and_damage_is_told():
             Request.from_dict(damage, "here")
 
 
-def test_every_task_of_suites_has_a_judge():
-    assert set(TASKS) == set(JUDGED)
+def test_every_task_of_suites_has_a_judge_and_all_that_one_arm_does_are_in_suites():
+    assert set(TASKS) == set(JUDGED) - {"carry", "handover"}
 
 
 def test_eighty_percent_train_and_a_twentieth_for_every_way_of_holding_out():
