@@ -154,7 +154,7 @@ def _edges(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
     every, owner = every[order], owner[order]
     pairs = np.flatnonzero((every[1:] == every[:-1]).all(axis=1))
     cosine = np.einsum("ei,ei->e", normals[owner[pairs]], normals[owner[pairs + 1]])
-    return every[pairs[cosine < 1.0 - _FLAT]]
+    return np.asarray(every[pairs[cosine < 1.0 - _FLAT]], dtype=np.int64)
 
 
 def _fitted(points: NDArray[np.float64], reach: float) -> NDArray[np.float64] | None:
