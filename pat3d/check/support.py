@@ -210,7 +210,9 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
         return None
     at = corners.mean(axis=0)
     asset, pose = scene.objects[body].asset, scene.objects[body].pose
-    upper = curvature(pose.apply(asset.visual.vertices), patch.plane, at, sign, float(asset.size.max()))
+    upper = curvature(
+        pose.apply(asset.visual.vertices), asset.visual.faces, patch.plane, at, sign, float(asset.size.max())
+    )
     if upper is None:
         return None
     # A foot is flat for further than so round a thing would be near to the plane.
@@ -221,7 +223,7 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
     if other != GROUND_INDEX and not patch.flat(1 - own, at, FLAT_AROUND * float(asset.size.max())):
         under = scene.objects[other]
         vertices = under.pose.apply(under.asset.visual.vertices)
-        bent = curvature(vertices, patch.plane, at, -sign, float(under.asset.size.max()))
+        bent = curvature(vertices, under.asset.visual.faces, patch.plane, at, -sign, float(under.asset.size.max()))
         if bent is None:
             return None
         lower = bent

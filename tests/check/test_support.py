@@ -82,6 +82,18 @@ def test_a_cube_over_a_filled_recess_floats(depth, held):
         assert certificate.support.unsupported["cube"][0].air == pytest.approx(depth, rel=0.05)
 
 
+@pytest.mark.parametrize(("step", "held"), [(0.0002, True), (0.0006, False)])
+def test_what_lies_on_the_high_side_of_a_lid_is_not_carried_by_its_low_side(step, held):
+    """4 mm of the cube are on a ledge; under its weight the lid is lower, and it tips by degrees to reach that."""
+    whole = box(0.1, 0.1, 0.05)
+    low = box(0.1, 0.2, 0.01).moved(x=0.03, z=0.05 - step).solid
+    lid = asset_of(Shape(whole.solid - low, whole.hulls), noun="lid")
+    cube = asset_of(box(0.02, 0.02, 0.02))
+    scene = scene_of(placed("lid", lid, fixed=True), placed("cube", cube, (-0.014, 0, 0.05 + GAP)))
+    assert certify(scene).passed
+    assert certify(scene, margin=True).passed is held
+
+
 def test_a_cube_as_wide_as_the_rim_stands_on_it():
     """The recess is 3 mm deep and the rim 1 cm wide; a larger cube rests on the rim all around."""
     cube = asset_of(box(0.07, 0.07, 0.07))

@@ -3,29 +3,42 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.places import for_each, parts, shared_out, unplaced, without
+from pat3d.plan.audit.licence import unsaid
+from pat3d.plan.audit.places import for_each, grounded, middles, others, parts, shared_out, unplaced, without
 from pat3d.plan.audit.text import Find, Mention, read, singulars
 from pat3d.plan.audit.words import (
     ARTICLES,
+    BREAKING,
     DEEDS,
+    EACH,
     ENDS,
     HEADLESS,
+    NUMBERS,
     ON_DISHES,
     ORDINALS,
     PACKETS,
     POURED,
     REPEATS,
+    SHADES,
     SILENT,
 )
-from pat3d.plan.scene_plan import ScenePlan
+from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
+
+_REACH = 5
+"""Words from "a stack" to what it is of."""
+
+
+def _leads(words: Sequence[str]) -> bool:
+    """Whether what stands before a name and `words` is said of the name: "two slices of" bread."""
+    return all(word == "of" or (word[0].isalnum() and word not in BREAKING) for word in words)
 
 
 def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> ScenePlan:
@@ -55,16 +68,33 @@ class _Auditor(Compared):
                 own = [obj for obj in self.of(mention) if self.has(obj, colour)]
                 if self.of(mention) and not own and not self.named(colour):
                     made.append((mention.start, f'not as said: "{colour}" of "{mention.text}"'))
-        for word in self.said.stray:
-            if not any(self.has(obj, word) for obj in self.plan.objects) and not self.named(word):
-                made.append((self.said.words.index(word), f'not in the scene: "{word}"'))
+        for at, word in self.said.stray:
+            least, of = self._predicated(at)
+            if sum(self.has(obj, word) for obj in of) < least and not self.named(word):
+                made.append((at, f'not in the scene: "{word}"' if least == 1 else f'not as said: "{word}" of all'))
         made += self._unheard()
         made += [(0, note) for note in (*self._made_as(), *unplaced(self), *shared_out(self))]
-        made += [*for_each(self), *parts(self), *without(self)]
+        made += [*for_each(self), *grounded(self), *middles(self), *others(self), *parts(self), *without(self)]
         for claim in self.said.claims:
             if (note := broken(self, claim)) is not None:
                 made.append((claim.at, note))
-        return [note for _, note in sorted(made)]
+        found = [note for _, note in sorted(made)]
+        return [*found, *unsaid(self, found)]
+
+    def _predicated(self, at: int) -> tuple[int, Collection[PlannedObject]]:
+        """Of how many objects the colour at word `at` is said at least, and which may be meant."""
+        words = self.said.words[:at]
+        while words and (words[-1] in ARTICLES or words[-1] in SHADES):
+            words.pop()
+        said = self.said.words[len(words) : at]
+        several = words[-1:] in (["are"], ["were"]) and ("both" in said or "all" in said)
+        landmarks = [claim.of for claim in self.said.claims]
+        subject = [mention for mention in self.said.mentions
+                   if mention.end == len(words) - 1 and mention not in landmarks]  # fmt: skip
+        if several or not subject or words[-1:] not in (["is"], ["was"], ["are"], ["were"]):
+            return 2 if several else 1, self.plan.objects
+        own = self.which(subject[0])
+        return (len(own) if words[-1] in ("are", "were") and "and" not in words else 1), own or self.plan.objects
 
     # Objects
 
@@ -85,16 +115,26 @@ class _Auditor(Compared):
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
             endless = any(mention.plural and mention.number is None for mention in known)
-            endless = endless or self._repeated() or self._headless()
+            endless = endless or self._repeated(mentions) or self._headless()
             most = max(least, sum(mention.number or 1 for mention in known))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
 
-    def _repeated(self) -> bool:
-        """Whether a word stands there by which there are more of a thing than its name's number says."""
-        pairs = zip(self.said.words, [*self.said.words[1:], ""], strict=True)
-        return any(word in REPEATS | ORDINALS and after not in ENDS for word, after in pairs)
+    def _repeated(self, mentions: Sequence[Mention]) -> bool:
+        """Whether a word stands there by which there are more of what `mentions` name than their numbers say."""
+        words = self.said.words
+        leading = {at for mention in self.said.mentions for at in range(mention.first, mention.start)}
+        for at, word in enumerate(words):
+            after = words[at + 1] if at + 1 < len(words) else "."
+            if word not in REPEATS | ORDINALS | NUMBERS.keys() or (after in ENDS and word not in EACH):
+                continue
+            near = any(at < mention.start <= at + _REACH and _leads(words[at + 1 : mention.first]) for mention in mentions)
+            # "three of each" is said of what is named before it, "each has a lid" of what is behind it.
+            each = word in EACH and not (words[at - 1] == "of" and not after[0].isalnum())
+            if each or (at not in leading and (near or any(mention.start <= at for mention in mentions))):
+                return True
+        return False
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""
@@ -126,7 +166,7 @@ class _Auditor(Compared):
         asked = self.tasks.strip() or self.undone or "is read as the scene" in self.quoted
         made: list[tuple[int, str]] = []
         for at, word in enumerate(words):
-            if at in named or word in phrases or word in SILENT or not word[0].isalpha():
+            if at in named or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3]} or word in SILENT or not word[0].isalpha():
                 continue
             if find_colour(word) or find_material(word) in materials:
                 continue

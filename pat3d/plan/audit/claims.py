@@ -4,32 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import BACKWARD, OPENING, REACHING, Place
+from pat3d.plan.audit.words import BACKWARD, OPENING, REACHING
 
-_KINDS: dict[Place, frozenset[str]] = {
-    "on": frozenset({"on", "in", "hangs_from", "across", "at_edge", "in_corner", "in_middle", "leaning_against"}),
-    "on top": frozenset({"on", "across", "in_middle"}),
-    "in": frozenset({"in", "on", "in_corner", "in_middle"}),
-    "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
-                         "side_by_side"}),
-    "against": frozenset({"leaning_against"}),
-    "left": frozenset({"left_of"}),
-    "right": frozenset({"right_of"}),
-    "front": frozenset({"in_front_of"}),
-    "behind": frozenset({"behind"}),
-    "under": frozenset({"under"}),
-    "above": frozenset({"on", "above"}),
-    "between": frozenset({"between", "right_of", "left_of", "in_front_of", "behind"}),
-    "around": frozenset({"around", "circle"}),
-    "far": frozenset({"far_from"}),
-    "hanging": frozenset({"hangs_from"}),
-    "from": frozenset({"on", "in", "hangs_from", "far_from"}),
-    "across": frozenset({"across", "on"}),
-    "its left": frozenset({"left_of"}),
-    "its right": frozenset({"right_of"}),
-}  # fmt: skip
 _DOORS = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave", "oven", "toaster oven", "wardrobe",
                     "dishwasher", "washing machine", "dryer"})  # fmt: skip
 """What things are in when they are in it: to be on it is something else."""
@@ -38,18 +16,26 @@ _DOORS = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave",
 def broken(it: Compared, claim: Claim) -> str | None:
     """What the plan does not have of `claim`, as a note; None where it has it, or a note says so already."""
     of = [obj.name for obj in it.which(claim.of)] if claim.of is not None else []
-    if claim.of is not None and (not of or it.named(claim.of.text)):
+    if claim.of is not None and not of:
         return None
     asked = claim.of is None and (it.tasks.strip() or it.undone)
-    if it.named(claim.said) or claim.said in it.undone or asked or any(name in it.tasks for name in of):
+    if it.excused(claim) or claim.said in it.undone or asked or any(name in it.tasks for name in of):
         return None
     turned = any(each.kind == "upside_down" for each in it.plan.postures)
     if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
-    whose = {obj.name for obj in it.which(claim.whose)} if claim.whose is not None else set()
-    if claim.whose is not None and whose and not _holds(it, claim, whose, of):
-        return f'"{claim.said}" is not read as said of "{claim.whose.text}"'
+    whose = whose_of(it, claim)
+    if whose and not all(_holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])):
+        of_what = '" or "'.join(dict.fromkeys(mention.text for mention in claim.whose))
+        return f'"{claim.said}" is not read as said of {"all " * claim.whole}"{of_what}"'
     return None
+
+
+def whose_of(it: Compared, claim: Claim) -> set[str]:
+    """The objects that `claim` can only be said of: of several names, those of which there are several objects."""
+    named = [[obj.name for obj in it.which(mention)] for mention in claim.whose]
+    several = [names for names in named if len(names) > 1] or named
+    return set(several[-1] if claim.whole and several else (name for names in several for name in names))
 
 
 def _here(it: Compared, claim: Claim) -> set[str]:
@@ -85,13 +71,18 @@ def _opens(it: Compared, claim: Claim) -> bool:
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
     """Whether what "it" or "its left" in `claim` may mean is named before it, and the plan has the relation to that."""
     before = _before(it, claim.at)
-    child = before[-1:] if claim.place in ("its left", "its right") and before and before[-1].end == claim.at else []
+    child = before[-1:] if before and before[-1].end == claim.at else []
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     landmarks = {obj.name for obj in it.plan.objects if obj.name not in named} | {
         obj.name for mention in before[: len(before) - len(child)] for obj in it.of(mention)
     }
-    children = {obj.name for mention in child for obj in it.which(mention)} or here
-    kinds = _KINDS[claim.place]
+    children = {obj.name for mention in child for obj in it.which(mention)}
+    # What carries it, or is on it, stands there for it.
+    children |= {name for child in children for name in it.above(child)} | {
+        obj.name for obj in it.plan.objects if children & set(it.above(obj.name))
+    }
+    children = children or here
+    kinds = KINDS[claim.place]
     tables = {obj.name for obj in it.plan.objects if obj.noun in it.furniture}
     said = {obj.name: obj.phrase for obj in it.plan.objects}
     return any(
@@ -107,14 +98,19 @@ def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
 
 def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> bool:
     if claim.place == "with":
-        owned = any(mention.end == claim.at for mention in it.said.mentions)
-        return not owned or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
+        owner = next((mention for mention in it.said.mentions if mention.end == claim.at), None)
+        if owner is not None and not claim.whose and claim.said.startswith("with "):
+            # "a desk with a lamp", and "a mug on a desk with a spoon in it"
+            own = {obj.name for obj in it.which(owner)}
+            led = any(each.of is owner for each in it.said.claims)
+            here = own | {a for a, _, b in it.edges if b in own and led} | (set() if own else here)
+        return not (owner or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
     if claim.place == "holding":
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
         owners = (here & before) | (here - named)
         return claim.of is None or any(a in of and b in owners and kind in ("on", "in") for a, kind, b in it.edges)
-    kinds = set(_KINDS[claim.place])
+    kinds = set(KINDS[claim.place])
     if claim.place == "between" and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
         # "between two dolls": between no other things.
         return any(one.kind == "between" and set(one.of) <= set(of) for one in it.plan.arrangements)
@@ -136,7 +132,7 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
     if len(of) > 1 and _opens(it, claim):
         # "Next to a tall vase is a short one"
         here = here | set(of)
-    if not _opens(it, claim) and claim.whose is None:
+    if not _opens(it, claim) and not claim.whose:
         # "a mug on a tray": what is on the tray is named before it.
         earlier = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}

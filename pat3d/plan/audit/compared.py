@@ -6,7 +6,8 @@ import re
 from collections.abc import Collection
 
 from pat3d.assets.colours import find_colour
-from pat3d.plan.audit.text import Mention, Said, singulars
+from pat3d.plan.audit.text import Claim, Mention, Said, singulars
+from pat3d.plan.audit.words import Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -16,6 +17,32 @@ _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several t
 """Notes that say how a thing is made, not that it is missing."""
 _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
 """Notes on a word of a phrase, which say nothing of the rest of it."""
+
+
+_ABSENT = re.compile(r"not (in the scene|understood|modelled|arranged): |.* is left out|.*(which|how many) is not said")
+_QUOTED = re.compile(r'"([^"]*)"')
+KINDS: dict[Place, frozenset[str]] = {
+    "on": frozenset({"on", "in", "hangs_from", "across", "at_edge", "in_corner", "in_middle", "leaning_against"}),
+    "on top": frozenset({"on", "across", "in_middle"}),
+    "in": frozenset({"in", "on", "in_corner", "in_middle"}),
+    "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
+                         "side_by_side"}),
+    "against": frozenset({"leaning_against"}),
+    "left": frozenset({"left_of"}),
+    "right": frozenset({"right_of"}),
+    "front": frozenset({"in_front_of"}),
+    "behind": frozenset({"behind"}),
+    "under": frozenset({"under"}),
+    "above": frozenset({"on", "above"}),
+    "between": frozenset({"between", "right_of", "left_of", "in_front_of", "behind"}),
+    "around": frozenset({"around", "circle"}),
+    "far": frozenset({"far_from"}),
+    "hanging": frozenset({"hangs_from"}),
+    "from": frozenset({"on", "in", "hangs_from", "far_from"}),
+    "across": frozenset({"across", "on"}),
+    "its left": frozenset({"left_of"}),
+    "its right": frozenset({"right_of"}),
+}  # fmt: skip
 
 
 def _covered(note: str) -> str:
@@ -34,6 +61,9 @@ class Compared:
         self.said = said
         told = [note for note in plan.notes if not _ASSUMED.search(note) and "no task does" not in note]
         self.told = " ".join((*map(_covered, told), *plan.set_aside)).lower()
+        self.notes = [_covered(note).lower() for note in told]
+        self.absent = [quoted for note in told if _ABSENT.match(note) for quoted in _QUOTED.findall(_covered(note).lower())]
+        self.absent += [aside.lower() for aside in plan.set_aside]
         self.quoted = " ".join((*plan.notes, *plan.set_aside)).lower()
         self.undone = " ".join(note for note in plan.notes if "no task does" in note).lower()
         self.tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
@@ -71,6 +101,21 @@ class Compared:
     def named(self, text: str) -> bool:
         """Whether a note names `text` already."""
         return re.search(rf"\b{re.escape(text)}", self.told) is not None
+
+    def missing(self, mention: Mention) -> bool:
+        """Whether a note says that what `mention` names, or the phrase with it, is not in the scene or not understood."""
+        return any(re.search(rf"\b{re.escape(mention.text)}", quoted) for quoted in self.absent)
+
+    def excused(self, claim: Claim) -> bool:
+        """Whether a note speaks of `claim`: in its own words, or of what it is said of and in which relation."""
+        if claim.of is None or self.named(claim.said) or self.missing(claim.of):
+            return self.named(claim.said) or claim.of is not None
+        words = self.said.words[claim.at : claim.end]
+        told = {*words, *(word for kind in KINDS.get(claim.place, ()) for word in kind.split("_"))}
+        return any(
+            re.search(rf"\b{re.escape(claim.of.text)}", note) and told & set(re.findall(r"[a-z']+", _QUOTED.sub(" ", note)))
+            for note in self.notes
+        )
 
     def has(self, obj: PlannedObject, colour: str) -> bool:
         """Whether `obj` has `colour`, in its name or of its material."""

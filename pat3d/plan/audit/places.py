@@ -11,10 +11,14 @@ from collections.abc import Iterator, Sequence
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Mention
-from pat3d.plan.audit.words import CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, OPENING, PARTS, PRONOUNS, SPLITTING
-from pat3d.plan.scene_plan import PlannedObject
+from pat3d.plan.audit.words import ARTICLES, CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, OPENING, PARTS, PRONOUNS, SPLITTING
+from pat3d.plan.scene_plan import Arrangement, PlannedObject
 from pat3d.scene.relations import carriers_of
 
+_LYING = frozenset({"rug", "mat", "carpet", "doormat", "bath mat", "blanket"})
+"""On the floor is what is on these too."""
+_LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
+"""How many there are at least of what a word without a noun is one of."""
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -83,6 +87,62 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'not modelled: "{word}" of "{whole.text}"'
 
 
+def others(it: Compared) -> Iterator[tuple[int, str]]:
+    """ "The other", "another", "the second" where there is one of what is named before only."""
+    words = it.said.words
+    leading = {at for mention in it.said.mentions for at in range(mention.first, mention.end)}
+    for at, word in enumerate(words):
+        least = _LEAST.get(word, 0)
+        follower = words[at + 1] if at + 1 < len(words) else "."
+        if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
+            continue
+        before = [mention for mention in it.said.mentions if mention.end <= at]
+        ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
+        named = ones[-1:] if word in ("other", "others") and ones else before
+        kinds = [{obj.noun for obj in it.which(mention)} for mention in named]
+        likes = [[obj for obj in it.plan.objects if obj.noun in nouns] for nouns in kinds]
+        if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
+            yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
+
+
+def middles(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is said to be in the middle and is neither there, nor between others, nor in the middle of a row."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word in ("middle", "centre", "center")):
+        start = next((mention for mention in it.said.mentions if mention.end == at - 2), None)
+        if words[at - 2 : at] != ["in", "the"] or words[at + 1 : at + 2] == ["of"] or start is None:
+            continue
+        own = {obj.name for obj in it.which(start)}
+        rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]
+        held = {name for one in rows or it.plan.arrangements for name in _middle(one)}
+        owners = {name for one in it.plan.arrangements if own & set(one.objects) for name in one.of}
+        told = [mention.start for obj in it.plan.objects if obj.name in owners
+                for mention in it.said.mentions if mention.noun == obj.noun]  # fmt: skip
+        late = bool(told) and min(told) > at
+        if own and (late or not held & own) and words[at] not in it.quoted:
+            yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
+
+
+def grounded(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is said to be on the floor and is carried by something."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word in ("floor", "ground") and words[at - 2 : at] == ["on", "the"]):
+        start = at - 2
+        while start > 0 and words[start - 1] in LEADING:
+            start -= 1
+        said = next((mention for mention in it.said.mentions if mention.end == start), None)
+        nouns = {obj.name: obj.noun for obj in it.plan.objects}
+        own = [obj for obj in it.which(said)] if said is not None else []
+        if own and all(set(nouns[name] for name in it.above(obj.name)) - _LYING for obj in own):
+            yield at, f'not as said: "on the {words[at]}" of "{said.text}"'
+
+
+def _middle(one: Arrangement) -> Sequence[str]:
+    if one.kind == "row":
+        return one.objects[(len(one.objects) - 1) // 2 : len(one.objects) // 2 + 1]
+    return one.objects if one.kind in ("between", "in_middle") else ()
+
+
 def _connected(it: Compared) -> list[set[str]]:
     """The objects that relations join, in the order of the plan."""
     parts: list[set[str]] = []
@@ -121,7 +181,7 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
             told = before[-1:] if before and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
             yield from _fewer(it, at, told, wanted, f"{word} {place}")
             continue
-        if word == "either" or place == "other":
+        if word == "either" or place == "other" or (it.said.words[at - 1] == "of" and not place[:1].isalnum()):
             continue
         own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
         if own:
@@ -144,8 +204,14 @@ def _led(it: Compared, own: Mention, at: int, before: Sequence[Mention], behind:
             (n for n in range(at, len(it.said.words)) if it.said.words[n] in (",", ";", ".")), len(it.said.words)
         )
         return [mention for mention in behind if mention.new and mention.end <= stop]
-    near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING]
-    return near[-1:] if claim.at < at else []
+    near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING][-1:]
+    for mention in reversed(before[:-1]):
+        # "a fork to the left and a knife to the right of each"
+        between = set(it.said.words[mention.end : near[0].start]) if near else set()
+        if not {"left", "right"} & between or between - {"to", "on", "the", "left", "right", "and"} - ARTICLES:
+            break
+        near.insert(0, mention)
+    return near if claim.at < at else []
 
 
 def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:

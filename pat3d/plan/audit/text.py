@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
@@ -21,7 +22,9 @@ from pat3d.plan.audit.words import (
     LEADING,
     LONGEST,
     NUMBERS,
+    OPENING,
     PARTICIPLES,
+    PLACING,
     PRONOUNS,
     RELATIONS,
     SHADES,
@@ -35,6 +38,9 @@ from pat3d.plan.audit.words import (
 _WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
+_HEADS = PRONOUNS | {"another", "other"}
+_FAR = 7
+"""Words from a relation word to its landmark."""
 
 Find = Callable[[str], str | None]
 """The noun of the catalogue that a name means, or None."""
@@ -50,6 +56,8 @@ class Mention:
     text: str
     noun: str
     plural: bool
+    first: int = 0
+    """The word with which its phrase begins: its article, its number or what describes it."""
     number: int | None = None
     """As said: "two", "a"; None where it is not."""
     new: bool = False
@@ -76,8 +84,10 @@ class Claim:
     of: Mention | None
     """None for a pronoun."""
     part: int
-    whose: Mention | None = None
-    """What it is said of, where a relative pronoun leaves no choice."""
+    whose: tuple[Mention, ...] = ()
+    """What it is said of, where what stands right before it leaves no other choice: "which", "one of them"."""
+    whole: bool = False
+    """Whether it is said of all of `whose`: "both", "each"."""
 
 
 @dataclass(kw_only=True)
@@ -89,13 +99,16 @@ class Said:
     compounds: list[Mention] = field(default_factory=list)
     """Names that only say more of the name behind them: the coffee of a coffee table."""
     claims: list[Claim] = field(default_factory=list)
-    stray: list[str] = field(default_factory=list)
-    """Colours that no name stands behind."""
+    stray: list[tuple[int, str]] = field(default_factory=list)
+    """Colours that no name stands behind, and which words they are."""
 
 
 def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
     prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
+    prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
+    prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)
     found = _names(said.words, find)
@@ -106,7 +119,7 @@ def read(prompt: str, find: Find) -> Said:
         (said.mentions if head else said.compounds).append(mention)
     told = {at for mention in (*said.mentions, *said.compounds) for at in range(mention.start, mention.end)}
     coloured = {at for mention in said.mentions for at in _before(said.words, mention.start, told)}
-    said.stray = [word for at, word in enumerate(said.words)
+    said.stray = [(at, word) for at, word in enumerate(said.words)
                   if find_colour(word) and at not in told and at not in coloured]  # fmt: skip
     said.claims = _claims(said, parts)
     return said
@@ -160,7 +173,7 @@ def _mention(
     if _elliptic(words, ahead) or SOME & lead:
         number, plural = None, True
     return Mention(
-        start=start, end=end, text=" ".join(words[start:end]), noun=noun, plural=plural, number=number,
+        start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun, plural=plural, number=number,
         new=number is not None and not {"the", "these", "those", "both", "all", "other"} & lead,
         lead=frozenset(lead - ARTICLES), owned=bool({"its", "their"} & lead), colours=colours, part=part,
     )  # fmt: skip
@@ -200,12 +213,29 @@ def _breaks(words: Sequence[str], at: int) -> bool:
     return word in BREAKING or not word[0].isalnum()
 
 
+def _size(words: Sequence[str], at: int) -> int:
+    """How many words the relation phrase at word `at` has: "on the left", but one in "on the left arm of the sofa"."""
+    for size in range(LONGEST, 0, -1):
+        place = RELATIONS.get(tuple(words[at : at + size]))
+        after = words[at + size] if at + size < len(words) else ""
+        leads_on = after[:1].isalnum() and (after == "of" or after not in BREAKING | ARTICLES | OPENING)
+        if place is not None and not (place == "side" and leads_on):
+            return size
+    return 0
+
+
+def _ends(words: Sequence[str], at: int, start: int) -> bool:
+    """Whether no landmark stands behind word `at`: "of" leads on to the whole, "on the rim of a cup"."""
+    leads = at > start and (words[at - 1] in ("a", "an", "the") or (words[at] == "of" and words[at - 1] not in _HEADS))
+    return _breaks(words, at) and not (leads and words[at][0].isalnum())
+
+
 def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
     made: list[Claim] = []
     words, at = said.words, 0
     starts = {mention.start: mention for mention in (*said.compounds, *said.mentions)}
     while at < len(words):
-        size = next((n for n in range(LONGEST, 0, -1) if tuple(words[at : at + n]) in RELATIONS), 0)
+        size = _size(words, at)
         if not size:
             at += 1
             continue
@@ -214,7 +244,7 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             at += size
             continue
         end, of = at + size, None
-        while end < len(words) and end not in starts and not _breaks(words, end) and end - at - size < 6:
+        while end < len(words) and end not in starts and end - at - size < _FAR and not _ends(words, end, at + size):
             end += 1
         if end in starts:
             of = starts[end]
@@ -229,19 +259,31 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
                 end += 2
         if of is not None or end > at + size or place in ("its left", "its right"):
             text = " ".join(words[at:end])
-            made.append(Claim(place=place, said=text, at=at, end=end, of=of, part=parts[at], whose=_whose(said, at)))
+            whose, whole = _whose(said, at)
+            made.append(Claim(place=place, said=text, at=at, end=end, of=of, part=parts[at], whose=whose, whole=whole))
         at += size
     return made
 
 
-def _whose(said: Said, at: int) -> Mention | None:
-    """The name before a relative pronoun that leads to the relation word at `at`."""
+def _whose(said: Said, at: int) -> tuple[tuple[Mention, ...], bool]:
+    """The names that the relation word at `at` can only be said of, and whether of all of them."""
     words, back = said.words, at - 1
-    if words[at] in PARTICIPLES:
-        return next((mention for mention in said.mentions if mention.end == at), None)
+    owner = tuple(mention for mention in said.mentions if mention.end == at)
+    if words[at] in PARTICIPLES and owner:
+        return owner, False
     while back > 0 and words[back] in LEADING:
         back -= 1
+    before = tuple(mention for mention in said.mentions if mention.end <= back)
+    if words[back] in ("them", "which") and back > 1 and words[back - 1] == "of":
+        # "Three mugs on a tray, two of which hold spoons"
+        return before, words[back - 2] in ("both", "all", "each")
+    if words[back] in ("former", "latter"):
+        pairs = [pair for pair in pairwise(before) if words[pair[0].end : pair[1].first] == ["and"]]
+        return (pairs[-1][words[back] == "latter"],) if pairs else (), False
+    if words[back] in ("both", "each") and words[back - 1] not in PLACING:
+        return before, True
     if back < 1 or words[back] not in ("which", "that"):
-        return None
+        return (), False
     back -= words[back - 1] == ","
-    return next((mention for mention in said.mentions if mention.end == back), None)
+    return tuple(mention for mention in said.mentions if mention.end == back), False
+

@@ -118,7 +118,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
     table: dict[Place, tuple[str, ...]] = {
         "on": ("on", "onto", "upon"),
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
-        "in": ("in", "inside", "within", "into", "inside of"),
+        "in": ("in", "inside", "within", "into", "inside of", "share", "shares", "fill", "fills"),
         "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by",
                    "close to", "alongside", "adjacent to", "along"),
         "against": ("against",),
@@ -135,7 +135,8 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "far": ("far from", "far away from", "away from"),
         "hanging": ("hanging from", "hangs from", "hang from", "hanging on", "hangs on", "suspended from", "hung from"),
         "holding": ("holding", "holds", "hold", "contains", "containing", "contain", "carries", "carry", "carrying",
-                    "supports", "supporting", "filled with", "full of", "topped with", "topped by"),
+                    "supports", "supporting", "wearing", "wears", "bearing", "bears", "filled with", "full of", "topped with", "topped by",
+                    "occupied by"),
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
@@ -149,7 +150,9 @@ def _relations() -> dict[tuple[str, ...], Place]:
 
 RELATIONS = _relations()
 LONGEST = max(map(len, RELATIONS))
-_WITHIN = frozenset({"left", "right", "front", "top", "full", "side", "row", "middle", "other"}) | ARTICLES
+PLACING = frozenset(phrase[-1] for phrase in RELATIONS)
+"""Words behind which a landmark stands."""
+_WITHIN = frozenset({"left", "right", "front", "top", "full", "side", "row", "middle", "other", "back"}) | ARTICLES
 """Words of relation phrases that stand in noun phrases too."""
 BREAKING = (
     LEADING | PRONOUNS | frozenset(word for phrase in RELATIONS for word in phrase) | {

@@ -77,8 +77,9 @@ class Boundaries:
             return True
         if not words:
             # "one contains three pens", where nothing is called a contains.
-            headless = self._tokens[at - 1].text in lexicon.NUMBERS if at else False
-            return headless and (word,) in LINKS and self._begins(at + 1)
+            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other", "another")
+            placed = word in lexicon.VERBS | lexicon.PARTICIPLES and link_at(self._tokens, at + 1) > 0
+            return headless and (placed or ((word,) in LINKS and self._begins(at + 1)))
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
         if word in lexicon.VERBS and link_at(self._tokens, at + 1):
@@ -114,7 +115,7 @@ class Boundaries:
         """Whether a posture or "holding" at token `at` ends a run without a known noun ("a knight standing")."""
         word = self._tokens[at].text
         verb = word in lexicon.PARTICIPLES or (word,) in LINKS
-        if verb and self._begins(at + 1):
+        if verb and (self._begins(at + 1) or words[-1] in ("former", "latter")):
             return True
         if not verb or not word.endswith(("ing", "ed")) or is_modifier(words[-1]) or looks_like_adjective(words[-1]):
             return False

@@ -278,6 +278,7 @@ DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob",
 ALIASES = {
     "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
     "desktop computer": "monitor", "pc": "laptop", "computer screen": "monitor",
+    "brush": "paintbrush",
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
 VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
@@ -340,6 +341,11 @@ SENSES: dict[str, tuple[tuple[str, str], ...]] = {
         ("pot", "kitchen stove pan lid soup ladle burner"),
         ("flower pot", "plant flower soil garden trowel cactus seed watering"),
     ),
+    "brush": (
+        ("paintbrush", "paint jar can easel palette canvas"),
+        ("hairbrush", "comb mirror hair dresser vanity"),
+        ("toothbrush", "toothpaste sink"),
+    ),
     "nut": (
         ("nut", "bolt screw wrench"),
         ("walnut", "bowl walnut fruit cracker"),
@@ -362,6 +368,8 @@ SUPERLATIVES = {
     "smallest": ("small", 0.75), "largest": ("large", 1.3), "biggest": ("big", 1.3), "tallest": ("tall", 1.0),
     "shortest": ("short", 1.0), "littlest": ("little", 0.75), "smaller": ("smaller", 0.75),
     "larger": ("larger", 1.3), "bigger": ("bigger", 1.3), "taller": ("tall", 1.0), "shorter": ("short", 1.0),
+    "thickest": ("thick", 1.0), "thinnest": ("thin", 1.0), "longest": ("long", 1.0), "widest": ("wide", 1.0),
+    "thicker": ("thick", 1.0), "thinner": ("thin", 1.0), "longer": ("long", 1.0), "wider": ("wide", 1.0),
 }  # fmt: skip
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,

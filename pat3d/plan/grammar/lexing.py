@@ -39,6 +39,9 @@ class Token:
 def normalise(prompt: str) -> str:
     """`prompt` with one kind of quote, one kind of blank, decimal fractions and compatibility characters resolved."""
     prompt = re.sub(r"(\d{0,6})([\u00bc-\u00be\u2150-\u215e])", _decimal, prompt)
+    # "Arts & Crafts" is one name; a title has no word that begins small.
+    prompt = re.sub(r"(?<=[a-z] )([A-Z][a-z]+) & ([A-Z][a-z]+)\b", r"\1-and-\2", prompt)
+    prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
     text = re.sub(r"(?<=\s)[&+](?=\s)", "and", unicodedata.normalize("NFKC", prompt))
     text = re.sub(r"(?<![\d/.])(\d{1,3})/([1-9]\d?)(?=[ -]?(?:mm|cm|m|in|inch|inches|feet|foot|ft)\b)", _quotient, text)
     text = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", text)

@@ -193,7 +193,10 @@ class References(Contrast):
             groups = [group for group in groups if group not in besides or group in pairs]
         rest = phrase.head in _REST or (phrase.other and phrase.definite)
         if phrase.head in _ENUMERATED:
-            told = (self._earlier or [group for group in world.groups if group.items])[-2:]
+            told = self._earlier or [group for group in world.groups if group.items]
+            # "A mug and a jar are on a shelf": of the two, not of what they are on.
+            below = {below.group for group in told for item in group.items for below in world.ancestors(item)}
+            told = ([group for group in told if group not in below] or told)[-2:]
             return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
         if phrase.head in ("both", "all"):
             self.all.add(at)

@@ -1,0 +1,130 @@
+"""Edges of a plan against the words of its sentence: what is carried without a word that says so."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from pat3d.plan.audit.claims import whose_of
+from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.text import Claim, Mention
+from pat3d.plan.audit.words import REACHING
+from pat3d.scene.relations import Relation
+
+_ASIDE = frozenset({"left", "right", "side", "sides", "row", "line", "end", "ends", "flank", "flanks", "flanked", "hand",
+                    "at", "leans", "leaning", "lean"})  # fmt: skip
+"""Words that put things beside one another and lead to no landmark."""
+_ADDING = frozenset({"too", "also", "likewise", "but"})
+_HEADLESS_INSIDE = re.compile(
+    r"\b(in|inside|into|within|contains?|containing|holds?|holding) ((?!and\b)[a-z]+ ){0,3}"
+    r"(one|another|others?|larger|smaller|largest|smallest|bigger)\b"
+)
+_NEAR = 6
+"""Words between names that are joined."""
+
+
+def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
+    """Relations of the plan that no word of the sentence gives, but at what the notes `found` name."""
+    noted = " ".join(found).lower()
+    if it.tasks.strip() or it.undone:
+        return
+    objects = {obj.name: obj for obj in it.plan.objects}
+    pairs: dict[tuple[str, str], list[Relation]] = {}
+    for rel in it.plan.relations:
+        alike = rel.parent in objects and objects[rel.child].noun == objects[rel.parent].noun
+        nested = _HEADLESS_INSIDE.search(" ".join(it.said.words)) or any(_nests(it, c, rel) for c in it.said.claims)
+        if alike and rel.kind == "in" and not nested:
+            yield f'assumed: "{rel.child}" in "{rel.parent}"'
+        if rel.parent in objects and not alike:
+            pairs.setdefault((objects[rel.child].phrase, objects[rel.parent].phrase), []).append(rel)
+    broken = [_said_of(it, claim) for claim in it.said.claims if f'not as said: "{claim.said}"' in found]
+    for (child, parent), relations in pairs.items():
+        if any(rel.child in names for rel in relations for names in broken):
+            continue
+        given = (_licensed(it, rel.child, rel.kind, rel.parent) if rel.supports else _stands(it, rel)
+                 for rel in relations)  # fmt: skip
+        if child != parent and not any(given) and parent.lower() not in noted and child.lower() not in it.told:
+            yield f'assumed: "{child}" {relations[0].kind.replace("_", " ")} "{parent}"'
+
+
+def _nests(it: Compared, claim: Claim, rel: Relation) -> bool:
+    """Whether `claim` may say that one of two likes is in the other."""
+    if claim.of is not None:
+        return claim.place in ("in", "holding") and bool({rel.child, rel.parent} & _names(it, [claim.of]))
+    near = [mention for mention in it.said.mentions if mention.end == claim.at]
+    return claim.place == "in" and all(rel.child in _names(it, [mention]) for mention in near)
+
+
+def _stands(it: Compared, rel: Relation) -> bool:
+    """Whether a word of the sentence, or a note, gives the lateral relation `rel`."""
+    if _ASIDE & set(it.said.words) or rel.kind == "around":
+        return True
+    phrases = [obj.phrase.lower() for obj in it.plan.objects if obj.name in (rel.child, rel.parent)]
+    if any(all(phrase in note for phrase in phrases) for note in it.notes):
+        return True
+    return any(_licensed(it, a, kind, b) for a, kind, b in it.edges if {a, b} == {rel.child, rel.parent})
+
+
+def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
+    named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+    inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
+    if inside or not {child, parent} <= named or _ADDING & set(it.said.words):
+        return True
+    for claim in it.said.claims:
+        below, above = _landmarks(it, claim), _said_of(it, claim)
+        if claim.place in ("with", "holding", "under") and child in below and parent in above:
+            return True
+        kinds = ("on", "in") if claim.place == "with" else KINDS.get(claim.place, ())
+        if kind in kinds and parent in below and child in above:
+            return True
+    for mention in it.said.mentions:
+        after = it.said.words[mention.end : mention.end + 1]
+        at_it = after == [":"] or "at" in it.said.words[max(mention.start - _NEAR, 0) : mention.start]
+        if _full_of(it, mention, child, parent) or (at_it and parent in _names(it, [mention])):
+            return True
+    # What stands by something on a table stands there too.
+    beside = {b for a, k, b in it.edges if a == child and k not in ("on", "in", "under")}
+    return any((b, k, parent) in it.edges for b in beside for k in ("on", "in"))
+
+
+def _full_of(it: Compared, whole: Mention, child: str, parent: str) -> bool:
+    """Whether "a bowl of cherries and plums" names both."""
+    inside = next((mention for mention in it.said.mentions if mention.start > whole.start), None)
+    if inside is None or it.said.words[whole.end : whole.end + 1] != ["of"]:
+        return False
+    return parent in _names(it, [whole]) and child in _names(it, _joined(it, inside))
+
+
+def _names(it: Compared, mentions: Sequence[Mention]) -> set[str]:
+    """The objects that `mentions` may name, and those that no mention does."""
+    named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
+    own = {obj.name for mention in mentions for obj in it.of(mention)}
+    return own | ({obj.name for obj in it.plan.objects} - named)
+
+
+def _joined(it: Compared, first: Mention) -> list[Mention]:
+    """`first` and what "and" and commas join to it, with what is said of that between them."""
+    mentions = [mention for mention in it.said.mentions if mention.start >= first.start]
+    found = [first]
+    for before, mention in pairwise(mentions):
+        between = it.said.words[before.end : mention.start]
+        if {"and", ","} & set(between) and len(between) < _NEAR:
+            found.append(mention)
+    return found
+
+
+def _landmarks(it: Compared, claim: Claim) -> set[str]:
+    """What `claim` may lead to: what is named behind it and is joined to that, or all that a pronoun may mean."""
+    return {obj.name for obj in it.plan.objects} if claim.of is None else _names(it, _joined(it, claim.of))
+
+
+def _said_of(it: Compared, claim: Claim) -> set[str]:
+    """What `claim` may be said of: what is named in its part of the sentence, and before it where a word reaches back."""
+    if whose := whose_of(it, claim):
+        return whose
+    others = [mention for mention in it.said.mentions if mention is not claim.of]
+    said = it.said.words[: claim.at]
+    start = next((at + 1 for at in range(len(said) - 1, -1, -1) if said[at] in (".", ";", "!", "?")), 0)
+    reaches = bool(REACHING & set(said[start:])) or claim.of is None
+    return _names(it, [mention for mention in others if mention.part == claim.part or reaches])
