@@ -1,12 +1,12 @@
 """Is what was written the Scene? Every format reloaded by its own parsers and compared, body by body.
 
-The relative error of mass, inertia, friction and the volume of each hull, the distance of the centres of mass and the
-reach of a hull beyond the scene's in object lengths, and the distance and angle between the poses all have to be at
-most a millionth.
+The relative error of mass, inertia and friction, the distance of the centres of mass and of each hull from the scene's
+in object lengths, and the distance and angle between the poses all have to be at most a millionth.
 """
 
 from __future__ import annotations
 
+import functools
 import importlib.util
 import math
 from collections.abc import Callable, Sequence
@@ -18,12 +18,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
+from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import cdist
 
 from pat3d.errors import ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.common.readback import BodyReadback
-from pat3d.exporters.common.xml_files import convex_volume
 from pat3d.exporters.left_out import left_out
 from pat3d.geometry.hulls import slivers
 from pat3d.geometry.normals import triangle_areas
@@ -51,8 +51,8 @@ class BodyParity:
     friction: float | None
     """Relative."""
     hulls: float | None
-    """Of the worst convex part: the relative error of its volume, or how far it reaches beyond the scene's over the
-    object's longest side, whichever is larger; infinite where their number differs."""
+    """Of the worst convex part: how far it reaches beyond the scene's, or that beyond it, over the object's longest
+    side; infinite where their number differs."""
     position: float
     """[m]"""
     rotation: float
@@ -277,9 +277,9 @@ def _errors(obj: SceneObject, body: BodyReadback, silent: frozenset[str]) -> Bod
 
 
 def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
-    """Largest difference of a convex part from the collider that lies nearest.
+    """Largest distance of a convex part from the collider that lies nearest, over the object's longest side.
 
-    A convex set inside another one of the same volume is that set.
+    Corners beyond the other's faces, either way: Hausdorff's distance of convex sets, or less by the slope of a face.
     """
     if len(found) != len(asset.parts) or any(len(points) == 0 for points in found):
         return math.inf
@@ -290,12 +290,21 @@ def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
     length = float(asset.size.max())
     worst = 0.0
     for index, other in zip(*linear_sum_assignment(cdist(here, there)), strict=True):
-        part, points = asset.parts[index], found[other]
-        beyond = float(plane_distances(points, planes(part)).max()) / length
-        volume = _relative(convex_volume(points), convex_volume(part.vertices))
+        part, points = asset.parts[index], np.asarray(found[other], dtype=np.float64)
+        beyond = plane_distances(points, planes(part)).max()
+        short = plane_distances(part.vertices, _sides(points.shape, points.tobytes())).max()
         # max() would drop a NaN that stands second.
-        worst = float(np.max([worst, beyond, volume]))
+        worst = float(np.max([worst, beyond / length, short / length]))
     return worst
+
+
+@functools.lru_cache(maxsize=4096)
+def _sides(shape: tuple[int, int], corners: bytes) -> NDArray[np.float64]:
+    """Planes of the hull of corners [m], as `planes` has them, shape (faces, 4); NaN where they span no volume."""
+    try:
+        return ConvexHull(np.frombuffer(corners).reshape(shape)).equations
+    except (QhullError, ValueError):
+        return np.full((1, 4), np.nan)
 
 
 def _moments(found: np.ndarray, expected: np.ndarray) -> float:

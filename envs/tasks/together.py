@@ -117,9 +117,9 @@ class CarryJudge(_TwoHanded):
         now = self.states.snapshot
         left, right, height, goal = self._hands()
         lean = (now.xmat[:, now.bodies[self._target], 6:] * now.start_up[:, self._target]).sum(axis=-1)
-        level = lean >= math.cos(math.radians(LEVEL_DEGREES))
-        loaded = now.touching[:, self._row][:, predicates.OWNERS + self._load].all(axis=1)
-        lifted = height >= LIFT
+        level = np.asarray(lean >= math.cos(math.radians(LEVEL_DEGREES)))
+        loaded = np.asarray(now.touching[:, self._row][:, predicates.OWNERS + self._load].all(axis=1))
+        lifted = np.asarray(height >= LIFT)
         done = self._held(left & right & lifted & level & loaded, seconds)
         rise = np.clip(height / LIFT, 0.0, 1.0) * (left & right)
         progress = 0.2 * left + 0.2 * right + 0.4 * rise + 0.2 * np.minimum(self.timer / HOLD_SECONDS, 1.0)
@@ -150,9 +150,9 @@ class HandOverJudge(_TwoHanded):
     def update(self, seconds: Array) -> Verdicts:
         left, right, height, goal = self._hands()
         self._shown |= left & ~right & (height >= SHOWN)
-        lifted = height >= LIFT
+        lifted = np.asarray(height >= LIFT)
         # Not a finger of the left hand is on it.
-        free = ~self.states.snapshot.pinched[:, :2, self._row].any(axis=1)
+        free = np.asarray(~self.states.snapshot.pinched[:, :2, self._row].any(axis=1))
         alone = self._shown & right & free & lifted
         done = self._held(alone, seconds)
         taken = self._shown & right & (height >= SHOWN)

@@ -185,8 +185,9 @@ def _wrong(silent: Iterable[str] = (), **changed: Any) -> dict[str, Any]:
     [
         ({"mass": 1.03 * LONG.asset.mass_properties.mass}, "mass", 0.03),
         ({"friction": 0.9 * LONG.asset.material.friction}, "friction", 0.1),
-        # Twice as large about its middle: eight times the volume.
-        ({"hulls": (2.0 * CORNERS - CORNERS.mean(axis=0),)}, "hulls", 7.0),
+        # Twice or half as large about its middle: 200 mm more, or 100 less, where the longest side has 400.
+        ({"hulls": (2.0 * CORNERS - CORNERS.mean(axis=0),)}, "hulls", 0.5),
+        ({"hulls": (0.5 * CORNERS + 0.5 * CORNERS.mean(axis=0),)}, "hulls", 0.25),
         # 4 mm along y, where the longest side has 400.
         ({"hulls": (CORNERS + (0.0, 0.004, 0.0),)}, "hulls", 0.01),
         ({"hulls": (CORNERS, CORNERS)}, "hulls", math.inf),
@@ -208,6 +209,14 @@ def test_the_error_of_each_quantity_is_in_the_unit_it_is_said_to_be_in_and_of_no
     assert all(error == pytest.approx(0.0, abs=1e-12) for error in found.values())
     if quantity not in ("position", "rotation"):
         assert _wrong({quantity}, **changed)[quantity] is None
+
+
+def test_single_precision_is_no_difference_of_a_thin_part():
+    """Half a millimetre of 400: rounding of 1e-8 m would be 5e-5 of its volume."""
+    thin = placed("sheet", asset_of(box(0.4, 0.3, 0.0005)), (0.0, 0.0, 0.0))
+    rounded = thin.asset.parts[0].vertices.astype(np.float32).astype(np.float64)
+    read = replace(_as_read(), name="sheet", hulls=(rounded,))
+    assert errors_of(thin, read, frozenset()).hulls == pytest.approx(0.0, abs=1e-7)
 
 
 def test_a_collider_that_spans_no_volume_is_neither_equal_nor_passed_over():
