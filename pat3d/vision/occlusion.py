@@ -7,16 +7,14 @@ they decide.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import numpy as np
 
 from pat3d.geometry.pose import Pose
 from pat3d.vision.drawing import draw
 from pat3d.vision.observation import Observation
-
-if TYPE_CHECKING:
-    from pat3d.vision.recover import Recovered
+from pat3d.vision.recover import Recovered
 
 BELIEVED = 0.7
 """Of the share that is visible of the most visible object, what has to be visible of the one that is said."""
@@ -52,6 +50,33 @@ def least_occluded(
         return said, "said"
     # Of what is fully seen, that which is seen large.
     return max(shares, key=lambda one: shares[one] * float(seen.mask(one).sum()) ** 0.5), "measured"
+
+
+def resized(found: Recovered, sizes: Mapping[str, float], seen: Observation, *, said: str | None = None) -> Recovered:
+    """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
+
+    Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
+
+    Args:
+        found: the fitted objects.
+        sizes: longest sides [m] of some objects.
+        seen: the picture they were recovered from.
+        said: name of the object that somebody says is occluded least.
+    """
+    name, by = least_occluded(found, seen, sizes, said)
+    factor = sizes[name] / float(found.sized(name).size.max())
+    fits = {
+        each: replace(
+            one,
+            placed=replace(
+                one.placed, scale=factor * one.placed.scale, position=factor * np.asarray(one.placed.position)
+            ),
+        )
+        for each, one in found.fits.items()
+    }
+    note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m, the least occluded object ({by}).'
+    camera = replace(found.camera, position=factor * found.camera.position)
+    return replace(found, camera=camera, fits=fits, notes=(*found.notes, note))
 
 
 def doubt_of_size(found: Recovered, name: str, size: float) -> str | None:
