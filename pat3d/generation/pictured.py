@@ -25,7 +25,7 @@ from pat3d.scene.replacement import write_bytes
 from pat3d.vision.files import Label, Labels
 from pat3d.vision.looking import Looked, Lookers, Photograph, look
 from pat3d.vision.observation import Observation
-from pat3d.vision.occlusion import doubt_of_size, least_occluded
+from pat3d.vision.occlusion import doubt_of_size, least_occluded, resized
 from pat3d.vision.painting import encoded
 from pat3d.vision.recover import Recovered, recover
 
@@ -154,7 +154,7 @@ def _measured(found: Recovered, labels: Labels, seen: Observation) -> Recovered:
     """`found` in metres: those of the least occluded object where the depth has none, else compared with them."""
     sizes = {one.name: one.size for one in labels.objects if one.size is not None}
     if not labels.metric:
-        return found.resized(sizes, seen, said=labels.least_occluded)
+        return resized(found, sizes, seen, said=labels.least_occluded)
     if not sizes:
         return found
     name, _ = least_occluded(found, seen, sizes, labels.least_occluded)

@@ -7,16 +7,14 @@ they decide.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol
+from dataclasses import replace
 
 import numpy as np
 
 from pat3d.geometry.pose import Pose
-from pat3d.scene.asset import Asset
-from pat3d.vision.camera import PlacedCamera
 from pat3d.vision.drawing import draw
-from pat3d.vision.fitting import Fit
 from pat3d.vision.observation import Observation
+from pat3d.vision.recover import Recovered
 
 BELIEVED = 0.7
 """Of the share that is visible of the most visible object, what has to be visible of the one that is said."""
@@ -24,25 +22,7 @@ DOUBTFUL = 1.6
 """Factor between the size that is said and the one that the depth makes, from which on a note says so."""
 
 
-class Fitted(Protocol):
-    """Objects that were fitted to a picture, see `pat3d.vision.recover.Recovered`."""
-
-    @property
-    def camera(self) -> PlacedCamera:
-        """In the scene's frame."""
-        ...
-
-    @property
-    def fits(self) -> Mapping[str, Fit]:
-        """Of every object."""
-        ...
-
-    def sized(self, name: str) -> Asset:
-        """The asset of an object at its fitted size."""
-        ...
-
-
-def visible_share(found: Fitted, seen: Observation, name: str) -> float:
+def visible_share(found: Recovered, seen: Observation, name: str) -> float:
     """Share of the drawn object's pixels that its mask shows, less what the picture's border cuts off [-]."""
     placed, visual = found.fits[name].placed, found.sized(name).visual
     pose = Pose.from_matrix(placed.rotation, placed.position)
@@ -55,7 +35,7 @@ def visible_share(found: Fitted, seen: Observation, name: str) -> float:
 
 
 def least_occluded(
-    found: Fitted, seen: Observation, among: Mapping[str, float], said: str | None
+    found: Recovered, seen: Observation, among: Mapping[str, float], said: str | None
 ) -> tuple[str, str]:
     """Name of the least occluded object of `among`, and who decides it: "said" or "measured".
 
@@ -72,7 +52,34 @@ def least_occluded(
     return max(shares, key=lambda one: shares[one] * float(seen.mask(one).sum()) ** 0.5), "measured"
 
 
-def doubt_of_size(found: Fitted, name: str, size: float) -> str | None:
+def resized(found: Recovered, sizes: Mapping[str, float], seen: Observation, *, said: str | None = None) -> Recovered:
+    """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
+
+    Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
+
+    Args:
+        found: the fitted objects.
+        sizes: longest sides [m] of some objects.
+        seen: the picture they were recovered from.
+        said: name of the object that somebody says is occluded least.
+    """
+    name, by = least_occluded(found, seen, sizes, said)
+    factor = sizes[name] / float(found.sized(name).size.max())
+    fits = {
+        each: replace(
+            one,
+            placed=replace(
+                one.placed, scale=factor * one.placed.scale, position=factor * np.asarray(one.placed.position)
+            ),
+        )
+        for each, one in found.fits.items()
+    }
+    note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m, the least occluded object ({by}).'
+    camera = replace(found.camera, position=factor * found.camera.position)
+    return replace(found, camera=camera, fits=fits, notes=(*found.notes, note))
+
+
+def doubt_of_size(found: Recovered, name: str, size: float) -> str | None:
     """A note where the fitted length of object `name` and its `size` [m], as said, differ much; else None."""
     own = float(found.sized(name).size.max())
     if 1.0 / DOUBTFUL < own / size < DOUBTFUL:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import dataclass
 
 from pat3d.assets.library.store import scaled
 from pat3d.errors import LayoutError
@@ -20,7 +18,6 @@ from pat3d.vision.dependencies import Judge, Pair, close_pairs, joined
 from pat3d.vision.fitting import STOOD_LOSS, Fit, fit, stood
 from pat3d.vision.gravity import Plane, ground_plane, level_camera, surface_plane
 from pat3d.vision.observation import Observation
-from pat3d.vision.occlusion import least_occluded
 from pat3d.vision.placing import from_the_ground
 from pat3d.vision.stance import Stance
 from pat3d.vision.supports import carried_at, supports
@@ -52,31 +49,6 @@ class Recovered:
     def bodies(self) -> dict[str, Placed]:
         """Every object where it was fitted."""
         return {name: _body(name, self.assets[name], one.placed) for name, one in self.fits.items()}
-
-    def resized(self, sizes: Mapping[str, float], seen: Observation, *, said: str | None = None) -> Recovered:
-        """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
-
-        Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
-
-        Args:
-            sizes: longest sides [m] of some objects.
-            seen: the picture it was recovered from.
-            said: name of the object that somebody says is occluded least.
-        """
-        name, by = least_occluded(self, seen, sizes, said)
-        factor = sizes[name] / float(self.sized(name).size.max())
-        fits = {
-            each: replace(
-                one,
-                placed=replace(
-                    one.placed, scale=factor * one.placed.scale, position=factor * np.asarray(one.placed.position)
-                ),
-            )
-            for each, one in self.fits.items()
-        }
-        note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m, the least occluded object ({by}).'
-        camera = replace(self.camera, position=factor * self.camera.position)
-        return replace(self, camera=camera, fits=fits, notes=(*self.notes, note))
 
 
 def recover(

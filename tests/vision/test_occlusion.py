@@ -9,7 +9,7 @@ from pat3d.assets.shapes import box
 from pat3d.geometry.pose import Pose
 from pat3d.vision.caster import Placement
 from pat3d.vision.fitting import Fit
-from pat3d.vision.occlusion import doubt_of_size, least_occluded, visible_share
+from pat3d.vision.occlusion import doubt_of_size, least_occluded, resized, visible_share
 from pat3d.vision.recover import Recovered
 from tests.scenes import asset_of
 from tests.vision.seen import camera_at, see
@@ -58,8 +58,8 @@ def test_what_is_said_counts_unless_it_is_hidden():
 
 def test_all_lengths_follow_from_the_size_of_the_object_that_is_said():
     both = {"free": 0.2, "screen": 0.9}
-    assert FOUND.resized(both, SEEN, said="free").fits["screen"].placed.scale == pytest.approx(2.0)
-    larger = FOUND.resized(both, SEEN, said="screen")
+    assert resized(FOUND, both, SEEN, said="free").fits["screen"].placed.scale == pytest.approx(2.0)
+    larger = resized(FOUND, both, SEEN, said="screen")
     assert larger.fits["free"].placed.scale == pytest.approx(3.0)
     assert "(said)" in larger.notes[-1]
 

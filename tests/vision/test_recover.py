@@ -8,6 +8,7 @@ import pytest
 from pat3d.assets.library.store import scaled
 from pat3d.assets.shapes import box
 from pat3d.geometry.pose import Pose
+from pat3d.vision.occlusion import resized
 from pat3d.vision.recover import recover
 from tests.scenes import asset_of
 from tests.vision.seen import camera_at, see
@@ -41,7 +42,7 @@ def test_depth_that_is_right_up_to_a_factor_takes_its_metres_from_a_size():
     seen = replace(true, depth=2.5 * true.depth)
     large = recover(seen, ASSETS)
     assert large.sized("block").size == pytest.approx(2.5 * BLOCK.size, rel=0.02)
-    found = large.resized({"block": 0.3}, seen)
+    found = resized(large, {"block": 0.3}, seen)
     assert found.sized("brick").size == pytest.approx(BRICK.size, rel=0.03)
     assert apart(found) == pytest.approx(np.hypot(0.03, 0.1), abs=0.005)
     assert found.camera.position[2] == pytest.approx(CAMERA.position[2], rel=0.01)
