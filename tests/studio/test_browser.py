@@ -99,7 +99,7 @@ def test_where_the_processor_draws_surfaces_are_matt_until_shadows_and_reflectio
     def lit():
         """For every lit surface that was compiled: whether it shines."""
         shaders = [text for text in browser.evaluate("window.shaders") if "RE_Direct_Physical" in text]
-        return [re.search(r"#define RE_Direct\s+(\w+)", text).group(1) == "RE_Direct_Physical" for text in shaders]
+        return [re.findall(r"#define RE_Direct\s+(\w+)", text) == ["RE_Direct_Physical"] for text in shaders]
 
     assert lit()
     assert not any(lit())
