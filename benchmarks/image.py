@@ -285,8 +285,8 @@ def compare(
         tally.centre.append(centre)
         tally.scale.append(scale)
         tally.worst.append(
-            {"scene": scene.prompt, "object": obj.name, "centre": centre, "scale": scale, "yaw": yaw,
-             "supports": right, "found": sorted(kinds[1]), "true": sorted(kinds[0]),
+            {"view": len(tally.gravity) - 1, "scene": scene.prompt, "object": obj.name, "centre": centre,
+             "scale": scale, "yaw": yaw, "supports": right, "found": sorted(kinds[1]), "true": sorted(kinds[0]),
              "cost": found.fits[obj.name].cost, "overlap": found.fits[obj.name].overlap,
              "pixels": int(seen.mask(obj.name).sum()), "tilted": found.fits[obj.name].tilted}
         )  # fmt: skip
@@ -355,6 +355,8 @@ def main() -> int:
             for line in failures:
                 print(f"view {number}, {scene.prompt}: {line}", file=sys.stderr, flush=True)
         print(f"view {number}: {scene.prompt}", file=sys.stderr, flush=True)
+        if options.report:
+            options.report.write_text(json.dumps(tally.worst, indent=1))
         if time.monotonic() - started > options.seconds:
             break
     seconds = time.process_time() - begin
@@ -370,8 +372,6 @@ def main() -> int:
     print(f"support  {sum(tally.supports)} of {len(tally.supports)}")
     if tally.verified:
         print(f"verified {sum(tally.verified)} of {len(tally.verified)}")
-    if options.report:
-        options.report.write_text(json.dumps(tally.worst, indent=1))
     met = max(tally.centre) < goals[0] / 100 and max(tally.scale) < goals[1] / 100
     met = met and max(tally.yaw, default=0.0) < goals[2]
     share = 0.95 if options.disturbed else 1.0

@@ -26,7 +26,7 @@ from pat3d.exporters.urdf.mesh_paths import set_mesh_paths
 from pat3d.scene.io import load_scene
 from pat3d.scene.model import Scene
 
-PROGRAM = Path(__file__).with_name("reader_programs.py")
+PROGRAM = Path(__file__).with_name("reader_programs")
 TIMEOUT = 900.0
 """[s], of one reader on all scenes that one process reads; XLA compiles for minutes."""
 
@@ -94,7 +94,7 @@ READERS = (
         Reader(title=title, format=format, file=file, program=program, packages=packages)
         for title, format, file, program, packages in (
             ("yourdfpy", "urdf", "manifest.json", "yourdfpy", ("yourdfpy==0.0.60",)),
-            ("SAPIEN, physics", "urdf", "manifest.json", "sapien", ("sapien==3.0.3", "setuptools<81")),
+            ("SAPIEN", "urdf", "manifest.json", "sapien", ("sapien==3.0.3", "setuptools<81")),
             ("check_urdf", "urdf", "manifest.json", "urdfdom", ("cmeel-urdfdom==6.0.0",)),
             ("urdf-usd-converter", "urdf", "manifest.json", "urdf_usd_converter", ("urdf-usd-converter==0.3.4",)),
             ("PyBullet", "urdf", "manifest.json", "pybullet", ("pybullet",)),
@@ -184,7 +184,7 @@ def _file(reader: Reader, export: Path, copy: Path) -> Path:
 
 def _run(reader: Reader, python: Path, files: Sequence[Path]) -> tuple[dict[str, dict], str]:
     """What a process of the reader tells of every file, and why the first one that is missing is."""
-    command = [str(python), "-P", str(PROGRAM), reader.program, *map(str, files)]
+    command = [str(python), str(PROGRAM), reader.program, *map(str, files)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
         out, error, why = done.stdout, done.stderr, f"ended with exit code {done.returncode}"

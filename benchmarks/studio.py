@@ -9,7 +9,8 @@ first-contentful-paint (a word that the studio is loading), "controls" when the 
 the scene for five seconds or longer, with all names shown, without and with shadows and reflections. "frames" are
 those in which something was drawn. Of a frame: "page" is the processor time of the page's process, "script" that of
 JavaScript in it, which a computer with a graphics card spends too; "drawing" is the processor time of the process that
-draws, here without a graphics card (SwiftShader), and "calls" and "triangles" are what it is asked to draw.
+draws, here without a graphics card (SwiftShader), and "calls" and "triangles" are what it is asked to draw. "width" is
+that of the picture: viser draws fewer pixels and enlarges them where a page is slow.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ UNITS = {
     "calls": "a frame",
     "triangles": "a frame",
     "messages": "a frame",
+    "width": "pixels",
 }
 GOALS = {"first paint": 2.0, "frames": 30.0}
 RICH = " with shadows"
@@ -43,6 +45,7 @@ SECONDS, LONGEST, FEWEST = 5.0, 60.0, 10
 """[s] that the mouse turns the scene, at least and at most, and frames that are enough."""
 
 PAINT = "performance.getEntriesByName('first-contentful-paint')[0].startTime / 1000"
+DRAWN = "document.querySelector('canvas[data-engine]').width"
 COUNTER = """
 window.counted = {frames: 0, calls: 0, triangles: 0};
 let before = 0;
@@ -103,7 +106,7 @@ class Visit:
         if not frames:
             raise TimeoutError(f"nothing was drawn in {seconds:.0f} s: the machine is too busy to measure.")
         each = {name: (value - before[name]) / frames for name, value in after.items()}
-        return {**each, "frames": frames / seconds}
+        return {**each, "frames": frames / seconds, "width": float(self._page.evaluate(DRAWN))}
 
     def shadows(self) -> None:
         """Switch shadows and reflections on or off."""

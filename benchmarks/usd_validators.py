@@ -1,6 +1,6 @@
 """Other people's validators over USD exports: OpenUSD's own, NVIDIA's, and the rigid-body rules of SimReady.
 
-    python benchmarks/usd_validators.py exports/desk/usd exports/bowl/usd exports/desk/simready
+    python benchmarks/usd_validators.py exports/desk/usd exports/bowl/usd exports/desk/simready [--scenes]
 
 Theirs run in environments of their own (`--environments`), made on the first run: their pins contradict ours, and
 SimReady's rules, once installed, join NVIDIA's and ask every scene to be a robot. A scene is held to OpenUSD's,
@@ -111,8 +111,10 @@ def main() -> int:
     parser.add_argument("folders", type=Path, nargs="+", help="folders written by write_usd")
     where = Path("build/usd-validators")
     parser.add_argument("--environments", type=Path, default=where, help="where the validators live")
+    parser.add_argument("--scenes", action="store_true", help="scene files alone; SimReady has no rules for them")
     arguments = parser.parse_args()
-    theirs = {name: environment(arguments.environments.resolve(), name) for name in PACKAGES}
+    needed = ("nvidia",) if arguments.scenes else tuple(PACKAGES)
+    theirs = {name: environment(arguments.environments.resolve(), name) for name in needed}
     bad = 0
     print(f"{'file':48s} {'OpenUSD':>8s} {'ours':>8s} {'NVIDIA':>8s} {'SimReady':>8s}")
     for folder in arguments.folders:
@@ -120,14 +122,14 @@ def main() -> int:
         assets = sorted(path for path in folder.glob("assets/*/*") if path.suffix in (".usdc", ".usda"))
         assets = [path for path in assets if path.stem == path.parent.name]
         ready = sorted(folder.glob("*/usd/*.usdc")) if (folder / "assets.json").is_file() else []
-        for path in scenes + assets + ready:
+        for path in scenes if arguments.scenes else scenes + assets + ready:
             issues = {"OpenUSD": openusd(path), "ours": ours(path), "NVIDIA": nvidia(path, theirs["nvidia"])}
             if path in assets:
                 issues["SimReady"] = simready(path, theirs["simready"])
             if path in ready:
                 issues["SimReady"] = simready(path, theirs["simready"], whole=True)
             counts = " ".join(f"{len(found):8d}" for found in issues.values())
-            print(f"{path.relative_to(folder.parent)!s:48s} {counts}", flush=True)
+            print(f"{path.relative_to(folder.parents[1])!s:48s} {counts}", flush=True)
             for name, found in issues.items():
                 bad += len(found)
                 for issue in found:

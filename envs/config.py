@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from pat3d.envs.arguments import names, number, one_of, picture_size, whole
 from pat3d.envs.observations import OBSERVATIONS
+from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.physics.world import cameras_of
 from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
@@ -99,8 +100,14 @@ class EpisodeConfig:
 class TabletopConfig(EpisodeConfig):
     """Arguments of `pat3d.envs.env.TabletopEnv`."""
 
+    goal_image: bool = False
+    """Whether observations come with "goal_image": how the first camera would show the scene with the task done, the
+    robot as it starts; black for a task without a goal picture."""
     max_objects: int | None = None
     """Rows of the state's "objects"; None for as many as the scene's moving objects."""
+    vary: float | None = None
+    """By how much a reset moves the objects along x and y [m], see pat3d.envs.physics.variation; None for as much as
+    the suite says, 0 without one."""
     sleep: bool = True
     """Leave out objects at rest until something touches them; up to six times as fast (Panda and Sawyer)."""
     render_mode: str | None = None
@@ -115,6 +122,9 @@ class TabletopConfig(EpisodeConfig):
         one_of("camera", self.render_camera, cameras_of(self._sides))
         if self.render_mode is not None:
             one_of("render mode", self.render_mode, RENDER_MODES)
+        suited = 0.0 if self.suite is None else Suite.open(self.suite).request.vary
+        vary = suited if self.vary is None else self.vary
+        self._set("vary", number("vary", vary, 0.0, LARGEST, "m"))
         if self.max_objects is not None:
             whole("max_objects", self.max_objects, 1)
         self._set("render_size", picture_size("render_size", self.render_size))
@@ -137,6 +147,11 @@ class BatchConfig(EpisodeConfig):
         if pair_of(self.arms) is not None:
             raise EnvironmentSetupError(
                 f'on a GPU a robot is one arm, not two ("{self.arms}"); vectorization_mode="async" runs two on CPUs.'
+            )
+        if self.suite is not None and Suite.open(self.suite).request.vary:
+            raise EnvironmentSetupError(
+                "resets of this suite move its objects, which those of worlds on a GPU do not; "
+                'vectorization_mode="async" runs it on CPUs.'
             )
 
 

@@ -15,7 +15,9 @@ from pat3d.envs.grasping.standing import Placement
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
 from pat3d.envs.physics.simulation import Simulation
+from pat3d.envs.physics.variation import vary
 from pat3d.envs.physics.world import compose
+from pat3d.envs.rendering.goal import goal_image
 from pat3d.envs.rendering.pictures import Pictures
 from pat3d.envs.reward import dense
 from pat3d.envs.robots.arms import make_robot, require_robot
@@ -78,12 +80,14 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             height=height,
             width=width,
             segmentation=config.segmentation,
+            goal_image=config.goal_image,
             max_objects=moving if config.max_objects is None else config.max_objects,
         )
         self._enter(self._loaded, self._task_given)
         self._judge: Judge | None = None
         self._verdicts: Verdicts
         self._potential = 0.0
+        self._goal: NDArray[np.uint8] | None = None
         self.observation_space = self._spec.space(self.simulation.world)  # type: ignore[assignment]
         size = self.simulation.controller.size
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (size,), np.float32)
@@ -124,7 +128,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         """Start an episode.
 
         Args:
-            seed: of the robot's posture; the same seed gives the same episode bit for bit.
+            seed: of the robot's posture, and with `vary` of where the objects are; the same seed gives the same episode
+                bit for bit.
             options: "scene" (a folder or a scene) and "task" change what the episode is about, from now on; "index"
                 says which scene of the suite this episode is about.
         """
@@ -136,6 +141,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         # Three standard deviations at most: a start posture that touches something is no start.
         noise = np.clip(self.np_random.standard_normal(count), -3.0, 3.0) * self.config.start_noise
         self.simulation.reset(noise)
+        if vary(self.simulation, self.np_random, self.config.vary or 0.0):
+            self.simulation.restart()
         observation, info = self._begin()
         return observation, {**info, "placement": self.placement.describe()}
 
@@ -162,6 +169,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         self._judge = self.task.judge(self.simulation.states)
         self._verdicts = self._judge.update(np.zeros(1))
         self._potential = float(self._verdicts.progress[0])
+        self._goal = goal_image(self, self._spec) if self._spec.goal_image else None
         return self._observation(), self._info()
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -246,6 +254,8 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     def _observation(self) -> Observation:
         seen = self._observer.observe(self.simulation.states, self._verdicts)
         observation = {name: values[0] for name, values in seen.items()}
+        if self._goal is not None:
+            observation["goal_image"] = self._goal
         return observation if self._spec.kind == "state" else observation | pictured(self._spec, self.pictures)
 
     def _info(self) -> dict[str, Any]:

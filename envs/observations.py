@@ -59,6 +59,8 @@ class ObservationSpec:
     segmentation: bool
     max_objects: int
     """Rows of "objects"; those beyond the scene's moving objects are zero."""
+    goal_image: bool = False
+    """Whether there is a picture of the goal."""
 
     def space(self, world: World) -> spaces.Dict:
         """The observation space for a robot; it is the same for every scene."""
@@ -75,6 +77,9 @@ class ObservationSpec:
                 f"{key}eef_pos": _box(np.full(3, -FARTHEST), np.full(3, FARTHEST)),
                 f"{key}eef_quat": _box(-unit, unit),
             }
+        shape = (self.height, self.width)
+        if self.goal_image:
+            entries["goal_image"] = spaces.Box(0, 255, (*shape, 3), np.uint8)
         if self.kind == "state":
             pose = np.concatenate([np.full(3, FARTHEST), unit])
             rows = np.tile(pose, (self.max_objects, 1))
@@ -82,7 +87,6 @@ class ObservationSpec:
             whole = np.concatenate([pose, np.full(3, FARTHEST)])
             entries["target"] = _box(-whole, whole)
             return spaces.Dict(entries)
-        shape = (self.height, self.width)
         for camera in self.cameras:
             entries[f"{camera}_image"] = spaces.Box(0, 255, (*shape, 3), np.uint8)
             if self.kind == "rgbd":

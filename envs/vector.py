@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -130,7 +131,8 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
     """Many worlds on MuJoCo Warp; observations are those of `TabletopEnv`, stacked.
 
     All are copies of one scene with one task; or, of a suite without an `index`, world k has scene k of those chosen,
-    and from the first again where there are more worlds than scenes.
+    and from the first again where there are more worlds than scenes; scenes that do not stay still in MuJoCo Warp are
+    left out with a warning, see `left_out`.
 
     An environment that ends is reset by the next step, whose action it ignores. `info` holds, an entry for each
     environment: success, progress, lost (the simulation failed), predicates (a dict; not of several scenes), and
@@ -144,7 +146,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
             "joint_position".
 
     Raises:
-        UnsettledSceneError: a scene moves when MuJoCo or MuJoCo Warp runs it.
+        UnsettledSceneError: a scene moves when MuJoCo runs it, or every one when MuJoCo Warp does.
         TaskError: the task cannot be done in the scene by this robot; says why.
         EnvironmentSetupError: an argument is not valid, or MuJoCo Warp is missing; says what to do.
     """
@@ -155,7 +157,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self, num_envs: int, device: str = "cuda", *, config: BatchConfig | None = None, **arguments: Any
     ) -> None:
         from pat3d.envs.batch.merged import merged
-        from pat3d.envs.batch.physics import BatchedPhysics, Capacity, capacity_for, require_still
+        from pat3d.envs.batch.physics import BatchedPhysics, Capacity, capacity_for, refusal, restless
         from pat3d.envs.batch.state import BatchState, download
 
         num_envs = whole("num_envs", num_envs, 1)
@@ -166,7 +168,19 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         jobs = _jobs(config, num_envs)
         together = merged([job.world for job in jobs])
         sizes = Capacity(*config.capacity) if config.capacity else capacity_for(together, control, control_freq)
-        require_still(together, [job.loaded.checksum for job in jobs], control, control_freq, device, sizes)
+        moving = restless(together, [job.loaded.checksum for job in jobs], control, control_freq, device, sizes)
+        if len(moving) == len(jobs):
+            raise refusal(device, "; ".join(moving.values()))
+        self.left_out = moving
+        """Scenes of a suite that do not stay still in MuJoCo Warp: what moves, by the scene's number."""
+        if moving:
+            told = "; ".join(f"scene {number}: {what}" for number, what in moving.items())
+            warnings.warn(
+                f"{len(moving)} of {len(jobs)} scenes do not stay still in MuJoCo Warp and are left out ({told}).",
+                stacklevel=2,
+            )
+            jobs = [job for number, job in enumerate(jobs) if number not in moving]
+            together = merged([job.world for job in jobs])
         self.physics = BatchedPhysics(together, num_envs, control, control_freq, device, sizes)
         self.num_envs, self._reward, self._noise = num_envs, config.reward, config.start_noise
         height, width = config.image_size

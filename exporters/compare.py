@@ -373,11 +373,10 @@ def _urdf_readers(path: Path) -> tuple[_Reader, ...]:
 
 def _sdf_readers(path: Path) -> tuple[_Reader, ...]:
     from pat3d.exporters.engines import read_with_drake
-    from pat3d.exporters.sdf.reader import hangs, read_sdf
+    from pat3d.exporters.sdf.reader import read_sdf
 
     ours = _Reader(name="world", package=None, read=read_sdf)
-    # Drake refuses worlds whose joints move.
-    return (ours,) if hangs(path) else (ours, _Reader(name="Drake", package="drake", read=read_with_drake))
+    return (ours, _Reader(name="Drake", package="drake", read=read_with_drake))
 
 
 def _usd_readers(path: Path) -> tuple[_Reader, ...]:

@@ -47,7 +47,7 @@ def export(
         formats: names of FORMATS and VIEWS.
         out: folder, made if missing; `out/mjcf`, `out/usd`, ... in it are replaced, other files are kept.
         progress: told what is being written.
-        usd: settings of `write_usd`: `text` for .usda, `package` for a .usdz.
+        usd: settings of `write_usd`: `text` for .usda, `package` for a .usdz, `levels` of detail.
 
     Returns:
         The main file of every format: scene.xml, scene.usdc, manifest.json, scene.sdf, scene.html, scene.glb.
@@ -78,7 +78,10 @@ def exported(folder: str | Path) -> tuple[tuple[str, ...], dict[str, Any]]:
     here = Path(folder)
     formats = chosen([name for name in (*FORMATS, *VIEWS) if name == "mjcf" or (here / name).is_dir()])
     text, package = (here / "usd" / "scene.usda").is_file(), (here / "usd" / "scene.usdz").is_file()
-    return formats, {"text": text, "package": package}
+    settings: dict[str, Any] = {"text": text, "package": package}
+    if "usd" in formats:
+        settings["levels"] = import_module("pat3d.exporters.usd.writer").levels_of(here / "usd")
+    return formats, settings
 
 
 def chosen(formats: Iterable[str]) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ def left_out(scene: Scene, format: str) -> tuple[str, ...]:
         lines.append("which objects are loose, and where they stand, is in manifest.json.")
         lines.append(f"roughness and metallic{_and(maps)} are in visual.mtl only.")
         if any(look.opacity < 1.0 for look in looks):
-            lines.append("opacity is in the material's colour, which few readers take where there is a texture.")
+            lines.append("opacity is in the material's colour, which SAPIEN takes in place of the texture.")
         if scene.attachments:
             lines.append("what hangs by points is in manifest.json.")
     if format == "sdf":

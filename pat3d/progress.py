@@ -31,6 +31,9 @@ class Event:
     places: Callable[[], Mapping[str, Any]] | None = field(default=None, compare=False, repr=False)
     """What finds where the objects are in this step, a pose by name; only for whoever calls it before the next step."""
 
+    scene: Any = field(default=None, compare=False, repr=False)
+    """The new scene that begins to settle, as it is laid out."""
+
 
 Progress = Callable[[Event], None]
 """Called often; must return quickly."""

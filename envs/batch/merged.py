@@ -279,13 +279,14 @@ def _compiled(worlds: Sequence[World]) -> tuple[Any, Any, dict[bytes, int]]:
             body.explicitinertial, body.mass, body.inertia, body.gravcomp = True, 1.0, [1.0] * 3, 1.0
             if moving:
                 body.add_freejoint()
-            most: dict[int, tuple[int, tuple[Any, int]]] = {}
+            most: dict[int, tuple[Any, list[int]]] = {}
             for world, row in zip(worlds, rows, strict=True):
                 for shape, geoms in (row[number] if number < len(row) else {}).items():
-                    most[shape] = max(most.get(shape, (0, ())), (len(geoms), (world.model, geoms[0])), key=_count)
-            for shape, (count, like) in sorted(most.items()):
-                for copy in range(count):
-                    park(body, f"{name}_{shape}_{copy}", shape, like)
+                    if shape not in most or len(geoms) > len(most[shape][1]):
+                        most[shape] = world.model, geoms
+            for shape, (own, geoms) in sorted(most.items()):
+                for copy, geom in enumerate(geoms):
+                    park(body, f"{name}_{shape}_{copy}", shape, (own, geom))
     for name, (model, geom) in {name: where for world in worlds for name, where in _around(world).items()}.items():
         park(spec.worldbody, name, int(model.geom_type[geom]), (model, geom))
     try:
@@ -301,10 +302,6 @@ def _compiled(worlds: Sequence[World]) -> tuple[Any, Any, dict[bytes, int]]:
 def _joined(outer: Pose, inner: Pose) -> Pose:
     """The pose `inner` in the frame `outer`."""
     return Pose.from_matrix(outer.rotation @ inner.rotation, outer.apply(np.array([inner.position]))[0])
-
-
-def _count(entry: tuple[int, Any]) -> int:
-    return entry[0]
 
 
 def _kind(model: Any, world: World) -> Kind:

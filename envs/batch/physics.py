@@ -13,7 +13,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.envs.batch.controllers import BatchedController
-from pat3d.envs.batch.kernels import note_peaks, note_touches
+from pat3d.envs.batch.kernels import PHANTOM, mend_phantoms, note_peaks, note_touches
 from pat3d.envs.batch.merged import Merged
 from pat3d.envs.batch.precision import CCD_TOLERANCE, SOLIMP, SOLREF
 from pat3d.envs.physics.loading import store_record
@@ -107,6 +107,7 @@ class BatchedPhysics:
             try:
                 self._model = self._engine.put_model(model)
                 merged.fill(self._model)
+                self._model.callback.contactfilter = _without_phantoms
                 self.data = self._engine.put_data(
                     model, home, nworld=worlds, naconmax=worlds * self.capacity.contacts, njmax=self.capacity.rows
                 )
@@ -240,6 +241,19 @@ class BatchedPhysics:
         return self._touching.numpy().astype(np.bool_), self._pinched.numpy().astype(np.bool_)
 
 
+def _without_phantoms(model: Any, data: Any) -> None:
+    """What MuJoCo Warp does after it has found contacts."""
+    found = data.contact
+    wp.launch(
+        mend_phantoms,
+        dim=data.naconmax,
+        inputs=[
+            data.nacon, found.geom, found.frame, found.worldid, model.geom_type, model.geom_size, data.geom_xpos,
+            data.geom_xmat, found.pos, found.dist,
+        ],
+    )  # fmt: skip
+
+
 def mujoco_warp() -> Any:
     """The engine.
 
@@ -253,7 +267,7 @@ def mujoco_warp() -> Any:
     return mujoco_warp
 
 
-def require_still(
+def restless(
     merged: Merged,
     checksums: Sequence[str],
     control: str,
@@ -261,8 +275,8 @@ def require_still(
     device: str,
     capacity: Capacity,
     seconds: float = STILL_SECONDS,
-) -> None:
-    """Refuse scenes that move on this device while the robot stands still; known results are not tried again.
+) -> dict[int, str]:
+    """Which kinds of worlds move on this device while the robot stands still, and what does; results are kept.
 
     Args:
         merged: the worlds.
@@ -273,33 +287,38 @@ def require_still(
         capacity: sizes of the buffers.
         seconds: simulated time [s].
 
-    Raises:
-        UnsettledSceneError: an object moves by 1 mm or 1 degree; names it and its drift.
+    Returns:
+        By number, the objects that move by 1 mm or 1 degree, with their drift, in words.
     """
     engine = f"mujoco_warp {mujoco_warp().__version__} on {wp.get_device(device).name}"
     files = []
     for checksum in checksums:
-        about = "\0".join((checksum, engine, f"{seconds:g}", repr((SOLREF, SOLIMP, CCD_TOLERANCE))))
+        about = "\0".join((checksum, engine, f"{seconds:g}", repr((SOLREF, SOLIMP, CCD_TOLERANCE, PHANTOM))))
         files.append(cache_root() / "settled" / f"{hashlib.sha256(about.encode()).hexdigest()[:32]}-mujoco_warp.json")
     found = [_stored(file) for file in files]
     if any(moved is None for moved in found):
         found = drift(BatchedPhysics(merged, len(files), control, control_freq, device, capacity), seconds)
         for file, moved in zip(files, found, strict=True):
             store_record(file, moved)
-    lines = []
+    wrong = {}
     for number, moved in enumerate(found):
-        wrong = [
+        told = [
             f'"{name}" by {mm:.3g} mm and {degrees:.3g} degrees'
             for name, (mm, degrees) in (moved or {}).items()
             if mm > MAX_MM or degrees > MAX_DEGREES
         ]
-        if wrong:
-            lines.append((f"scene {number}: " if len(files) > 1 else "") + ", ".join(wrong))
-    if lines:
-        raise UnsettledSceneError(
-            f"the scene does not stay still in {engine}: within {seconds:g} s it moved {'; '.join(lines)}. "
-            'In double precision it does: gymnasium.make_vec(..., vectorization_mode="async") runs on CPUs.'
-        )
+        if told:
+            wrong[number] = ", ".join(told)
+    return wrong
+
+
+def refusal(device: str, moved: str) -> UnsettledSceneError:
+    """The error for what `moved`, in words, on a device."""
+    engine = f"MuJoCo Warp {mujoco_warp().__version__} on {wp.get_device(device).name}"
+    return UnsettledSceneError(
+        f"the scene does not stay still in {engine}: within {STILL_SECONDS:g} s it moved {moved}. "
+        'In double precision it does: gymnasium.make_vec(..., vectorization_mode="async") runs on CPUs.'
+    )
 
 
 def drift(physics: BatchedPhysics, seconds: float) -> list[dict[str, Sequence[float]]]:

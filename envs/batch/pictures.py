@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import warp as wp
@@ -25,12 +24,57 @@ TOLERANCE = 0.5
 """Mean over a picture by which the colours of the two ray tracers differ [of 255]; rays that graze edges do."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Faces:
-    """Bodies that look the same are on the device once."""
+class _Library:
+    """Bodies and textures of all worlds one after the other; what looks the same is there once."""
 
-    mesh: wp.Mesh
-    first: int
+    def __init__(self) -> None:
+        self.meshes: list[wp.Mesh] = []
+        self._known: dict[bytes, tuple[wp.Mesh, int]] = {}
+        self._images: dict[bytes, int] = {}
+        self._texels: list[NDArray[np.float32]] = [np.zeros((1, 3), dtype=np.float32)]
+        self._about: list[tuple[int, int, int]] = [(0, 1, 1)]
+        self._faces: dict[str, list[NDArray[Any]]] = {}
+        self._count = 0
+
+    def add(self, body: Body, textures: dict[int, NDArray[np.float32]]) -> tuple[wp.Mesh, int]:
+        """The mesh of a body, and its first face among all."""
+        texture = np.full(len(body.texture), -1, dtype=np.int32)
+        for number in np.unique(body.texture[body.texture >= 0]).tolist():
+            texture[body.texture == number] = self._image(textures[number])
+        part = body.geom - body.geom.min()
+        looks = (body.corners, body.normals, body.uv, body.colour, texture, part)
+        key = b"".join(one.tobytes() for one in looks)
+        if key not in self._known:
+            points = wp.array(body.corners.reshape(-1, 3), dtype=wp.vec3)
+            mesh = wp.Mesh(points=points, indices=wp.array(np.arange(len(points), dtype=np.int32)))
+            self.meshes.append(mesh)
+            self._known[key] = mesh, self._count
+            self._count += len(body.corners)
+            for name, values in (
+                ("normals", body.normals.reshape(-1, 3)),
+                ("uv", body.uv.reshape(-1, 2)),
+                ("colour", body.colour),
+                ("texture", texture),
+                ("part", part),
+            ):
+                self._faces.setdefault(name, []).append(values)
+        return self._known[key]
+
+    def _image(self, values: NDArray[np.float32]) -> int:
+        key = values.tobytes()
+        if key not in self._images:
+            self._images[key] = len(self._about)
+            self._about.append((sum(map(len, self._texels)), values.shape[0], values.shape[1]))
+            self._texels.append(values.reshape(-1, 3))
+        return self._images[key]
+
+    def fill(self, drawn: Any) -> None:
+        """Put all of it on the present device."""
+        kinds = {"normals": wp.vec3, "uv": wp.vec2, "colour": wp.vec3, "texture": int, "part": int}
+        for name, kind in kinds.items():
+            setattr(drawn, name, wp.array(np.concatenate(self._faces[name]), dtype=kind))
+        drawn.texels = wp.array(np.concatenate(self._texels), dtype=wp.vec3)
+        drawn.image = wp.array(np.array(self._about, dtype=np.int32), dtype=wp.vec3i)
 
 
 class BatchedPictures:
@@ -115,83 +159,57 @@ def _optics(worlds: Sequence[World], camera: str, height: int) -> tuple[wp.array
     return wp.array(scale, dtype=float), wp.array(far, dtype=float)
 
 
-def _drawn(worlds: Sequence[World], bodies: Sequence[NDArray[np.int64]]) -> tuple[Drawn, list[wp.Mesh]]:
+def _drawn(worlds: Sequence[World], bodies: Sequence[NDArray[np.int64]]) -> tuple[Any, list[wp.Mesh]]:
     """The surfaces of all worlds on the present device, and the meshes, which kernels know by number alone."""
     import mujoco
 
-    known: dict[bytes, _Faces] = {}
-    images: dict[bytes, int] = {}
-    texels: list[NDArray[np.float32]] = []
-    about: list[tuple[int, int, int]] = []
-    faces: dict[str, list[NDArray[Any]]] = {"normals": [], "uv": [], "colour": [], "texture": [], "part": []}
-    count = 0
-    rows: list[list[tuple[int, _Faces, Body, int]]] = []
-    labels: list[list[int]] = []
-    planes: list[list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]] = []
+    library, drawn = _Library(), cast(Any, Drawn)()
+    rows, planes, labels = [], [], []
     for world, numbers in zip(worlds, bodies, strict=True):
-        surfaces, row = Surfaces(world.model), []
-        for body in surfaces.bodies:
-            texture = np.full(len(body.texture), -1, dtype=np.int32)
-            for number in np.unique(body.texture[body.texture >= 0]).tolist():
-                values = surfaces.textures[number]
-                key = values.tobytes()
-                if key not in images:
-                    images[key] = len(about)
-                    about.append((sum(len(one) for one in texels), values.shape[0], values.shape[1]))
-                    texels.append(values.reshape(-1, 3))
-                texture[body.texture == number] = images[key]
-            first = int(body.geom.min())
-            looks = (body.corners, body.normals, body.uv, body.colour, texture, body.geom - first)
-            key = b"".join(one.tobytes() for one in looks)
-            if key not in known:
-                points = wp.array(body.corners.reshape(-1, 3), dtype=wp.vec3)
-                mesh = wp.Mesh(points=points, indices=wp.array(np.arange(len(points), dtype=np.int32)))
-                known[key] = _Faces(mesh, count)
-                count += len(body.corners)
-                for name, values in (("normals", body.normals), ("uv", body.uv), ("colour", body.colour)):
-                    faces[name].append(values.reshape(-1, values.shape[-1]))
-                faces["texture"].append(texture)
-                faces["part"].append(body.geom - first)
-            row.append((int(numbers[body.number]), known[key], body, first))
-        rows.append(row)
-        labels.append(np.where(world.owner >= 0, world.owner + 2, world.owner == ROBOT).tolist())
         model, data = world.model, mujoco.MjData(world.model)
         mujoco.mj_forward(model, data)
+        surfaces = Surfaces(model)
+        rows.append(
+            [
+                (int(numbers[body.number]), body.centre, body.radius, int(body.geom.min()), mesh.id, first)
+                for body in surfaces.bodies
+                for mesh, first in (library.add(body, surfaces.textures),)
+            ]
+        )
         planes.append(
             [
                 (data.geom_xmat[geom].reshape(3, 3).copy(), data.geom_xpos[geom].copy(), tint_of(model, geom))
                 for geom in surfaces.planes
             ]
         )
-    most, flat = max(map(len, rows)), max(map(len, planes))
-    drawn: Any = Drawn()
-    drawn.body = _table([[one[0] for one in row] for row in rows], most, -1, int)
-    drawn.mesh = _table([[one[1].mesh.id for one in row] for row in rows], most, 0, wp.uint64)
-    drawn.centre = _table([[one[2].centre for one in row] for row in rows], most, (0.0,) * 3, wp.vec3)
-    drawn.radius = _table([[one[2].radius for one in row] for row in rows], most, 0.0, float)
-    drawn.geom = _table([[one[3] for one in row] for row in rows], most, 0, int)
-    drawn.label = _table(labels, max(map(len, labels)), 0, int)
-    drawn.first = _table([[one[1].first for one in row] for row in rows], most, 0, int)
-    drawn.normals = wp.array(np.concatenate(faces["normals"]), dtype=wp.vec3)
-    drawn.uv = wp.array(np.concatenate(faces["uv"]), dtype=wp.vec2)
-    drawn.colour = wp.array(np.concatenate(faces["colour"]), dtype=wp.vec3)
-    drawn.texture = wp.array(np.concatenate(faces["texture"]), dtype=int)
-    drawn.part = wp.array(np.concatenate(faces["part"]), dtype=int)
-    drawn.texels = wp.array(np.concatenate([*texels, np.zeros((1, 3), np.float32)]), dtype=wp.vec3)
-    drawn.image = wp.array(np.array([*about, (0, 1, 1)], dtype=np.int32), dtype=wp.vec3i)
-    drawn.planes = _table([[one[0] for one in row] for row in planes], flat, np.zeros((3, 3)), wp.mat33)
-    drawn.place = _table([[one[1] for one in row] for row in planes], flat, (0.0,) * 3, wp.vec3)
-    drawn.tint = _table([[one[2] for one in row] for row in planes], flat, (0.0,) * 3, wp.vec3)
+        labels.append([(label,) for label in np.where(world.owner >= 0, world.owner + 2, world.owner == ROBOT)])
+    library.fill(drawn)
+    nowhere = np.zeros(3)
+    tables: tuple[tuple[list[Any], tuple[tuple[str, Any, Any], ...]], ...] = (
+        (
+            rows,
+            (
+                ("body", int, -1),
+                ("centre", wp.vec3, nowhere),
+                ("radius", float, 0.0),
+                ("geom", int, 0),
+                ("mesh", wp.uint64, 0),
+                ("first", int, 0),
+            ),
+        ),
+        (planes, (("planes", wp.mat33, np.zeros((3, 3))), ("place", wp.vec3, nowhere), ("tint", wp.vec3, nowhere))),
+        (labels, (("label", int, 0),)),
+    )
+    for table, columns in tables:
+        width = max(map(len, table))
+        for column, (name, kind, nothing) in enumerate(columns):
+            filled = [[*(one[column] for one in row), *[nothing] * (width - len(row))] for row in table]
+            values = wp.array(np.array(filled), dtype=kind, ndim=2) if width else wp.zeros((len(table), 0), dtype=kind)
+            setattr(drawn, name, values)
     model, data = worlds[0].model, mujoco.MjData(worlds[0].model)
     mujoco.mj_forward(model, data)
     lights = Lights(model, data)
     drawn.sky, drawn.ambient, drawn.lamp = wp.vec3(*sky_of(model)), wp.vec3(*lights.ambient), wp.vec3(*lights.lamp)
     drawn.towards = wp.array(lights.towards, dtype=wp.vec3)
     drawn.diffuse = wp.array(lights.diffuse, dtype=wp.vec3)
-    return drawn, [one.mesh for one in known.values()]
-
-
-def _table(rows: Sequence[Sequence[Any]], width: int, nothing: Any, kind: Any) -> wp.array:
-    """Rows of different lengths as one array, filled up with `nothing`."""
-    filled = np.array([[*row, *[nothing] * (width - len(row))] for row in rows])
-    return wp.array(filled, dtype=kind, ndim=2) if width else wp.zeros((len(rows), 0), dtype=kind)
+    return drawn, library.meshes

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pat3d.envs.grasping.grasp import Grasp
 from pat3d.envs.grasping.hand import hand_pose, hand_rotation
 from pat3d.envs.grasping.leaning import LEANING_HOVER, LEANING_MARGIN
+from pat3d.envs.grasping.pairwise import paired_grasps
 from pat3d.envs.grasping.site import Frame, Site, Standing
 from pat3d.envs.grasping.standing import Needs, Placement, Stand
 from pat3d.envs.grasping.taking import grasps_of
@@ -44,6 +45,9 @@ SHORT = 0.7
 RISER = 0.1
 """Least height of the robot's base above the surface of the work [m]."""
 
+TOGETHER_TRIED = 8
+"""Pairs of grasps that are tried for two arms where they may stand, at most."""
+
 PAIRS_TRIED = 240
 """Places of two arms that are tried, at most."""
 
@@ -55,6 +59,8 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         TaskError: an object is too wide for the gripper, is blocked, or nothing that is needed is in reach.
     """
     pair = pair_of(robot)
+    if needs.together:
+        return _place_together(scene, robot, pair, needs)
     if pair is not None:
         return _place_pair(scene, robot, pair, needs)
     reach = _Reach.of(scene, robot, needs)
@@ -103,6 +109,41 @@ def _place_pair(scene: Scene, robot: str, pair: Pair, needs: Needs) -> Placement
             return replace(found, robot=pair.arms[side], side=SIDES[side], view=view)
     known = next(reach for reach in reaches if reach is not None)
     raise known.refusal(robot, site, room)
+
+
+def _place_together(scene: Scene, robot: str, pair: Pair | None, needs: Needs) -> Placement:
+    """Of two arms that take one object at once: the first place from which each gets to its own end of it."""
+    name = needs.grasp[0]
+    if pair is None:
+        raise TaskError(f'"{name}" is taken by two arms, and {robot} is one; give two, as "panda+panda".')
+    both = paired_grasps(scene, name, pair.arms, wide=needs.together == "wide")
+    arms = tuple(arm_kinematics(one) for one in pair.arms)
+    grippers = tuple(measure_gripper(one) for one in pair.arms)
+    site = Site.of(scene, needs)
+    for frames, view in islice(site.pairs(_standing(arms[0]), _standing(arms[1]), pair), PAIRS_TRIED):
+        for grasps in both[:TOGETHER_TRIED]:
+            reached = [
+                _reached(arm, frame, grasp, gripper.tip, gripper.closing_axis)
+                and _reached(arm, frame, grasp.lifted(LIFTED), gripper.tip, gripper.closing_axis)
+                for arm, frame, grasp, gripper in zip(arms, frames, grasps, grippers, strict=True)
+            ]
+            # Hands that crossed one another would meet on the way.
+            crossed = (
+                frames[0].local(np.array(grasps[0].position))[1] < frames[0].local(np.array(grasps[1].position))[1]
+            )
+            if None in reached or (pair.facing is None and crossed):
+                continue
+            other = Stand(
+                robot=pair.arms[1],
+                side=SIDES[1],
+                base_position=frames[1].position,
+                yaw=frames[1].yaw,
+                start=tuple(map(float, site.start(arms[1], frames[1], grippers[1].tip))),
+                grasps={name: (grasps[1],)},
+            )
+            found = site.placement(arms[0], frames[0], {name: (grasps[0],)}, grippers[0].tip, other)
+            return replace(found, robot=pair.arms[0], side=SIDES[0], view=view)
+    raise TaskError(f'{robot} gets with both hands to "{name}" from nowhere.')
 
 
 @dataclass(eq=False)

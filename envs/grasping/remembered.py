@@ -74,16 +74,21 @@ def _read(record: Path) -> Placement | None:
         if record.stat().st_size > MAX_BYTES:
             return None
         told = json.loads(record.read_text(encoding="utf-8"))
-        told["grasps"] = {name: tuple(Grasp(**_fixed(one)) for one in all_) for name, all_ in told["grasps"].items()}
+        told["grasps"] = _grasps(told["grasps"])
         told["visit"] = tuple(map(tuple, told["visit"]))
         if told["bench"] is not None:
             low, high = told["bench"]
             told["bench"] = (tuple(low), tuple(high))
         if told["other"] is not None:
+            told["other"]["grasps"] = _grasps(told["other"]["grasps"])
             told["other"] = Stand(**_fixed(told["other"]))
         return Placement(**_fixed(told))
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
+
+
+def _grasps(told: dict[str, Any]) -> dict[str, tuple[Grasp, ...]]:
+    return {name: tuple(Grasp(**_fixed(one)) for one in all_) for name, all_ in told.items()}
 
 
 def _fixed(fields: dict[str, Any]) -> dict[str, Any]:

@@ -17,13 +17,15 @@ class Needs:
     """Objects to take."""
     visit: tuple[tuple[float, float, float], ...] = ()
     """Points [m] that the fingertips have to get to, pointing down."""
+    together: str = ""
+    """"wide" or "near" for two hands that take the object at once, far from one another or not; "" for one hand."""
     cleared: bool = False
     """Whether the objects are taken one after the other, so that what was taken is no longer in the way."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stand:
-    """Where an arm is bolted down that has nothing to do for the task."""
+    """Where the other of two arms is bolted down, which has nothing to do for most tasks."""
 
     robot: str
     """Name of the arm."""
@@ -35,6 +37,8 @@ class Stand:
     """Direction in which it faces [rad], about z from +x."""
     start: tuple[float, ...]
     """Joint positions at the start [rad]."""
+    grasps: Mapping[str, tuple[Grasp, ...]] = field(default_factory=dict)
+    """Its grasp of what both arms take."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,15 +1,15 @@
 """Where the fixed cameras of a world stand: as near as they can with what they show in the picture.
 
-All look from where the robot faces. The agent's camera is wide and near, so that what is worked on, which is nearer to
-it than the arm, is large; the one in front is farther, lower, and shows the workbench too. Both show the whole robot,
-beside which a small object is a few pixels: the close camera shows what the task moves and where it goes, and of the
-robot what comes there.
+All look from where the robot faces. The agent's camera shows everything on the table and the hands as they start: of
+the arms beside which a small object would be a few pixels it shows what comes there. The one in front is farther,
+lower, and shows the whole robot and the workbench. The close camera shows what the task moves and where it goes.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,14 +22,18 @@ from pat3d.view.camera import Camera, frame
 
 Array = NDArray[np.float64]
 
-ANGLES = {"agentview": (40.0, 60.0), "frontview": (20.0, 45.0), "closeview": (50.0, 45.0)}
+ANGLES = {"agentview": (40.0, 45.0), "frontview": (20.0, 45.0), "closeview": (50.0, 45.0)}
 """Height above the horizon and opening angle of each fixed camera [degrees]."""
+
+HAND = 0.08
+"""Around the fingertips the agent's camera shows at least so much [m]."""
 
 NEAREST = 0.15
 """Around the middle of what the task is about the close camera shows at least so much [m]."""
 
-MARGIN = 0.02
-"""Free on every side of a square picture, as a share of it; wider ones have more at the sides."""
+MARGINS = {"agentview": 0.05, "frontview": 0.02, "closeview": 0.02}
+"""Free on every side of a square picture, as a share of it; wider ones have more at the sides. The agent's camera has
+more, for what a reset moves."""
 
 DRAWN_GROUPS = 3
 """Geoms of MuJoCo's first three groups are drawn."""
@@ -37,7 +41,14 @@ DRAWN_GROUPS = 3
 _CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
 
 
-def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_], posture: dict[str, float]) -> None:
+def aim(
+    model: Any,
+    scene: Scene,
+    placement: Placement,
+    robot: NDArray[np.bool_],
+    posture: Mapping[str, float],
+    hands: Sequence[str],
+) -> None:
     """Place and turn the fixed cameras of a compiled world.
 
     Args:
@@ -46,6 +57,7 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
         placement: of the robot.
         robot: which geoms are the robot's, shape (geoms,).
         posture: position of every joint of the robot at the start.
+        hands: names of the sites between the fingertips.
     """
     import mujoco
 
@@ -56,6 +68,7 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
     arm = _corners(model, data, np.flatnonzero(robot & (model.geom_group < DRAWN_GROUPS)))
     # Of pedestals nothing is needed that is below what the robot works on.
     arm[:, 2] = np.maximum(arm[:, 2], placement.surface)
+    tips = [data.site(name).xpos + HAND * _CORNERS for name in hands]
     work = [
         obj.pose.apply(part.vertices)
         for obj in scene.objects
@@ -71,7 +84,7 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
     if placement.bench is not None:
         (low_x, low_y), (high_x, high_y) = placement.bench
         bench.append(np.array([[x, y, 0.0] for x in (low_x, high_x) for y in (low_y, high_y)]))
-    shown = {"agentview": [arm, *work], "frontview": [arm, *work, *bench], "closeview": task}
+    shown = {"agentview": [*tips, *work], "frontview": [arm, *work, *bench], "closeview": task}
     for name, points in shown.items():
         elevation, angle = ANGLES[name]
         camera = frame(
@@ -80,7 +93,7 @@ def aim(model: Any, scene: Scene, placement: Placement, robot: NDArray[np.bool_]
             azimuth=90.0 + math.degrees(placement.yaw if placement.view is None else placement.view),
             elevation=elevation,
             field_of_view=angle,
-            margin=MARGIN,
+            margin=MARGINS[name],
         )
         number = model.camera(name).id
         model.cam_pos[number], model.cam_quat[number], model.cam_fovy[number] = camera.position, _quat(camera), angle

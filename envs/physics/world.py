@@ -289,7 +289,8 @@ def index(model: Any, scene: Scene, robot: Robot, placement: Placement, prefix: 
             (*arm.robot.arm_joints, *arm.robot.gripper_joints), (*arm.start, *arm.robot.gripper_home), strict=True
         )
     }
-    aim(model, scene, placement, owner == ROBOT, posture)
+    hands = [arm.prefix + arm.robot.grip_site for arm in arms]
+    aim(model, scene, placement, owner == ROBOT, posture, hands)
     return World(
         model=model,
         scene=scene,

@@ -59,7 +59,7 @@ pretty_name: {title}
 are moved. Checksum of the scenes: `{document["checksum"]}`.
 
 {_command(request, of)}
-{_table(["split", *kinds], rows)}
+{_conditions(request)}{_table(["split", *kinds], rows)}
 
 ## How it was made
 
@@ -94,7 +94,30 @@ def _command(request: Request, of: Reference | None) -> str:
         line = f"pat3d suite generate OUT --reference {plain}{more}"
         return f"{part}Made again by\n\n    {line}\n\nand held against the published one by `pat3d suite check OUT`.\n"
     line = f"pat3d suite generate OUT --tasks {','.join(request.tasks)} --scenes {request.scenes} --seed {request.seed}"
-    return f"Made again by\n\n    {line} --objects {request.objects[0]}-{request.objects[1]} --robot {request.robot}\n"
+    line += f" --objects {request.objects[0]}-{request.objects[1]} --robot {request.robot}"
+    if request.clutter:
+        line += f" --clutter {','.join(map(str, request.clutter))}"
+    for option in ("alike", "visible", "vary"):
+        if value := getattr(request, option):
+            line += f" --{option} {value:g}"
+    return f"Made again by\n\n    {line}\n"
+
+
+def _conditions(request: Request) -> str:
+    """What holds of every scene beyond what holds of all suites."""
+    told = []
+    if request.alike:
+        told.append(f"- distractors by likeness in every scene, of another colour, size or kind: {request.alike}")
+    if request.visible:
+        told.append(
+            f"- every object of a task covers {request.visible:g} % of the agent's picture at the start at least, as "
+            "the scene was verified"
+        )
+    if request.vary:
+        told.append(
+            f"- every reset moves what stands on the table by up to {request.vary:g} m along x and y, and turns it"
+        )
+    return "".join(f"{line}\n" for line in told) + ("\n" if told else "")
 
 
 def _baselines(of: Reference | None) -> str:

@@ -16,6 +16,7 @@ from pat3d.envs.suites.pools import (
     Container,
     item_of,
 )
+from pat3d.plan.grammar.lexicon import SIZES
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import GROUND, Relation, SupportKind
 
@@ -50,6 +51,10 @@ class Composer:
         self.container_colours: tuple[str, ...] | None = None
         """Of containers that are no homes; None for any colour that means nothing."""
         self.coloured_only = False
+        self.least_silhouette = 0.0
+        """Width times height that what is moved has at least [m^2], where anything that fits has as much."""
+        self._scales: dict[str, float] = {}
+        """Of sizes that the moved things' names say, by the word; empty where they say none."""
 
     def item(
         self,
@@ -65,6 +70,10 @@ class Composer:
         """Add something a gripper takes, at most `width` and at least `height` [m]; returns its name."""
         if colour is not None or self.coloured_only:
             groups = tuple(group for group in groups if group != PLAIN)
+        size = self._pick(tuple(self._scales)) if moved and self._scales else ""
+        if size:
+            groups = tuple(group for group in groups if group != PLAIN)
+        scale = self._scales.get(size, 1.0)
         # What is moved is seen against what it comes from and goes to.
         hidden = self._colours({parent, *self.places} if moved else {parent})
         fitting = [
@@ -72,12 +81,14 @@ class Composer:
             for item in ITEMS
             if item.noun in self._nouns[moved]
             and item.group in groups
-            and item.width <= width
-            and item.height >= height
+            and item.width * scale <= width
+            and item.height * scale >= height
             and not (item.group == PLAIN and hidden & natural(item.noun))
         ]
         if not fitting:
             raise ExhaustedError
+        if moved and self.least_silhouette:
+            fitting = [noun for noun in fitting if silhouette(noun, scale) >= self.least_silhouette] or fitting
         item = item_of(self._pick(fitting))
         material = None
         if item.materials and self.rng.random() < _NAMED_MATERIAL:
@@ -86,10 +97,38 @@ class Composer:
             colours: tuple[str, ...] = ()
         else:
             colours = (colour or self._pick([name for name in COLOURS if name not in {*self.avoid, *hidden}]),)
-        name = self._add(item.noun, colours, material, parent, kind)
+        name = self._add(item.noun, colours, material, parent, kind, size)
         if moved:
             self.moved.append(name)
         return name
+
+    def size_words(self, kind: str) -> None:
+        """Half of all compositions for a task say how large the moved things are; call it before any is added.
+
+        What is to be sorted by its colour has its double in another colour always: one of its own has the same home.
+        """
+        if kind != "sort" and self.rng.random() < 0.5:
+            self._scales = dict(_SIZES)
+
+    def lookalikes(self, count: int) -> None:
+        """Add loose things that are like those that are moved: of another size or colour, or of the same kind."""
+        moved = [obj for obj in self.objects if obj.name in self.moved]
+        for number in range(count):
+            like = moved[number % len(moved)]
+            first = number < len(moved)
+            if self._scales and first:
+                sizes = tuple(word for word in self._scales if not like.name.startswith(f"{word} "))
+                self._add(like.noun, like.colours, like.material, GROUND, "on", self._pick(sizes))
+            elif like.colours:
+                free = [name for name in COLOURS if name not in {*self.avoid, *like.colours}]
+                size = next((word for word in self._scales if like.name.startswith(f"{word} ")), "")
+                self._add(like.noun, (self._pick(free),), like.material, GROUND, "on", size)
+            else:
+                own = item_of(like.noun)
+                kin = [one.noun for one in ITEMS if one.group == PLAIN and one.meaning == own.meaning and one != own]
+                if not kin:
+                    raise ExhaustedError
+                self._add(self._pick(kin), (), None, GROUND, "on")
 
     def container(self, kind: str | None = None, *, capacity: int = 1, place: bool = False) -> tuple[str, Container]:
         """Add something that takes `capacity` items; returns its name and what it is."""
@@ -142,13 +181,25 @@ class Composer:
     def _pick(self, of: list[str] | tuple[str, ...]) -> str:
         return of[int(self.rng.integers(len(of)))]
 
-    def _add(self, noun: str, colours: tuple[str, ...], material: str | None, parent: str, kind: SupportKind) -> str:
+    def _add(
+        self,
+        noun: str,
+        colours: tuple[str, ...],
+        material: str | None,
+        parent: str,
+        kind: SupportKind,
+        size: str = "",
+    ) -> str:
         # Naming a thing's own material would be no different from not naming it, but reads oddly beside "red".
-        words = [*colours, *([_ADJECTIVES.get(material, material)] if material else []), noun]
+        made_of = [_ADJECTIVES.get(material, material)] if material else []
+        words = [*([size] if size else []), *colours, *made_of, noun]
         name = " ".join(words)
         if any(obj.name == name for obj in self.objects):
             raise ExhaustedError
-        self.objects.append(PlannedObject(name=name, noun=noun, phrase=name, colours=colours, material=material))
+        scale = _SIZES.get(size, 1.0)
+        self.objects.append(
+            PlannedObject(name=name, noun=noun, phrase=name, colours=colours, material=material, scale=scale)
+        )
         if parent != GROUND:
             self.relations.append(Relation(child=name, kind=kind, parent=parent))
         return name
@@ -174,7 +225,15 @@ class Composer:
         return " on ".join(_a(name) for name in reversed(tower))
 
 
+def silhouette(noun: str, scale: float) -> float:
+    """Width times height of an item [m^2]."""
+    item = item_of(noun)
+    return item.width * item.height * scale**2
+
+
 _ADJECTIVES = {"wood": "wooden"}
+
+_SIZES = {word: SIZES[word] for word in ("small", "large")}
 
 
 def _a(name: str) -> str:

@@ -7,16 +7,23 @@ no training scene: they are what validation and testing by layout and by object 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
-from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.request import MAX_OBJECTS, Request
 from pat3d.envs.suites.structures import CORES, SIDES, Core
+from pat3d.envs.tasks.goals import Rearrange, rearranged
+from pat3d.envs.tasks.task import split
 from pat3d.generation.request import derived_seed
 from pat3d.plan.scene_plan import ScenePlan
+from pat3d.scene.model import Scene
+
+SILHOUETTE = 0.007
+"""Width times height of what covers a percent of the agent's picture, roughly [m^2]: smaller things are hardly ever
+accepted where so much has to be visible, so they are not tried."""
 
 _DRAWS = 200
 """Of nouns and colours for one composition; most need one."""
@@ -28,7 +35,7 @@ class Draft:
 
     plan: ScenePlan
     task: str
-    """As `parse_task` reads it."""
+    """As `parse_task` reads it; of a rearrangement the objects alone, see `pointed`."""
     structure: str
     """Core and side group."""
     moved: tuple[str, ...]
@@ -41,19 +48,29 @@ class Draft:
 def draft(request: Request, place: int, candidate: int) -> Draft:
     """The `candidate`-th composition for a place of the suite, both from 0; the same arguments give the same one."""
     seed = derived_seed(request.seed, "suite", place, candidate)
-    kind, split = request.task_of(place), request.split_of(place)
-    part, _, held_out = split.partition("/")
+    kind, own = request.task_of(place), request.split_of(place)
+    part, _, held_out = own.partition("/")
     structures = structure_splits(request, kind)["train" if held_out == "object" else part]
-    nouns = partition(request.seed)
+    nouns, level = partition(request.seed), request.clutter_of(place)
+    if level is not None:
+        structures = [one for one in structures if one[1].size + request.alike <= level] or structures
     for draw in range(_DRAWS):
         rng = np.random.default_rng([seed, draw])
         core, side = structures[int(rng.integers(len(structures)))]
         composer = Composer(rng, moved=nouns[part if held_out == "object" else "train"], others=nouns["train"])
         try:
+            composer.least_silhouette = SILHOUETTE * request.visible
+            if request.alike:
+                composer.size_words(kind)
             task = core.build(composer)
             side.build(composer)
-            least = max(request.objects[0], core.size + side.size)
-            composer.fill(int(rng.integers(least, request.objects[1] + 1)))
+            composer.lookalikes(request.alike)
+            least = core.size + side.size + request.alike
+            if level is None:
+                least = max(request.objects[0], least)
+                composer.fill(int(rng.integers(least, request.objects[1] + 1)))
+            else:
+                composer.fill(max(core.size + level, least))
         except ExhaustedError:
             continue
         return Draft(
@@ -67,10 +84,23 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
     raise RuntimeError(f"no composition for place {place} of {request}")
 
 
+def pointed(made: Draft, scene: Scene) -> Draft:
+    """The draft with the points to which a rearrangement moves its objects, drawn where its scene leaves room.
+
+    Raises:
+        TaskError: it leaves none.
+    """
+    kind, names = split(made.task)
+    if kind != Rearrange.kind:
+        return made
+    random = np.random.default_rng(derived_seed(made.scene_seed, "points"))
+    return replace(made, task=rearranged(scene, names, random).spec)
+
+
 def structure_splits(request: Request, kind: str) -> dict[str, list[tuple[Core, Core]]]:
     """The structures of a task, dealt to "train", "val" and "test"; a tenth and at least one to each of the last."""
-    most = request.objects[1]
-    known = [(core, side) for core in CORES[kind] for side in SIDES if core.size + side.size <= most]
+    most = MAX_OBJECTS if request.clutter else request.objects[1]
+    known = [(core, side) for core in CORES[kind] for side in SIDES if core.size + side.size + request.alike <= most]
     order = np.random.default_rng([request.seed, *f"structures {kind}".encode()]).permutation(len(known))
     few = max(1, round(len(known) / 10))
     dealt = [known[place] for place in order]

@@ -11,12 +11,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.robots.arms import default_robot
 from pat3d.errors import SpecError, SuiteError
+from pat3d.generation.request import derived_seed
 from pat3d.scene.model import check_least_tilt
 from pat3d.scene.physics import LEAST_TILT
 
-TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve", "chain")
+TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve", "chain", "rearrange")
 
 SPLITS = ("train", "val", "test", "val/layout", "val/object", "test/layout", "test/object")
 """What may be asked for; a scene belongs to "train" or to one of those with a slash."""
@@ -32,6 +34,9 @@ DEVICES = ("cpu", "cuda")
 """Where scenes may be settled."""
 
 MIN_OBJECTS, MAX_OBJECTS = 4, 16
+MOST_ALIKE, MOST_CLUTTER = 3, 10
+MOST_VISIBLE = 5.0
+"""[%]"""
 MAX_SCENES = 1_000_000
 MAX_SEED = 2**32 - 1
 
@@ -52,6 +57,17 @@ class Request:
     """Tilt of the ground [degrees], whichever way, that every scene has to stand."""
     stable: bool = False
     """Without scenes in which something rests on its round side, from where it may roll."""
+    clutter: tuple[int, ...] = ()
+    """Numbers of objects beside those of the task: every scene has one of them, drawn evenly, and more only where its
+    structure does. Empty for as many as `objects` leaves."""
+    alike: int = 0
+    """Among them, distractors by likeness: of the noun of something that is moved in another colour or size, or of its
+    kind where it has the colour that it has."""
+    visible: float = 0.0
+    """Share of the agent's picture at the start [%] that every object of the task covers at least; what hides behind
+    others or the robot does not."""
+    vary: float = 0.0
+    """By how much every reset moves the objects along x and y [m], see `pat3d.envs.physics.variation`."""
     picture: int = 320
     """Width of the scenes' pictures [pixel]; 0 for none."""
     device: str = "cpu"
@@ -74,6 +90,15 @@ class Request:
                 f"scenes have from {MIN_OBJECTS} to {MAX_OBJECTS} objects, and the larger number is at least "
                 f"{MIN_OBJECTS + 2}; got {fewest}-{most}."
             )
+        if any(not 0 <= one <= MOST_CLUTTER for one in self.clutter) or len(set(self.clutter)) != len(self.clutter):
+            raise SuiteError(f"clutter is 0 to {MOST_CLUTTER} objects, each number once; got {list(self.clutter)}.")
+        most_alike = min(MOST_ALIKE, min(self.clutter) if self.clutter else most - MIN_OBJECTS - 2)
+        if not 0 <= self.alike <= most_alike:
+            raise SuiteError(f"among so few objects 0 to {most_alike} may be alike, not {self.alike}.")
+        if not 0.0 <= self.visible <= MOST_VISIBLE:
+            raise SuiteError(f"what is visible covers 0 to {MOST_VISIBLE:g} % of the picture, not {self.visible:g}.")
+        if not 0.0 <= self.vary <= LARGEST:
+            raise SuiteError(f"a reset moves objects by 0 to {LARGEST:g} m, not {self.vary:g}.")
         if self.device not in DEVICES:
             raise SuiteError(f'no device "{self.device}". Devices: {", ".join(DEVICES)}.')
         try:
@@ -96,6 +121,8 @@ class Request:
             # Suites that ask for no more than all scenes do are named by the same request as ever.
             **({"least_tilt": self.least_tilt} if self.least_tilt != LEAST_TILT else {}),
             **({"stable": True} if self.stable else {}),
+            **({"clutter": list(self.clutter)} if self.clutter else {}),
+            **{name: value for name in ("alike", "visible", "vary") if (value := getattr(self, name))},
         }
 
     @staticmethod
@@ -116,6 +143,9 @@ class Request:
             and isinstance(data.get("device", "cpu"), str)
             and isinstance(data.get("least_tilt", LEAST_TILT), int | float)
             and isinstance(data.get("stable", False), bool)
+            and isinstance(data.get("clutter", []), list)
+            and all(map(_whole, [*data.get("clutter", []), data.get("alike", 0)]))
+            and all(isinstance(data.get(name, 0.0), int | float) for name in ("visible", "vary"))
         )
         if not good:
             raise SuiteError(f"{where}: the suite's request is damaged: {json.dumps(data)[:200]}")
@@ -129,11 +159,19 @@ class Request:
             device=data.get("device", "cpu"),
             least_tilt=float(data.get("least_tilt", LEAST_TILT)),
             stable=data.get("stable", False),
+            clutter=tuple(data.get("clutter", ())),
+            alike=data.get("alike", 0),
+            visible=float(data.get("visible", 0.0)),
+            vary=float(data.get("vary", 0.0)),
         )
 
     def task_of(self, place: int) -> str:
         """The kind of task at a place of the suite, from 0."""
         return self.tasks[place % len(self.tasks)]
+
+    def clutter_of(self, place: int) -> int | None:
+        """Objects beside those of the task at a place of the suite; None for as many as `objects` leaves."""
+        return self.clutter[derived_seed(self.seed, "clutter", place) % len(self.clutter)] if self.clutter else None
 
     def split_of(self, place: int) -> str:
         """The split of a place of the suite, from 0."""

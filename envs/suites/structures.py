@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pat3d.envs.suites.composer import STACKED_WIDTH, Composer
 from pat3d.envs.suites.pools import COLOURS, FLAT, HOME_WIDTH, STANDING
 from pat3d.envs.tasks.chain import AND_THEN
+from pat3d.envs.tasks.goals import Rearrange
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,6 +163,14 @@ def _chain_then_pick(c: Composer) -> str:
     return f"chain:place:{first}:{where[0]}{AND_THEN}pick:{c.item(moved=True)}"
 
 
+def _rearrange(count: int) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        # Where they are to go is drawn when it is known where everything stands.
+        return ":".join((Rearrange.kind, *(c.item(moved=True) for _ in range(count))))
+
+    return build
+
+
 def _core(name: str, size: int, build: Callable[[Composer], str]) -> Core:
     return Core(name=name, size=size, build=build)
 
@@ -209,6 +218,7 @@ CORES: dict[str, tuple[Core, ...]] = {
         _core("a tower of three", 3, _chain_tower),
         _core("into a container, then a pick", 3, _chain_then_pick),
     ),
+    "rearrange": tuple(_core(name, count, _rearrange(count)) for count, name in enumerate(("one", "two", "three"), 1)),
     "retrieve": (_core("under one", 2, _retrieve(1)), _core("under two", 3, _retrieve(2))),
 }
 

@@ -10,9 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pat3d.envs.suites.composition import Draft, draft
+from pat3d.envs.suites.composition import Draft, draft, pointed
 from pat3d.envs.suites.folder import RECORD, SuiteFolder, checksum_of, write_document
 from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.sight import UnseenError, require_seen
 from pat3d.errors import LayoutError, TaskError
 from pat3d.generation.attempts import Attempt, Attempts
 from pat3d.generation.checkpoints import Workspace
@@ -102,9 +103,12 @@ class Making:
         with self.clock("task"):
             if not reason and attempt.checked is not None:
                 try:
-                    placement = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request.robot)
+                    made = pointed(made, attempt.checked.scene)
+                    placement = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request)
                 except TaskError as error:
                     reason, message = "task", str(error)
+                except UnseenError as error:
+                    reason, message = "hardly seen", str(error)
         record = _record(request, place, candidate, made, attempt)
         if reason:
             rejection = {**record, "reason": reason, "message": message}
@@ -140,22 +144,26 @@ def _rolling(attempt: Attempt) -> tuple[str, ...]:
     return tuple(name for name, rolls in support.rolling.items() if rolls != "stable") if support else ()
 
 
-def _doable(scene: Scene, mjcf: Path, task: str, robot: str) -> str:
+def _doable(scene: Scene, mjcf: Path, task: str, request: Request) -> str:
     """Where the robot stands for the task, in words.
 
     Raises:
         TaskError: it cannot do it.
+        UnseenError: something that the task is about is hardly in the picture.
     """
     from pat3d.envs.tasks.naming import called
     from pat3d.envs.tasks.registry import parse_task
-    from pat3d.envs.tasks.rehearsal import rehearse
+    from pat3d.envs.tasks.rehearsal import rehearsed, workplace
 
     parsed = parse_task(task)
     parsed.check(scene)
     for name in parsed.names:
         if called(scene, name) is None:
             raise TaskError(f'no words tell "{name}" from what is like it.')
-    return rehearse(scene, mjcf / "scene.xml", parsed, robot).describe()
+    work = workplace(scene, mjcf / "scene.xml", parsed, request.robot)
+    if request.visible:
+        require_seen(work, request.visible)
+    return rehearsed(work).describe()
 
 
 def _record(request: Request, place: int, candidate: int, made: Draft, attempt: Attempt) -> dict[str, Any]:

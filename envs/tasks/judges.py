@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+
 import numpy as np
 
 from pat3d.envs.physics import predicates
@@ -14,6 +17,8 @@ LIFT = 0.10
 
 HOLD_SECONDS = 1.0
 REST_SECONDS = 0.5
+
+UPRIGHT = math.cos(math.radians(predicates.UPRIGHT_DEGREES))
 
 OUT = 0.15
 """How far up from its start what is to be unloaded has to get first [m]."""
@@ -141,4 +146,45 @@ class RetrieveJudge(Judge):
             progress=lift.progress * sound,
             target=lift.target,
             goal=lift.goal,
+        )
+
+
+class RearrangeJudge(Judge):
+    """Success when every object has rested at its point, upright and untouched, for half a second.
+
+    Progress is the share of objects at their points, and of the next one how near it is.
+    """
+
+    def __init__(self, states: States, targets: Mapping[str, tuple[float, float]], there: float) -> None:
+        super().__init__(states)
+        self._titles = tuple(f'"{name}" there' for name in targets)
+        self._objects = np.array([states.numbers[name] for name in targets], dtype=np.int64)
+        self._points, self._there = np.array(list(targets.values())), there
+
+    def update(self, seconds: Array) -> Verdicts:
+        now, objects = self.states.snapshot, self._objects
+        centres = now.xipos[:, now.bodies[objects]]
+        away = np.linalg.norm(centres[..., :2] - self._points, axis=-1)
+        free = ~now.touching[:, predicates.ROBOT_ROW, predicates.OWNERS + objects]
+        upright = (now.xmat[:, now.bodies[objects], 6:] * now.start_up[:, objects]).sum(axis=-1) >= UPRIGHT
+        still = [[predicates.still(now, world, obj) for obj in objects.tolist()] for world in range(self.states.count)]
+        resting = upright & np.array(still)
+        there = (away <= self._there) & resting & free
+        every = there.all(axis=1)
+        self.timer[:] = np.where(every, self.timer + seconds, 0.0)
+        due = np.argmin(there, axis=1)
+        worlds = self.states.everyone
+        near = np.exp(-away[worlds, due] / predicates.NEAR_GOAL)
+        share = there.sum(axis=1) + np.where(every, 0.0, 0.9 * near)
+        goal = np.column_stack([self._points[due], centres[worlds, due, 2]])
+        return Verdicts(
+            success=every & (self.timer >= REST_SECONDS),
+            predicates={
+                **dict(zip(self._titles, (away <= self._there).T, strict=True)),
+                "released": free.all(axis=1),
+                "at rest": resting.all(axis=1),
+            },
+            progress=share / len(objects),
+            target=objects[due],
+            goal=goal,
         )

@@ -146,6 +146,8 @@ class Planner:
         return replace(move, spot=spots[0] + [0.0, 0.0, HIGHER[-1] if where else 0.0]) if spots else move
 
     def _spots(self, goal: Goal) -> list[Array]:
+        if goal.at is not None:
+            return [np.array([*goal.at, self._env.placement.surface])]
         if not goal.where:
             return free_spots(self._env, goal.name)
         return spots_over(self._env, goal.name, goal.where, on=goal.on, more=goal.shared)

@@ -58,6 +58,27 @@ _RETRIEVE = (
     "carefully fetch {it}{source} so that nothing else topples",
 )
 
+_REARRANGE = (
+    "move {them} to where the goal picture shows them",
+    "make the table look like the goal picture: {them}",
+    "rearrange {them} as in the goal picture",
+    "put {them} as the picture of the goal has them",
+)
+
+_CARRY = (
+    "lift {it}{source} with both hands and keep it level",
+    "take {it}{source} with both arms and hold it up without tilting it",
+    "with two hands, raise {it}{source}; it has to stay level",
+    "carry {it}{source} together, one hand on each side",
+)
+
+_HANDOVER = (
+    "pick up {it}{source} with the left hand and hand it over to the right hand",
+    "take {it}{source} with your left hand, then hold it with the right one alone",
+    "pass {it}{source} from the left arm to the right arm",
+    "left hand, give {it}{source} to the right hand",
+)
+
 WORDINGS = {
     "pick": _PICK,
     "place": _PLACE,
@@ -65,6 +86,9 @@ WORDINGS = {
     "sort": _SORT,
     "unload": _UNLOAD,
     "retrieve": _RETRIEVE,
+    "rearrange": _REARRANGE,
+    "carry": _CARRY,
+    "handover": _HANDOVER,
 }
 """By kind of task; the first is the instruction itself."""
 
@@ -81,6 +105,11 @@ _IN_TURN = (
 def in_turn(steps: Sequence[str]) -> tuple[str, ...]:
     """All wordings of several things to do in this order."""
     return tuple(f"{before}{between.join(steps[:-1])}{last}{steps[-1]}" for before, between, last in _IN_TURN)
+
+
+def listed(parts: Sequence[str]) -> str:
+    """Several things in a sentence: "a", "a and b", "a, b and c"."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def worded(kind: str, **words: str) -> tuple[str, ...]:

@@ -8,12 +8,16 @@ from typing import Any
 
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
 from pat3d.envs.tasks.chain import AND_THEN, Chain
+from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Pick, Place, Stack
 from pat3d.envs.tasks.task import Task, split
+from pat3d.envs.tasks.together import Carry, HandOver
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
-TASKS: dict[str, type[Task]] = {kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve, Chain)}
+TASKS: dict[str, type[Task]] = {
+    kind.kind: kind for kind in (Pick, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Carry, HandOver)
+}
 """Every kind of task by the first word of its specification."""
 
 
@@ -28,6 +32,8 @@ def parse_task(spec: str) -> Task:
         raise TaskError(f'no task "{kind}". Tasks: {", ".join(task.form for task in TASKS.values())}.')
     if kind == Chain.kind:
         return Chain(steps=tuple(_step(text) for text in ":".join(arguments).split(AND_THEN)))
+    if kind == Rearrange.kind:
+        return rearrangement(arguments)
     task: Any = TASKS[kind]
     names = [field.name for field in fields(task)]
     if len(arguments) != len(names) or not all(arguments):
@@ -43,10 +49,10 @@ def _step(spec: str) -> Task:
 
 
 def possible_tasks(scene: Scene) -> Iterator[Task]:
-    """Every task that the scene's tree and sizes allow, but for chains; its placement says what is in reach."""
+    """Every task that the scene's tree and sizes allow one arm, but for chains and rearrangements."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
-        if kind is Chain:
+        if kind in (Chain, Rearrange, Carry, HandOver):
             continue
         count = len(fields(kind))
         combinations = (

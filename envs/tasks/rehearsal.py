@@ -34,8 +34,8 @@ class Workplace:
     simulation: Simulation
 
 
-def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
-    """Where the robot stands to do a task, all moves of which are free of obstacles.
+def workplace(scene: Scene, mjcf: Path, task: Task, robot: str) -> Workplace:
+    """The scene with the robot where it stands to do a task, at the start.
 
     Args:
         scene: at rest.
@@ -44,7 +44,7 @@ def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
         robot: name of the arm.
 
     Raises:
-        TaskError: something is out of reach, too wide, too heavy, or in the way, or has no room where it should go.
+        TaskError: something is out of reach, too wide or too heavy.
     """
     placement = place(scene, robot, task.needs(scene))
     robot = placement.robot or robot
@@ -53,7 +53,25 @@ def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
     except EnvironmentSetupError as error:
         raise TaskError(str(error)) from error
     simulation.reset()
-    planner = Planner(Workplace(scene=scene, task=task, robot=robot, placement=placement, simulation=simulation))
+    return Workplace(scene=scene, task=task, robot=robot, placement=placement, simulation=simulation)
+
+
+def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
+    """Where the robot stands to do a task, all moves of which are free of obstacles; see `workplace`.
+
+    Raises:
+        TaskError: something is out of reach, too wide, too heavy, or in the way, or has no room where it should go.
+    """
+    return rehearsed(workplace(scene, mjcf, task, robot))
+
+
+def rehearsed(work: Workplace) -> Placement:
+    """The placement in a workplace, once all moves were gone through; its objects are moved by that.
+
+    Raises:
+        TaskError: something is in the way, or has no room where it should go.
+    """
+    robot, simulation, planner = work.robot, work.simulation, Planner(work)
     done: set[str] = set()
     while goals := planner.goals():
         again = [goal.name for goal in goals if goal.name in done]
@@ -67,7 +85,7 @@ def rehearse(scene: Scene, mjcf: Path, task: Task, robot: str) -> Placement:
             break
         _put_down(planner, simulation, move)
         done.add(move.name)
-    return placement
+    return work.placement
 
 
 def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:

@@ -44,6 +44,8 @@ class Goal:
     """What to put it in or on; "" for somewhere free, None to hold it."""
     on: bool = False
     """Onto the top of `where`, though it has an inside."""
+    at: tuple[float, float] | None = None
+    """Put it down so that its centre is above this point of the work's surface [m]."""
     shared: bool = False
     """Others belong there too, so that its middle is left free."""
 
@@ -151,6 +153,10 @@ class Task(ABC):
     @abstractmethod
     def needs(self, scene: Scene) -> Needs:
         """What the robot has to reach."""
+
+    def targets(self, scene: Scene) -> Mapping[str, tuple[float, float]]:
+        """Where objects have to get to on the table, seen from above [m], which a goal picture shows; none for most."""
+        return {}
 
     def horizon(self, scene: Scene, control_freq: float) -> int:
         """Control steps in which the task can be done without haste, at `control_freq` actions a second."""

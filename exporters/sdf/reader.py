@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from pat3d.geometry.pose import Pose
 
 
 def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
-    """Every model of the world at `path`, the ground aside.
+    """Every model of the world at `path`, the ground aside; what hangs from another is a model in that one's.
 
     Raises:
         ExportError: anything is missing, unknown or malformed.
@@ -33,19 +34,27 @@ def read_sdf(path: str | Path) -> tuple[BodyReadback, ...]:
     path = Path(path)
     world = only(read_xml(path, "sdf"), "world", str(path))
     meshes = MeshCorners()
-    return tuple(_body(model, path, meshes) for model in world.findall("model") if model.get("name") != "ground")
+    return tuple(
+        body
+        for model in world.findall("model")
+        if model.get("name") != "ground"
+        for body in _bodies(model, path, meshes, Pose())
+    )
 
 
-def hangs(path: str | Path) -> bool:
-    """Whether the world at `path` has joints that move; a damaged file has none."""
-    try:
-        return any(joint.get("type") != "fixed" for joint in read_xml(Path(path), "sdf").iterfind("world/joint"))
-    except ExportError:
-        return False
-
-
-def _body(model: ET.Element, path: Path, meshes: MeshCorners) -> BodyReadback:
+def _bodies(model: ET.Element, path: Path, meshes: MeshCorners, outer: Pose) -> Iterator[BodyReadback]:
+    """A model whose pose is within `outer`, and those in it."""
     where = f"{path}: {model.get('name')}"
+    own = _pose(model, where)
+    place = Pose.from_matrix(outer.rotation @ own.rotation, outer.apply(np.array([own.position]))[0])
+    # To the last bit where nothing encloses it.
+    pose = own if outer == Pose() else place
+    yield _body(model, path, meshes, pose, where)
+    for inner in model.findall("model"):
+        yield from _bodies(inner, path, meshes, pose)
+
+
+def _body(model: ET.Element, path: Path, meshes: MeshCorners, pose: Pose, where: str) -> BodyReadback:
     link = only(model, "link", where)
     inertial = only(link, "inertial", where)
     frame = _pose(inertial, where)
@@ -63,7 +72,7 @@ def _body(model: ET.Element, path: Path, meshes: MeshCorners) -> BodyReadback:
         inertia=in_body_axes(moments, frame.rotation),
         friction=common(frictions),
         hulls=tuple(_corners(collision, path, meshes, where) for collision in collisions),
-        pose=_pose(model, where),
+        pose=pose,
         fixed=model.findtext("static", "false").strip() in ("true", "1"),
     )
 

@@ -5,16 +5,18 @@
     models/<name>/meshes/      its textured mesh and convex parts
 
 The world repeats the models rather than including them, so that it loads from any folder without a model path. Drake
-reads it as well where nothing hangs, with its own elements for hydroelastic contact. There is no light in the world,
-because Drake warns of one; Gazebo's ambient light shows it.
+reads it as well, with its own elements for hydroelastic contact. There is no light in the world, because Drake warns of
+one; Gazebo's ambient light shows it.
 
 SDF joins bodies in trees. An attachment becomes the joint with the same freedom: a ball for one point, a hinge for
-two, a weld for three or more that are not in line.
+two, a weld for three or more that are not in line. Drake takes joints in models alone, so what hangs from something
+fixed has its joint, to the world, in its own model, and what hangs from something loose is a model in that one's.
 """
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +30,7 @@ from pat3d.exporters.urdf.writer import HYDROELASTIC_MODULUS
 from pat3d.geometry.hulls import ConvexPart
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Asset
-from pat3d.scene.model import Attachment, Scene
+from pat3d.scene.model import Scene
 from pat3d.scene.obj_files import map_file, part_file
 from pat3d.scene.physics import ground_friction
 
@@ -55,25 +57,34 @@ def write_sdf(scene: Scene, folder: str | Path) -> Path:
             hangs from two others, which SDF cannot say.
     """
     folder = Path(folder)
-    joints = _joints(scene, body_names(scene))
+    hung = _hung(scene)
     with export_folder(folder, marker="scene.sdf", what="SDF") as fresh:
-        _write(scene, fresh, joints)
+        _write(scene, fresh, hung)
     return folder / "scene.sdf"
 
 
-def _write(scene: Scene, folder: Path, joints: list[ET.Element]) -> None:
+def _write(scene: Scene, folder: Path, hung: dict[str, _Hung]) -> None:
     bodies, stored = body_names(scene), stored_assets(scene)
     root = _root()
     world = ET.SubElement(root, "world", name="scene")
     world.append(_ground(scene))
+    models: dict[str, ET.Element] = {}
     for obj in scene.objects:
         name = stored[id(obj.asset)]
         if not (folder / "models" / name).exists():
             _write_model(obj.asset, name, folder / "models" / name)
-        model = _model(obj.asset, bodies[obj.name], f"models/{name}/meshes/", fixed=obj.fixed)
-        model.insert(0, _pose(obj.pose))
-        world.append(model)
-    world.extend(joints)
+        models[obj.name] = _model(obj.asset, bodies[obj.name], f"models/{name}/meshes/", fixed=obj.fixed)
+    for obj in scene.objects:
+        model, body, above = models[obj.name], bodies[obj.name], hung.get(obj.name)
+        if above is None or above.parent is None:
+            model.insert(0, _pose(obj.pose))
+            world.append(model)
+            if above is not None:
+                model.append(_joint(f"{body}_hangs", above.points, LINK, "world"))
+        else:
+            model.insert(0, _pose(_within(scene[above.parent].pose, obj.pose)))
+            models[above.parent].append(model)
+            models[above.parent].append(_joint(f"{body}_hangs", above.points, f"{body}::{LINK}", LINK))
     _save(root, folder / "scene.sdf")
 
 
@@ -199,9 +210,23 @@ def _pose(pose: Pose, relative_to: str | None = None) -> ET.Element:
     return element
 
 
-def _joints(scene: Scene, bodies: dict[str, str]) -> list[ET.Element]:
-    """A joint for every attachment of objects that are not both fixed."""
-    joints, hung = [], set()
+@dataclass(frozen=True, kw_only=True)
+class _Hung:
+    """How an object hangs."""
+
+    parent: str | None
+    """The object that holds it; None for one that is fixed, which SDF calls the world."""
+    points: np.ndarray
+    """Where it is held [m], in its own frame, shape (n, 3)."""
+
+
+def _hung(scene: Scene) -> dict[str, _Hung]:
+    """What hangs, by its name: one end of every attachment of objects that are not both fixed.
+
+    Raises:
+        ExportError: an object hangs from two, or in a ring.
+    """
+    found: dict[str, _Hung] = {}
     for one in scene.attachments:
         ends = (one.child, one.parent)
         if scene[one.child].fixed:
@@ -209,25 +234,34 @@ def _joints(scene: Scene, bodies: dict[str, str]) -> list[ET.Element]:
         child, parent = ends
         if scene[child].fixed:
             continue
-        if child in hung:
+        if child in found:
             raise ExportError(f'"{child}" hangs from two objects, which SDF cannot say; write mjcf or urdf instead.')
-        hung.add(child)
-        above = "world" if scene[parent].fixed else f"{bodies[parent]}::{LINK}"
+        above: str | None = None if scene[parent].fixed else parent
         points = np.array([pair[ends.index(one.child)] for pair in one.anchors])
-        joints.append(_joint(one, points, bodies[child], above))
-    return joints
+        found[child] = _Hung(parent=above, points=points)
+        while above is not None:
+            if above == child:
+                raise ExportError(f'"{child}" hangs from itself by others, which SDF cannot say; write mjcf instead.')
+            above = found[above].parent if above in found else None
+    return found
 
 
-def _joint(one: Attachment, points: np.ndarray, child: str, parent: str) -> ET.Element:
+def _within(outer: Pose, pose: Pose) -> Pose:
+    """`pose` as `outer` sees it."""
+    place = outer.rotation.T @ (np.array(pose.position) - np.array(outer.position))
+    return Pose.from_matrix(outer.rotation.T @ pose.rotation, place)
+
+
+def _joint(name: str, points: np.ndarray, child: str, parent: str) -> ET.Element:
     """The joint that leaves the freedom which `points` of the child [m], shape (n, 3), leave when they are held."""
     middle = points.mean(axis=0)
     singular = np.linalg.svd(points - middle)
     spread = np.append(singular[1], [0.0, 0.0, 0.0])
     kind = "ball" if spread[0] < _IN_LINE else "revolute" if spread[1] < _IN_LINE else "fixed"
-    joint = ET.Element("joint", name=f"{child}_hangs", type=kind)
-    joint.append(_pose(Pose(position=tuple(map(float, middle))), f"{child}::{LINK}"))  # type: ignore[arg-type]
+    joint = ET.Element("joint", name=name, type=kind)
+    joint.append(_pose(Pose(position=tuple(map(float, middle))), child))  # type: ignore[arg-type]
     ET.SubElement(joint, "parent").text = parent
-    ET.SubElement(joint, "child").text = f"{child}::{LINK}"
+    ET.SubElement(joint, "child").text = child
     if kind == "revolute":
         axis = ET.SubElement(joint, "axis")
         ET.SubElement(axis, "xyz").text = text(*singular[2][0])

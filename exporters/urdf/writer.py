@@ -115,8 +115,10 @@ def _link(asset: Asset, name: str, meshes: str = "") -> ET.Element:
     visual = ET.SubElement(link, "visual", name="visual")
     ET.SubElement(visual, "origin", xyz="0 0 0", rpy="0 0 0")
     ET.SubElement(ET.SubElement(visual, "geometry"), "mesh", filename=f"{meshes}visual.obj")
-    material = ET.SubElement(visual, "material", name=f"{name}_surface")
-    ET.SubElement(material, "color", rgba=f"1 1 1 {surface_of(asset).opacity:g}")
+    if (opacity := surface_of(asset).opacity) < 1.0:
+        # SAPIEN takes a colour in place of the texture, so what is opaque has none; PyBullet has no other opacity.
+        material = ET.SubElement(visual, "material", name=f"{name}_surface")
+        ET.SubElement(material, "color", rgba=f"1 1 1 {opacity:g}")
     for number in range(len(asset.parts)):
         collision = ET.SubElement(link, "collision", name=f"part_{number:03d}")
         _geometry(collision, f"{meshes}{part_file(number)}")

@@ -1,7 +1,8 @@
 """One asset as a USD layer: a rigid body with its look, its colliders and its mass.
 
     /<name>                 rigid body, mass, centre, principal inertia
-    /<name>/visual          what is seen, bound to materials/visual; a layer of its own where it is instanceable
+    /<name>/visual          what is seen, bound to materials/visual; a layer of its own where it is instanceable;
+                            with the choice of its level of detail where there are several
     /<name>/collision/...   one guide a convex part, bound to materials/physics
     /<name>/materials       the textured surface, and the friction
 
@@ -11,7 +12,7 @@ whose place is a double: rounding is then relative to the part and not to where 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.assets.materials import surface_of
+from pat3d.assets.mesh.simplify import coarser
 from pat3d.exporters.usd.engine_schemas import extend_body, extend_collider, extend_material
 from pat3d.exporters.usd.openusd import (
     Gf,
@@ -47,6 +49,9 @@ from pat3d.scene.obj_files import write_texture
 GUIDE_COLOUR = (0.4, 0.6, 0.9)
 """Linear RGB of colliders where guides are shown."""
 
+LEVELS = "lod"
+"""The variant set of levels of detail; its variants are lod0, the finest, lod1, ..."""
+
 _TRIES = 16
 """Rounds of moving points apart; what is left then stays."""
 
@@ -59,7 +64,15 @@ def set_metadata(stage: Stage, root: Prim) -> None:
     stage.SetDefaultPrim(root)
 
 
-def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, instanceable: bool = False) -> None:
+def write_asset(
+    asset: Asset,
+    name: str,
+    path: Path,
+    *,
+    as_mesh: bool = False,
+    instanceable: bool = False,
+    levels: Sequence[int] = (),
+) -> None:
     """Write `asset` as the USD layer `path`, and its texture beside it.
 
     Args:
@@ -68,6 +81,7 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, i
         path: ends in .usdc or .usda; its folder exists.
         as_mesh: hulls in place of box primitives.
         instanceable: what is seen is kept once, however many objects refer to the layer.
+        levels: most triangles of coarser levels of what is seen, variants of the set LEVELS of its prim.
     """
     stage = Usd.Stage.CreateNew(str(path))
     root = UsdGeom.Xform.Define(stage, f"/{name}").GetPrim()
@@ -82,12 +96,13 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, i
     materials = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("materials")).GetPath()
     if instanceable:
         own = path.with_name(f"{name}_visual{path.suffix}")
-        _write_visual(asset, name, own)
+        _write_visual(asset, name, own, levels)
         seen = UsdGeom.Xform.Define(stage, root.GetPath().AppendChild("visual")).GetPrim()
         seen.GetReferences().AddReference(f"./{own.name}")
         seen.SetInstanceable(True)
     else:
-        _seen(stage, asset, name, path.parent, root.GetPath().AppendChild("visual"), materials.AppendChild("visual"))
+        mesh = UsdGeom.Mesh.Define(stage, root.GetPath().AppendChild("visual"))
+        _seen(stage, asset, name, path.parent, mesh, materials.AppendChild("visual"), mesh.GetPrim(), levels)
     friction = physics_material(stage, materials.AppendChild("physics"), asset.material.friction)
     _label(friction, asset)
     collision = UsdGeom.Xform.Define(stage, root.GetPath().AppendChild("collision")).GetPath()
@@ -96,18 +111,28 @@ def write_asset(asset: Asset, name: str, path: Path, *, as_mesh: bool = False, i
     stage.Save()
 
 
-def _write_visual(asset: Asset, name: str, path: Path) -> None:
+def _write_visual(asset: Asset, name: str, path: Path, levels: Sequence[int]) -> None:
     """Write what is seen of `asset` as the USD layer `path`."""
     stage = Usd.Stage.CreateNew(str(path))
     root = UsdGeom.Xform.Define(stage, "/visual").GetPrim()
     set_metadata(stage, root)
     materials = UsdGeom.Scope.Define(stage, "/visual/materials").GetPath()
-    _seen(stage, asset, name, path.parent, root.GetPath().AppendChild("mesh"), materials.AppendChild("visual"))
+    mesh = UsdGeom.Mesh.Define(stage, root.GetPath().AppendChild("mesh"))
+    _seen(stage, asset, name, path.parent, mesh, materials.AppendChild("visual"), root, levels)
     stage.Save()
 
 
-def _seen(stage: Stage, asset: Asset, name: str, folder: Path, mesh: PrimPath, material: PrimPath) -> None:
-    """Define the mesh and the material, and write their pictures."""
+def _seen(
+    stage: Stage,
+    asset: Asset,
+    name: str,
+    folder: Path,
+    mesh: Shape,
+    material: PrimPath,
+    holder: Prim,
+    levels: Sequence[int],
+) -> None:
+    """Fill the mesh, whose levels `holder` has the choice of, define its material, and write their pictures."""
     # Named by the asset: importers that keep pictures by their file name would give all objects the same.
     write_texture(asset.visual.texture, folder / f"{name}.png")
     maps = {one: f"./{name}_{one}.png" for one in asset.visual.maps}
@@ -115,7 +140,28 @@ def _seen(stage: Stage, asset: Asset, name: str, folder: Path, mesh: PrimPath, m
         write_texture(asset.visual.maps[one], folder / file)
     look = textured_material(stage, material, f"./{name}.png", surface_of(asset), maps)
     _label(look, asset)
-    UsdShade.MaterialBindingAPI.Apply(_visual(stage, mesh, asset.visual)).Bind(look)
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(look)
+    finest, *coarse = _levels(asset, levels)
+    if not coarse:
+        _visual(stage, mesh.GetPath(), finest)
+        return
+    choice = holder.GetVariantSets().AddVariantSet(LEVELS)
+    for number, visual in enumerate((finest, *coarse)):
+        choice.AddVariant(f"{LEVELS}{number}")
+        choice.SetVariantSelection(f"{LEVELS}{number}")
+        with choice.GetVariantEditContext():
+            _visual(stage, mesh.GetPath(), visual)
+    choice.SetVariantSelection(f"{LEVELS}0")
+
+
+def _levels(asset: Asset, levels: Sequence[int]) -> list[VisualMesh]:
+    """What is seen, and what is left of it with at most so many triangles, where that is less than the level before."""
+    found = [asset.visual]
+    for triangles in levels:
+        visual = coarser(asset, triangles, asset.noun)[0].visual
+        if len(visual.faces) < len(found[-1].faces):
+            found.append(visual)
+    return found
 
 
 def _label(material: Surface, asset: Asset) -> None:
@@ -215,7 +261,7 @@ def _mass(prim: Prim, properties: MassProperties) -> None:
     mass.CreatePrincipalAxesAttr(Gf.Quatf(w, x, y, z))
 
 
-def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> Prim:
+def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> None:
     """The textured mesh."""
     points = _apart(mesh.vertices, mesh.faces)
     prim = define_mesh(stage, path, points, mesh.faces, corner_normals(mesh.vertices, mesh.faces))
@@ -225,7 +271,6 @@ def _visual(stage: Stage, path: PrimPath, mesh: VisualMesh) -> Prim:
     )
     coordinates.Set(Vt.Vec2fArray.FromNumpy(_single(uv)))
     coordinates.SetIndices(Vt.IntArray.FromNumpy(np.ascontiguousarray(index.reshape(-1), dtype=np.int32)))
-    return prim.GetPrim()
 
 
 def _apart(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float32]:

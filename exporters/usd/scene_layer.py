@@ -12,6 +12,7 @@ The prims, and what is below them:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,7 @@ from pat3d.exporters.usd.asset_layer import (
     write_asset,
 )
 from pat3d.exporters.usd.engine_schemas import extend_joint, extend_margin, extend_scene, shorten_body
-from pat3d.exporters.usd.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+from pat3d.exporters.usd.openusd import Gf, Kind, Sdf, Stage, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 from pat3d.geometry.contacts import find_contacts
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import Surface
@@ -51,8 +52,11 @@ def prim_name(slug: str) -> str:
     return f"_{slug}" if slug[0].isdigit() else slug
 
 
-def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
-    """Write `scene` and its assets as layers with the file name suffix "usdc" or "usda" into the empty `folder`."""
+def write_scene(scene: Scene, folder: Path, *, suffix: str, levels: Sequence[int] = ()) -> Path:
+    """Write `scene` and its assets as layers with the file name suffix "usdc" or "usda" into the empty `folder`.
+
+    `levels` are most triangles of coarser levels of detail.
+    """
     contacts = find_contacts(scene.objects, CONTACT_GAP)
     margins, flush = contact_margins(scene, contacts), flush_boxes(scene, contacts)
     path = folder / f"scene.{suffix}"
@@ -61,7 +65,12 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
     set_metadata(stage, world)
     Usd.ModelAPI(world).SetKind(Kind.Tokens.assembly)
     stage.GetRootLayer().customLayerData = {
-        "pat3d": {"prompt": scene.prompt, "seed": str(scene.seed), "settling_friction": scene.settling_friction}
+        "pat3d": {
+            "prompt": scene.prompt,
+            "seed": str(scene.seed),
+            "settling_friction": scene.settling_friction,
+            **({"levels": Vt.IntArray(list(levels))} if levels else {}),
+        }
     }
     physics = UsdPhysics.Scene.Define(stage, "/World/PhysicsScene")
     physics.CreateGravityDirectionAttr(Gf.Vec3f(0.0, 0.0, -1.0))
@@ -82,6 +91,7 @@ def write_scene(scene: Scene, folder: Path, *, suffix: str) -> Path:
                 folder / stored[id(asset)],
                 as_mesh=id(asset) in flush,
                 instanceable=uses[id(asset)] > 1,
+                levels=levels,
             )
         prim = UsdGeom.Xform.Define(stage, f"/World/{name}").GetPrim()
         prim.GetReferences().AddReference(stored[id(asset)])

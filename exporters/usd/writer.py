@@ -8,6 +8,7 @@ precision is rounded once.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -21,7 +22,9 @@ from pat3d.scene.naming import slug
 SUFFIXES = (".usdc", ".usda", ".usdz")
 
 
-def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: bool = False) -> Path:
+def write_usd(
+    scene: Scene, folder: str | Path, *, text: bool = False, package: bool = False, levels: Sequence[int] = ()
+) -> Path:
     """Write `scene` as scene.usdc with one referenced layer an asset into `folder`, replacing it as a whole.
 
     Args:
@@ -29,6 +32,8 @@ def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: 
         folder: new, empty, or an earlier export.
         text: scene.usda and assets to match, for people to read.
         package: also scene.usdz, the same in one file.
+        levels: most triangles of coarser levels of detail, each less than the one before; what is seen of every object
+            has them as variants of its set "lod", the full one chosen.
 
     Returns:
         The path of scene.usdc, or of scene.usda.
@@ -39,16 +44,18 @@ def write_usd(scene: Scene, folder: str | Path, *, text: bool = False, package: 
     from pat3d.exporters.usd.scene_layer import write_scene
 
     with _replaced(Path(folder), "scene") as fresh:
-        path = write_scene(scene, fresh, suffix="usda" if text else "usdc")
+        path = write_scene(scene, fresh, suffix="usda" if text else "usdc", levels=levels)
         if package:
             with TemporaryDirectory(prefix="pat3d-usdz-") as scratch:
                 # Layers in a package are binary, whatever lies beside it.
-                layers = path if not text else write_scene(scene, Path(scratch), suffix="usdc")
+                layers = path if not text else write_scene(scene, Path(scratch), suffix="usdc", levels=levels)
                 _package(layers, path.with_suffix(".usdz"))
     return Path(folder) / path.name
 
 
-def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *, text: bool = False) -> Path:
+def write_usd_asset(
+    asset: Asset, folder: str | Path, name: str | None = None, *, text: bool = False, levels: Sequence[int] = ()
+) -> Path:
     """Write one asset as `<name>.usdc` with its texture into `folder`, replacing it as a whole.
 
     Args:
@@ -56,6 +63,7 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
         folder: new, empty, or an earlier export of the same name.
         name: of the file and the body; the asset's noun where not given.
         text: .usda in place of .usdc.
+        levels: as for `write_usd`.
 
     Returns:
         The path of the layer.
@@ -69,8 +77,24 @@ def write_usd_asset(asset: Asset, folder: str | Path, name: str | None = None, *
     stem = prim_name(slug(name or asset.noun))
     file = f"{stem}.{'usda' if text else 'usdc'}"
     with _replaced(Path(folder), stem) as fresh:
-        write_asset(asset, stem, fresh / file)
+        write_asset(asset, stem, fresh / file, levels=levels)
     return Path(folder) / file
+
+
+def levels_of(folder: str | Path) -> tuple[int, ...]:
+    """The `levels` that the USD export in `folder` was written with; none where it is damaged.
+
+    Raises:
+        ExportError: usd-core is not installed.
+    """
+    from pat3d.exporters.usd.openusd import Sdf, Tf
+
+    found = [path for suffix in SUFFIXES[:2] if (path := Path(folder) / f"scene{suffix}").is_file()]
+    try:
+        layer = Sdf.Layer.FindOrOpen(str(found[0])) if found else None
+    except Tf.ErrorException:
+        return ()
+    return () if layer is None else tuple(map(int, layer.customLayerData.get("pat3d", {}).get("levels", ())))
 
 
 def _package(path: Path, package: Path) -> None:

@@ -14,12 +14,13 @@ import manifold3d
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator
-from scipy.spatial import ConvexHull, HalfspaceIntersection
+from scipy.spatial import ConvexHull
 
 from pat3d.assets.shapes import SMOOTH_SEGMENTS, Shape, convex
 from pat3d.assets.turned import MOST_CORNERS, allowed, between, outline, rings, turned_parts
 from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.normals import enclosed_volume
+from pat3d.geometry.planes import enclosed
 
 MOST_PLANES = 34
 """Of a part: three meet at each of its 64 corners."""
@@ -271,18 +272,8 @@ def covered(pieces: Sequence[Shape], cover: Shape) -> tuple[Shape, ...]:
 def circumscribed(points: NDArray[np.float64], directions: NDArray[np.float64]) -> NDArray[np.float64]:
     """Corners of the polyhedron of half-spaces along `directions` that touch `points`."""
     directions = directions / np.linalg.norm(directions, axis=1)[:, None]
-    centre = points.mean(axis=0)
-    size = float(np.ptp(points, axis=0).max())
-    local = (points - centre) / size
-    reach = (directions @ local.T).max(axis=1)
-    corners = HalfspaceIntersection(np.column_stack([directions, -reach]), np.zeros(3)).intersections
-    # Where more than three planes meet, the corner comes out several times, apart by rounding.
-    _, first = np.unique(np.round(corners / 1e-7).astype(np.int64), axis=0, return_index=True)
-    kept: list[NDArray[np.float64]] = []
-    for corner in corners[np.sort(first)]:
-        if all(np.abs(corner - other).max() > 3e-7 for other in kept):
-            kept.append(corner)
-    return np.array(kept) * size + centre
+    reach = (points @ directions.T).max(axis=0)
+    return enclosed(np.column_stack([directions, -reach]), points.mean(axis=0))
 
 
 def _snug(points: NDArray[np.float64], directions: NDArray[np.float64], limit: float) -> NDArray[np.float64]:

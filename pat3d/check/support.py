@@ -30,6 +30,9 @@ UPRIGHT = 0.99
 FLAT_AROUND = 0.05
 """What is flat this far around a contact, as a share of the size of what lies there, is a floor."""
 
+STRAIGHT = 0.01
+"""Share of the largest curvature below which a surface is straight along one way."""
+
 CAP = 1.3
 """A surface is flat, not round, where it is near to the plane for this much further than its curvature says."""
 
@@ -210,7 +213,9 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
         return None
     at = corners.mean(axis=0)
     asset, pose = scene.objects[body].asset, scene.objects[body].pose
-    upper = curvature(pose.apply(asset.visual.vertices), patch.plane, at, sign, float(asset.size.max()))
+    upper = curvature(
+        pose.apply(asset.visual.vertices), asset.visual.faces, patch.plane, at, sign, float(asset.size.max())
+    )
     if upper is None:
         return None
     # A foot is flat for further than so round a thing would be near to the plane.
@@ -221,12 +226,15 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
     if other != GROUND_INDEX and not patch.flat(1 - own, at, FLAT_AROUND * float(asset.size.max())):
         under = scene.objects[other]
         vertices = under.pose.apply(under.asset.visual.vertices)
-        bent = curvature(vertices, patch.plane, at, -sign, float(under.asset.size.max()))
+        bent = curvature(vertices, under.asset.visual.faces, patch.plane, at, -sign, float(under.asset.size.max()))
         if bent is None:
             return None
         lower = bent
     centre = pose.apply(np.array([asset.mass_properties.centre_of_mass]))
-    return rolling(upper, lower, sign * float(patch.plane.seen(centre)[0, 2]))
+    found = rolling(upper, lower, sign * float(patch.plane.seen(centre)[0, 2]))
+    # Along a line there may be a flat side that its ends do not show, so that it is only said that it may roll.
+    straight = np.abs(turns).min() < STRAIGHT * np.abs(turns).max()
+    return "neutral" if straight and found == "unstable" else found
 
 
 def _worst(names: list[str], own: list[Patch], body: int) -> tuple[Excess, ...]:

@@ -6,6 +6,7 @@ objects may press where both meshes are within a distance of the plane.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -27,6 +28,11 @@ LEAST_ALLOWED, SHARE_ALLOWED = 1e-3, 0.01
 LEANING = 5.0
 """The same where objects touch in a point or along an edge, in those distances: what leans a little further on leans on
 the same, while a floor that is not there carries nothing."""
+
+DEEPER, LEVEL = 3e-4, math.tan(math.radians(1.0))
+"""Where parts touch in an area, surfaces may be this much further off than the nearest and carry: a distance [m], or a
+share of the area's length. What has to tip by more than what counts as still to reach the low side of a lid does not
+lie there."""
 
 TOLERANCE = 1e-5
 """By this much a mesh may stick out of its parts, or end below them [m]."""
@@ -60,6 +66,8 @@ class Patch:
     """What the meshes of both objects have there; None for the ground."""
     allowed: tuple[float, float]
     """Distances within which the surfaces of both may carry [m]."""
+    deeper: float
+    """How much further from the plane than the nearest surfaces others may be and carry [m]."""
 
     @cached_property
     def air(self) -> float:
@@ -79,6 +87,8 @@ class Patch:
     def corners(self, distance: float, *, limited: bool = False) -> NDArray[np.float64]:
         """Corners in the plane of where both surfaces are within `distance`, and allowed if `limited`, shape (n, 2)."""
         limits = self.allowed if limited else (np.inf, np.inf)
+        if limited and np.isfinite(self.deeper):
+            distance = min(distance, self.air + self.deeper)
         above, below = (
             rectangle(self.window) if side is None else side.within(min(distance, limit) + self.gap / 2 + TOLERANCE)
             for side, limit in zip(self.sides, limits, strict=True)
@@ -106,7 +116,8 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
         flat = plane.seen(points)[:, :2]
         beside = _BESIDE * min(sizes[body] for body in (first, second) if body != GROUND_INDEX)
         window = np.stack([flat.min(axis=0) - beside, flat.max(axis=0) + beside])
-        factor = 1.0 if _spans_area(flat) else LEANING
+        length = float(np.ptp(flat, axis=0).max())
+        factor, deeper = (1.0, max(DEEPER, LEVEL * length)) if _spans_area(flat) else (LEANING, np.inf)
         found.append(
             Patch(
                 bodies=(first, second),
@@ -124,6 +135,7 @@ def patches(scene: Scene, contacts: Contacts) -> list[Patch]:
                     np.inf if body == GROUND_INDEX else factor * max(LEAST_ALLOWED, SHARE_ALLOWED * sizes[body])
                     for body in (first, second)
                 ),
+                deeper=deeper,
             )
         )
     return found

@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from pat3d.cli.console import console, verdict
-from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, settings_of, suite_robot
+from pat3d.cli.episodes import EPISODE_COUNT, EPISODES, SETTINGS, episodes_from, of_suite, settings_of
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import command, option
 from pat3d.errors import EvaluationError
@@ -114,7 +114,7 @@ def train(options: argparse.Namespace) -> int:
         demonstrations=options.demonstrations,
         overwrite=options.overwrite,
         sees=options.sees,
-        settings=RolloutSettings(robot=suite_robot(options)),
+        settings=RolloutSettings(**of_suite(options)),
         target=console(stderr=options.json),
     )
     if options.json:

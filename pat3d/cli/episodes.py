@@ -31,7 +31,10 @@ EPISODES = (
 
 SETTINGS = fields(
     RolloutSettings,
-    {"max_steps": {"shown": "20 s, and 15 s for each further object that the task moves"}},
+    {
+        "vary": {"default": None, "metavar": "METRES", "shown": "what the suite says; 0 without one"},
+        "max_steps": {"shown": "20 s, and 15 s for each further object that the task moves"},
+    },
     robot="panda, ur5e, so101, ... or PATH.xml",
     control="osc, joint_velocity or joint_position",
     obs="state, rgb or rgbd",
@@ -39,6 +42,7 @@ SETTINGS = fields(
     control_freq="actions a second",
     max_steps="of an episode",
     image_size="of observations [pixel]",
+    vary="by which every episode's start moves the objects along x and y",
     replan="actions done of a chunk before the policy is asked again",
     act_seconds="a policy that thinks for longer hangs [s]",
     strict="actions out of range are policy errors, instead of clipped and counted",
@@ -46,19 +50,23 @@ SETTINGS = fields(
 
 
 def settings_of(options: argparse.Namespace) -> RolloutSettings:
-    """What is the same for every episode; a suite's robot is the one that it was made for, unless another is named."""
+    """What is the same for every episode; a suite's robot and variation are its own, unless others are named."""
     settings = values(RolloutSettings, options)
-    settings["robot"] = settings["robot"] or suite_robot(options)
+    own = of_suite(options)
+    settings["robot"] = settings["robot"] or own["robot"]
+    # Of demonstrations the variation is the suite's.
+    settings["vary"] = own["vary"] if settings.get("vary") is None else settings["vary"]
     return RolloutSettings(**settings)
 
 
-def suite_robot(options: argparse.Namespace) -> str:
-    """The robot that the suite was made for; "" without a suite."""
+def of_suite(options: argparse.Namespace) -> dict[str, Any]:
+    """The robot that the suite was made for, "" without a suite, and by how much its resets move the objects [m]."""
     if not options.suite:
-        return ""
+        return {"robot": "", "vary": 0.0}
     from pat3d.envs.suites.suite import Suite
 
-    return Suite.open(options.suite).request.robot
+    request = Suite.open(options.suite).request
+    return {"robot": request.robot, "vary": request.vary}
 
 
 def episodes_from(

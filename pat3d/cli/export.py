@@ -89,6 +89,12 @@ _MESH_OPTIONS = (
         metavar="N",
         shown="as they are",
     ),
+    option(
+        "--usd-levels",
+        "coarser levels of detail in USD, as variants: most triangles of each, with commas between",
+        metavar="N,N",
+        shown="the full one alone",
+    ),
     *_MESH_OPTIONS,
     JSON,
     examples="""
@@ -96,6 +102,7 @@ _MESH_OPTIONS = (
     pat3d export scenes/desk --formats usd --usda --usdz --out exports/desk
     pat3d export scenes/desk --formats urdf --mesh-paths absolute --out exports/desk      for Pinocchio
     pat3d export scenes/desk --max-triangles 2000 --out exports/desk_light          scans for many copies on a GPU
+    pat3d export scenes/desk --formats usd --usd-levels 5000,1000 --out exports/desk    choice "lod" of each object
     pat3d export scenes/desk --formats html,glb --out exports/desk         one file that opens in any browser
     pat3d export scenes/desk --formats simready --out exports/desk        assets with thumbnails and metadata
     pat3d export mug.glb --mass 0.3 --out assets/mug                   one mesh: repaired, decomposed, dropped
@@ -108,7 +115,7 @@ def export(options: argparse.Namespace) -> int:
     """`pat3d export`."""
     source, out = Path(options.source).expanduser(), Path(options.out).expanduser()
     formats, notes = _formats(options.formats)
-    usd = {"text": options.usda, "package": options.usdz}
+    usd = {"text": options.usda, "package": options.usdz, "levels": _levels(options.usd_levels)}
     mesh_paths = check_mesh_paths(options.mesh_paths or MESH_PATHS[0])
     names = (one.name.removeprefix("--").replace("-", "_") for one in _MESH_OPTIONS)
     mesh = {name: value for name in names if (value := getattr(options, name)) is not None}
@@ -127,6 +134,20 @@ def export(options: argparse.Namespace) -> int:
     for note in notes:
         console().print(f"note  {note}", markup=False)
     return code
+
+
+def _levels(given: str | None) -> tuple[int, ...]:
+    """The numbers of --usd-levels, each less than the one before."""
+    words = [] if given is None else given.split(",")
+    try:
+        levels = tuple(int(word) for word in words)
+    except ValueError:
+        levels = (0,)
+    if any(number < 1 for number in levels) or list(levels) != sorted(set(levels), reverse=True):
+        raise SpecError(
+            f"--usd-levels {given}: expected numbers of triangles, each less than the one before: 5000,1000."
+        )
+    return levels
 
 
 def _formats(given: list[str] | None) -> tuple[tuple[str, ...], list[str]]:

@@ -62,6 +62,12 @@ PAINT = option(
     action="store_true",
     group="a photograph instead of a sentence",
 )
+RELATIVE = option(
+    "--relative-depth",
+    "depth is right up to a factor: metres follow from the size of the least occluded object, as labels or a model say",
+    action="store_true",
+    group="a photograph instead of a sentence",
+)
 _OUT = option("--out", "scene folder to write; an earlier one is replaced at the end", metavar="FOLDER")
 
 INPAINT = option(
@@ -87,6 +93,7 @@ INPAINT = option(
     *PHOTOGRAPH,
     PAINT,
     INPAINT,
+    RELATIVE,
     option("--ask", "on a terminal, ask where the sentence has two readings", action="store_true"),
     _OUT,
     *fields(Settings, _KEYWORDS, **_HELPS),
@@ -150,11 +157,13 @@ def _generate_from_image(options: argparse.Namespace) -> int:
         raise SpecError("--masks and --depth belong to a photograph that is there already: give it as --image.")
     if options.prompts is not None or options.critic:
         raise SpecError("--image and --paint make one scene of one photograph, without --prompts and --critic.")
+    if options.relative_depth and options.depth is None:
+        raise SpecError("--relative-depth is about a file: give it as --depth FILE. Models measure in metres.")
     files = {name: Path(value) for name in PHOTOGRAPHED if (value := getattr(options, name)) is not None}
     picture = None if options.image is None else Path(options.image)
     with watch(console(stderr=True)) as progress:
         outcome = generate_from_image(
-            Photograph(picture=picture, **files),
+            Photograph(picture=picture, relative=options.relative_depth, **files),
             out=options.out,
             prompt=options.prompt or "",
             settings=Settings(**values(Settings, options)),

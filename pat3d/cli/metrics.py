@@ -136,6 +136,7 @@ def judging(options: argparse.Namespace, progress: Progress) -> Callable[[Subjec
 @command(
     option("prompts", "a sentence a line; # begins a comment", metavar="PROMPTS"),
     option("--out", "folder of the scenes and of what was measured; the same command goes on there", required=True),
+    option("--paint", "paint every prompt, and make its scene from the picture; needs models", action="store_true"),
     option("--seed", "the same seed gives the same scenes", type=int, default=0),
     option("--device", "cpu or cuda", default="cpu"),
     CLIP,
@@ -144,14 +145,16 @@ def judging(options: argparse.Namespace, progress: Progress) -> Callable[[Subjec
     JSON,
     examples="""
     pat3d bench table1 prompts.txt --out table1
+    pat3d bench table1 prompts.txt --out painted --paint      from a picture of every prompt, as the paper does
     """,
     notes="Beside the whole method: its layout before settling, no scene tree (every object for itself on the ground), "
-    "and no optimisation (the first layout settled, whatever becomes of it). The paper's raw layout comes from a "
-    "picture; a sentence has none.",
+    "and no optimisation (the first layout settled, whatever becomes of it). With --paint also the raw layout, of the "
+    "objects as they were fitted to the picture; a sentence has none.",
     summary="the paper's Table 1 on your prompts, beside its published rows",
 )
 def table1(options: argparse.Namespace) -> int:
     """`pat3d bench table1`."""
+    from pat3d.cli.photographs import painting_lookers
     from pat3d.generation.many import read_prompts
     from pat3d.generation.settings import Settings
     from pat3d.generation.table1 import PUBLISHED, means
@@ -160,10 +163,18 @@ def table1(options: argparse.Namespace) -> int:
     prompts, entries = read_prompts(options.prompts), []
     judged_by = json.dumps([options.clip, options.vqa, options.plausibility])
     settings = Settings(seed=options.seed, device=options.device)
+    lookers = painting_lookers() if options.paint else None
     errors = console(stderr=True)
     with watch(errors) as progress:
-        judge = judging(options, progress)
-        rows = measured(prompts, options.out, settings=settings, judge=judge, judged_by=judged_by, progress=progress)
+        rows = measured(
+            prompts,
+            options.out,
+            settings=settings,
+            judge=judging(options, progress),
+            judged_by=judged_by,
+            lookers=lookers,
+            progress=progress,
+        )
         for number, found in enumerate(rows, start=1):
             entries += found
             errors.print(f"{number}/{len(prompts)} {found[0].prompt}", markup=False, soft_wrap=True)

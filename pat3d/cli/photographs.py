@@ -86,6 +86,15 @@ def lookers_of(options: argparse.Namespace) -> Lookers:
     )
 
 
+def painting_lookers() -> Lookers:
+    """A model for everything about a photograph that is painted.
+
+    Raises:
+        ModelError: one is not set up; all that are missing are named at once.
+    """
+    return lookers_of(argparse.Namespace(paint=True, inpaint=False, masks=None, depth=None, labels=None))
+
+
 def lister_of(asked: Chat) -> Lister:
     """Says what is in a picture."""
     from pat3d.vision.listing import ChatLister

@@ -35,8 +35,11 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     *fields(
         Request,
         {
-            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "all but retrieve and chain"},
+            "tasks": {"nargs": None, "default": ",".join(Request.tasks), "shown": "pick to unload"},
             "objects": {"nargs": None, "metavar": "N or N-M", "default": "{}-{}".format(*Request.objects)},
+            "clutter": {"nargs": None, "metavar": "N,N", "default": "", "shown": "as --objects leaves"},
+            "visible": {"metavar": "PERCENT"},
+            "vary": {"metavar": "METRES"},
             "least_tilt": DEGREES,
             "device": {"choices": DEVICES},
             "picture": {"metavar": "PIXELS"},
@@ -45,6 +48,10 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
         scenes="how many; a larger number makes a suite longer",
         seed="the same seed gives the same suite",
         objects="objects of a scene",
+        clutter="objects beside those of the task, of which every scene has one number",
+        alike="distractors by likeness: of the noun of what is moved in another colour or size, or of its kind",
+        visible="of the agent's picture at the start that every object of the task covers at least",
+        vary="by which every reset moves the objects along x and y",
         robot="that must be able to do the tasks",
         least_tilt=LEAST_TILT,
         stable="without scenes in which something rests on its round side, from where it may roll",
@@ -65,6 +72,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     summary="make a suite, or what is missing of it",
     examples="""
     pat3d suite generate suites/tabletop --tasks pick,place,stack,sort,unload --scenes 1000 --seed 0 --workers auto
+    pat3d suite generate suites/hard --clutter 3,5,8 --alike 2 --visible 0.5 --vary 0.05
     pat3d suite generate suites/tabletop-v1 --reference tabletop-v1 --workers auto
     """,
     notes="Interrupted or killed, the same command goes on where it stopped. The same seed gives the same suite with "
@@ -78,7 +86,8 @@ def generate(options: argparse.Namespace) -> int:
 
     worker_count(options.workers)
     tasks = tuple(name.strip() for name in options.tasks.split(","))
-    request = Request(**values(Request, options) | {"tasks": tasks, "objects": _range(options.objects)})
+    more = {"tasks": tasks, "objects": _range(options.objects), "clutter": _numbers(options.clutter)}
+    request = Request(**values(Request, options) | more)
     if options.reference:
         request = _of_reference(options.reference, request)
     with _progress() as tell:
@@ -239,7 +248,7 @@ def _episodes(options: argparse.Namespace, suite: Any, **more: Any) -> tuple[Any
     if not 1 <= options.episodes <= MAX_EPISODES:
         raise SuiteError(f"--episodes is 1 to {MAX_EPISODES}, not {options.episodes}.")
     scenes, _ = suite_settings(options.folder, options.split)
-    settings = RolloutSettings(robot=suite.request.robot, **more)
+    settings = RolloutSettings(robot=suite.request.robot, vary=suite.request.vary, **more)
     return episodes_of(scenes, options.episodes, seed=options.seed), settings
 
 
@@ -284,6 +293,12 @@ def _range(text: str) -> tuple[int, int]:
     if match is None:
         raise SuiteError(f'--objects is a number or a range such as 5-8, not "{text}".')
     return int(match[1]), int(match[2] or match[1])
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    if not re.fullmatch(r"(\d{1,3}(,\d{1,3})*)?", text.replace(" ", "")):
+        raise SuiteError(f'--clutter is numbers of objects such as 3,5,8, not "{text}".')
+    return tuple(int(one) for one in text.split(",") if one.strip())
 
 
 def _summary(suite: Any) -> None:

@@ -266,6 +266,7 @@ class Attempts:
         with self.clock("kernels"):
             device = prepare(self.device, self.progress)
         with self.clock("settling"):
+            self.progress(Event(stage="settling", step=0, scene=scene))
             settled = settle_scene(scene, device=device, progress=self.progress)
         self.workspace.save_settled(number, inputs, settled.of(scene), notes, settled)
         return settled

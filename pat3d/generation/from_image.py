@@ -6,8 +6,23 @@ from collections.abc import Mapping
 from typing import Any
 
 from pat3d.generation.request import SceneRequest, UnplacedObject
+from pat3d.geometry.pose import Pose
+from pat3d.scene.model import Scene, SceneObject
 from pat3d.vision.placing import placed_apart
 from pat3d.vision.recover import Recovered
+
+
+def raw_layout(found: Recovered, *, prompt: str) -> Scene:
+    """The objects of a picture exactly where they were fitted: they may intersect, float and sink into the ground."""
+    poses = {name: Pose.from_matrix(one.placed.rotation, one.placed.position) for name, one in found.fits.items()}
+    return Scene(
+        objects=tuple(
+            SceneObject(name=name, asset=found.sized(name), pose=pose, initial_pose=pose)
+            for name, pose in poses.items()
+        ),
+        relations=found.relations,
+        prompt=prompt,
+    )
 
 
 def request_of_recovered(

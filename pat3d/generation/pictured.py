@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 
 from pat3d.assets import sources
 from pat3d.assets.generated.orders import Orders
@@ -16,21 +16,32 @@ from pat3d.assets.variant import Variant
 from pat3d.errors import AssetError, PromptError, SpecError
 from pat3d.generation.from_image import request_of_recovered
 from pat3d.generation.pipeline import Outcome, make
-from pat3d.generation.request import derived_seed
+from pat3d.generation.request import SceneRequest, derived_seed
 from pat3d.generation.settings import Settings
 from pat3d.progress import Clock, CpuBudget, Event, Progress, silent
 from pat3d.scene.asset import Asset
 from pat3d.scene.folder import check_target
 from pat3d.scene.replacement import write_bytes
 from pat3d.vision.files import Label, Labels
-from pat3d.vision.looking import Lookers, Photograph, look
+from pat3d.vision.looking import Looked, Lookers, Photograph, look
+from pat3d.vision.observation import Observation
+from pat3d.vision.occlusion import doubt_of_size, least_occluded
 from pat3d.vision.painting import encoded
-from pat3d.vision.recover import recover
+from pat3d.vision.recover import Recovered, recover
 
 PICTURE = "picture.png"
 """In the scene's folder: what the photograph became, side by side."""
 PAINTED = "photograph.png"
 """In the scene's folder: the photograph, where it was painted."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Understood:
+    """A photograph, and what it asks for."""
+
+    request: SceneRequest
+    found: Recovered
+    looked: Looked
 
 
 def generate_from_image(
@@ -68,17 +79,62 @@ def generate_from_image(
     own = settings or Settings()
     folder, clock, budget = check_target(out), Clock(), CpuBudget(own.cpu_limit)
     watched = budget.watching(progress)
-    with clock("picture"):
-        watched(Event(stage="reading the picture"))
-        looked = look(photograph, lookers or Lookers(), prompt=prompt, progress=watched)
+    one = understand(
+        photograph,
+        prompt=prompt,
+        seed=own.seed,
+        lookers=lookers,
+        libraries=libraries,
+        orders=orders,
+        clock=clock,
+        progress=watched,
+    )
+    outcome = make(one.request, folder=folder, settings=own, clock=clock, progress=watched)
+    watched(Event(stage="drawing what the picture became"))
+    from pat3d.view.preview import save_row
+    from pat3d.vision.panels import panels
+
+    save_row(panels(one.looked.seen, one.found, outcome.scene), folder / PICTURE)
+    if photograph.picture is None:
+        write_bytes(folder / PAINTED, encoded(one.looked.picture))
+    return outcome
+
+
+def understand(
+    photograph: Photograph,
+    *,
+    prompt: str,
+    seed: int,
+    lookers: Lookers | None = None,
+    libraries: Sequence[str] = (),
+    orders: Orders | None = None,
+    clock: Clock | None = None,
+    progress: Progress = silent,
+) -> Understood:
+    """What a photograph shows, and the scene that it asks for; arguments and errors are those of `generate_from_image`.
+
+    Args:
+        photograph: with depth, masks and labels, as far as there are files of them.
+        prompt: what the scene is called; where there is no picture, what is painted.
+        seed: of the assets.
+        lookers: models that say what no file does.
+        libraries: to take objects from before the catalogue.
+        orders: has a mesh server make what nothing else has.
+        clock: of the stages.
+        progress: told what is going on.
+    """
+    own = clock or Clock()
+    with own("picture"):
+        progress(Event(stage="reading the picture"))
+        looked = look(photograph, lookers or Lookers(), prompt=prompt, progress=progress)
         seen, labels = looked.seen, looked.labels
-    with clock("assets"):
-        assets = _assets(labels, own.seed, libraries, orders, watched)
-    with clock("fitting"):
+    with own("assets"):
+        assets = _assets(labels, seed, libraries, orders, progress)
+    with own("fitting"):
         judge = None if lookers is None or lookers.judge is None else lookers.judge()
-        found = recover(seen, assets, judge=judge, progress=watched)
-        if not labels.metric:
-            found = found.resized({one.name: one.size for one in labels.objects if one.size is not None}, seen)
+        stances = {one.name: one.stance for one in labels.objects}
+        found = recover(seen, assets, stances=stances, judge=judge, progress=progress)
+        found = _measured(found, labels, seen)
         found = replace(found, notes=(*looked.notes, *found.notes))
     request = request_of_recovered(
         found,
@@ -86,19 +142,24 @@ def generate_from_image(
         phrases={one.name: one.name for one in labels.objects},
         record={
             "labels": [asdict(one) for one in labels.objects],
+            "least_occluded": labels.least_occluded,
             **looked.record,
             "picture": photograph.files(),
         },
     )
-    outcome = make(request, folder=folder, settings=own, clock=clock, progress=watched)
-    watched(Event(stage="drawing what the picture became"))
-    from pat3d.view.preview import save_row
-    from pat3d.vision.panels import panels
+    return Understood(request=request, found=found, looked=looked)
 
-    save_row(panels(seen, found, outcome.scene), folder / PICTURE)
-    if photograph.picture is None:
-        write_bytes(folder / PAINTED, encoded(looked.picture))
-    return outcome
+
+def _measured(found: Recovered, labels: Labels, seen: Observation) -> Recovered:
+    """`found` in metres: those of the least occluded object where the depth has none, else compared with them."""
+    sizes = {one.name: one.size for one in labels.objects if one.size is not None}
+    if not labels.metric:
+        return found.resized(sizes, seen, said=labels.least_occluded)
+    if not sizes:
+        return found
+    name, _ = least_occluded(found, seen, sizes, labels.least_occluded)
+    doubt = doubt_of_size(found, name, sizes[name])
+    return found if doubt is None else replace(found, notes=(*found.notes, doubt))
 
 
 def _assets(

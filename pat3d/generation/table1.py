@@ -2,7 +2,8 @@
 
 Of every prompt four scenes are measured: the layout before settling, the scene as generated, the scene without a scene
 tree (every object for itself on the ground) and the first layout settled, whatever becomes of it, without another
-attempt or optimisation. The paper's raw layout comes from a picture, of which a sentence has none.
+attempt or optimisation. A sentence has no picture, from which the paper's raw layout comes; where every prompt is
+painted first, the objects as they were fitted to that picture are measured, too.
 """
 
 from __future__ import annotations
@@ -21,15 +22,20 @@ from pat3d.check.metrics.table import Geometry, measure
 from pat3d.errors import Pat3dError
 from pat3d.generation.attempts import Attempts
 from pat3d.generation.checkpoints import Workspace
+from pat3d.generation.from_image import raw_layout, request_of_recovered
 from pat3d.generation.many import folder_names
-from pat3d.generation.pipeline import run_prompt
+from pat3d.generation.pictured import understand
+from pat3d.generation.pipeline import make, run_prompt
 from pat3d.generation.request import SceneRequest, request_of
 from pat3d.generation.settings import Settings
 from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import ScenePlan
 from pat3d.progress import Clock, Event, Progress, silent
 from pat3d.scene.folder import key_of, read_json, write_json
 from pat3d.scene.model import Scene
 from pat3d.scene.versions import versions
+from pat3d.vision.looking import Lookers, Photograph
+from pat3d.vision.recover import Recovered
 
 COLUMNS = ("clip", "vqa", "D", "R", "plausibility")
 """As the paper has them."""
@@ -44,8 +50,9 @@ PUBLISHED: dict[str, tuple[float | None, ...]] = {
 }
 """Table 1 of the paper (ICLR 2026): other prompts, and objects made from pictures."""
 
-VARIANTS = ("initialisation", "no scene tree", "no optimisation", "full method")
-"""What is measured here."""
+RAW = "raw layout"
+VARIANTS = (RAW, "initialisation", "no scene tree", "no optimisation", "full method")
+"""What is measured here; the first of painted prompts alone."""
 
 Judging = Callable[[Subject], Appearance]
 
@@ -71,6 +78,7 @@ def table1(
     settings: Settings,
     judge: Judging | None = None,
     judged_by: str = "",
+    lookers: Lookers | None = None,
     progress: Progress = silent,
 ) -> Iterator[tuple[Entry, ...]]:
     """The entries of every prompt, as they are found; those that an earlier run kept in `out` are not measured again.
@@ -81,25 +89,26 @@ def table1(
         settings: of the scenes.
         judge: says how well a scene shows its prompt, where there are networks for it.
         judged_by: which networks; entries that others judged are measured again.
+        lookers: models that paint every prompt and say what the picture shows; None where sentences are planned.
         progress: told what is going on.
     """
     root = Path(out).expanduser()
     settings = replace(settings, resume=True)
     for prompt, name in folder_names(prompts).items():
-        file, key = root / f"{name}.json", key_of(versions(), prompt, repr(settings), judged_by)
+        file, key = root / f"{name}.json", key_of(versions(), prompt, repr(settings), judged_by, lookers is not None)
         kept = read_json(file)
         if kept.get("key") == key:
             yield tuple(_read(entry) for entry in kept["entries"])
             continue
         root.mkdir(parents=True, exist_ok=True)
         entries = []
-        for variant, scene in _variants(prompt, root / name, settings, progress):
+        for variant, scene in _variants(prompt, root / name, settings, lookers, progress):
             if isinstance(scene, Pat3dError):
                 values: dict[str, float | None] = dict.fromkeys(COLUMNS)
                 entries.append(Entry(prompt=prompt, variant=variant, values=values, failed=str(scene)))
                 continue
             progress(Event(stage="measuring", detail=f"{name}: {variant}"))
-            subject = subject_of(scene, initial=variant == VARIANTS[0])
+            subject = subject_of(scene, initial=variant == VARIANTS[1])
             seen = None if judge is None else judge(subject)
             entries.append(_entry(prompt, variant, measure(subject, device=settings.device), seen))
         write_json(file, {"key": key, "entries": [_written(entry) for entry in entries]})
@@ -119,21 +128,41 @@ def means(entries: Sequence[Entry]) -> dict[str, dict[str, float | None]]:
 
 
 def _variants(
-    prompt: str, folder: Path, settings: Settings, progress: Progress
+    prompt: str, folder: Path, settings: Settings, lookers: Lookers | None, progress: Progress
 ) -> Iterator[tuple[str, Scene | Pat3dError]]:
+    left = list(VARIANTS if lookers is not None else VARIANTS[1:])
     try:
-        outcome = run_prompt(prompt, out=folder, settings=settings, progress=progress)
+        if lookers is None:
+            plan = GrammarPlanner().plan(prompt)
+            request, treeless = request_of(plan, False), replace(plan, relations=(), arrangements=(), task=None)
+            outcome = run_prompt(prompt, out=folder, settings=settings, progress=progress)
+        else:
+            one = understand(Photograph(), prompt=prompt, seed=settings.seed, lookers=lookers, progress=progress)
+            yield left.pop(0), raw_layout(one.found, prompt=prompt)
+            request, treeless = one.request, replace(one.found, relations=())
+            outcome = make(request, folder=folder, settings=settings, clock=Clock(), progress=progress)
     except Pat3dError as error:
-        yield from ((variant, error) for variant in VARIANTS)
+        yield from ((variant, error) for variant in left)
         return
-    yield VARIANTS[0], outcome.scene
-    plan = GrammarPlanner().plan(prompt)
-    alone = replace(plan, relations=(), arrangements=(), task=None)
-    yield VARIANTS[1], _first(request_of(alone, False), folder, settings, progress)
+    initial, alone, unoptimised, full = left
+    yield initial, outcome.scene
+    yield alone, _alone(treeless, prompt, folder, settings, progress)
     chosen = outcome.report.chosen
     once = len(chosen.tried) == 1 and (chosen.best.settled is None or chosen.best.settled.optimisation is None)
-    yield VARIANTS[2], outcome.scene if once else _first(request_of(plan, False), folder, settings, progress)
-    yield VARIANTS[3], outcome.scene
+    yield unoptimised, outcome.scene if once else _first(request, folder, settings, progress)
+    yield full, outcome.scene
+
+
+def _alone(
+    treeless: ScenePlan | Recovered, prompt: str, folder: Path, settings: Settings, progress: Progress
+) -> Scene | Pat3dError:
+    """What a plan or a picture without relations becomes."""
+    try:
+        if isinstance(treeless, ScenePlan):
+            return _first(request_of(treeless, False), folder, settings, progress)
+        return _first(request_of_recovered(treeless, prompt=prompt), folder, settings, progress)
+    except Pat3dError as error:
+        return error
 
 
 def _first(request: SceneRequest, folder: Path, settings: Settings, progress: Progress) -> Scene | Pat3dError:

@@ -23,6 +23,23 @@ def planes(part: ConvexPart) -> NDArray[np.float64]:
     return np.column_stack([normals, -np.einsum("fi,fi->f", normals, corners[keep].mean(axis=1))])
 
 
+def enclosed(planes: NDArray[np.float64], inside: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners [m] of the polyhedron inside of all `planes`, each once, shape (n, 3).
+
+    Args:
+        planes: outward unit normals and offsets [m], shape (planes, 4).
+        inside: a point well inside of it [m], shape (3,).
+    """
+    from scipy.spatial import HalfspaceIntersection, KDTree
+
+    offsets = planes[:, 3] + planes[:, :3] @ inside
+    size = float(np.abs(offsets).max())
+    corners = HalfspaceIntersection(np.column_stack([planes[:, :3], offsets / size]), np.zeros(3)).intersections
+    # Where more than three planes meet, the corner comes out several times, apart by rounding.
+    again = KDTree(corners).query_pairs(3e-7, p=np.inf, output_type="ndarray")
+    return np.delete(corners, again.max(axis=1), axis=0) * size + inside
+
+
 def face_count(part: ConvexPart) -> int:
     """Flat faces of a part, coplanar neighbours as one."""
     import trimesh

@@ -24,7 +24,8 @@ MAX_MODELS = 2000
 def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     """Every model of an SDF world or model file; meshes and models lie below `root`.
 
-    A link that no joint holds is an object; links that fixed joints hold together are one.
+    A link that no joint holds is an object; links that fixed joints hold together are one, and fixed where such a joint
+    holds it to the world.
 
     Raises:
         AssetError: malformed, a file is missing, or a pose refers to a frame of its own.
@@ -35,7 +36,9 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
     world = top.find("world")
     outer = top if world is None else world
     notes: list[str] = []
-    hung = {_end(joint, end).split("::")[0]: joint for joint in outer.findall("joint") for end in ("child", "parent")}
+    # An end in another model is "model::link", after the names of the models around it.
+    ends = [(_end(joint, end).split("::"), joint) for joint in outer.iter("joint") for end in ("child", "parent")]
+    hung = {names[-2]: joint for names, joint in ends if len(names) > 1}
     objects, heights = list[ImportedObject](), list[float]()
     for one in _things(outer, path, root, notes):
         if not isinstance(one, ImportedObject):
@@ -45,7 +48,7 @@ def read_sdf_scene(path: Path, root: Path) -> ImportedScene:
         if height is not None:
             heights.append(height)
         elif one.name in hung and not one.joint:
-            what = f'the joint "{hung[one.name].get("name", "?")}" of the world'
+            what = f'the joint "{hung[one.name].get("name", "?")}"'
             objects.append(ImportedObject(name=one.name, pose=one.pose, body=one.body, fixed=one.fixed, joint=what))
         else:
             objects.append(one)
@@ -108,10 +111,13 @@ def _of_model(
     model: ET.Element, frame: Frame, path: Path, root: Path, notes: list[str]
 ) -> Iterator[ImportedObject | float]:
     name, links, joints = model.get("name", "?"), model.findall("link"), model.findall("joint")
-    fixed = (model.findtext("static") or "").strip().lower() in ("true", "1")
+    static = (model.findtext("static") or "").strip().lower() in ("true", "1")
     moving = [joint.get("name", "?") for joint in joints if joint.get("type") != "fixed"]
+    welds = [{_end(joint, key) for key in ("parent", "child")} for joint in joints if joint.get("type") == "fixed"]
+    tied = {end for ends in welds if "world" in ends for end in ends}
     poses = {link.get("name", "?"): pose_of(link) for link in links}
     for group in _joined(links, joints):
+        fixed = static or any(link.get("name") in tied for link in group)
         # An object of several links keeps the frame of its model; a single link has its own.
         single = len(group) == 1
         own = poses[group[0].get("name", "?")] if single else (np.eye(3), np.zeros(3))

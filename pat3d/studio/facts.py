@@ -12,7 +12,7 @@ from pat3d.studio.workbench import Order
 LATEST = 20
 """Orders that are listed."""
 
-_SPECIAL = str.maketrans({one: f"\\{one}" for one in "\\`*_{}[]()<>#+-!|"})
+_SPECIAL = str.maketrans({one: f"\\{one}" for one in "\\`*_{}[]()<>#+-!|:@~"})
 
 
 def plain(words: str) -> str:

@@ -36,6 +36,8 @@ class Panel:
         self._drawing = threading.RLock()
         self._filling = False
         self._veiled = False
+        self._begun = False
+        """Whether a scene is shown that is being made."""
         self._view = View(server, self._click, self._drag)
         self.gui: Any = server.gui
         self.scene: Any = server.scene
@@ -78,7 +80,9 @@ class Panel:
     def _show_session(self, session: Session | None) -> None:
         before, self._looked = self._looked, session
         other = session is not None and (before is None or before.current.folder != session.current.folder)
-        if session is not None and other and not self._veiled:
+        # What was made has been looked at since it began to settle; where it failed, the scene before comes back.
+        begun, self._begun = self._begun, False
+        if session is not None and other != begun and not self._veiled:
             self._view.look_at(session.scene)
         self._draw()
         self._settling.show(session)
@@ -166,7 +170,8 @@ class Panel:
 
     def _toggle(self) -> None:
         with self._drawing:
-            self._draw()
+            if not self._begun:
+                self._draw()
 
     def _draw(self) -> None:
         shown = Shown(**{name: box.value for name, box in self._boxes.items()})
@@ -211,8 +216,8 @@ class Panel:
         sentence, seed = self._prompt.value, int(self._seed.value)
 
         def work(now: Session | None, progress: Watch) -> tuple[Session, str]:
-            folder = self._store.fresh()
-            session, said = made(now, sentence, seed=seed, folder=folder, progress=progress, run=self._run)
+            folder, follow = self._store.fresh(), progress.followed(self._follow)
+            session, said = made(now, sentence, seed=seed, folder=folder, progress=follow, run=self._run)
             self._name.value = self._store.name_for(sentence)
             return session, said
 
@@ -231,9 +236,14 @@ class Panel:
         return session, " ".join((moved, *changes.notes, *changes.broke))
 
     def _follow(self, event: Event) -> None:
-        """Show where the objects are while they settle."""
-        if event.places is not None and not self._veiled:
-            with self._drawing:
+        """Show a new scene once it is laid out, and where the objects are while they settle."""
+        if self._veiled:
+            return
+        with self._drawing:
+            if event.scene is not None:
+                self._begun = True
+                self._view.begin(event.scene)
+            if event.places is not None:
                 self._view.pose(event.places())
 
 

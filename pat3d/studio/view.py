@@ -12,6 +12,7 @@ import numpy as np
 from pat3d.geometry.pose import Pose
 from pat3d.scene.model import Scene, SceneObject
 from pat3d.studio import shapes
+from pat3d.studio.names import Names
 from pat3d.studio.session import Session
 from pat3d.studio.surroundings import Surroundings, look
 
@@ -53,7 +54,10 @@ class View:
         self._extras: dict[str, tuple[Any, list[Any]]] = {}
         """What was drawn of hulls, names and so on, and what it was drawn for."""
         self._gizmo: Any = None
-        self._made = 0
+        self._paths: set[str] = set()
+        self._names = Names(server, self._path)
+        self._named: Any = None
+        """What the names are of."""
         self._surroundings = Surroundings(server)
 
     def look_at(self, scene: Scene) -> None:
@@ -63,19 +67,25 @@ class View:
         self._surroundings.around(low, high)
         look(self._server, middle, middle + 0.95 * size * np.array([0.35, -0.85, 0.55]))
 
+    def begin(self, scene: Scene) -> None:
+        """Show `scene`, which begins to settle, and nothing beside its objects, until the next `draw`."""
+        self.look_at(scene)
+        for what in tuple(self._extras):
+            self._extra(what, None, (), lambda _: [])
+        self._name(None, ())
+        self._hold(None)
+        self._put({obj.name: obj for obj in scene.objects})
+
     def draw(self, session: Session | None, shown: Shown) -> None:
         """Show `session`; nothing where it is None."""
         objects = {obj.name: obj for obj in session.scene.objects} if session is not None else {}
-        for name in [name for name, (asset, _) in self._objects.items() if asset is not _asset(objects, name)]:
-            self._objects.pop(name)[1].remove()
-        for obj in objects.values():
-            self._place(obj)
+        self._put(objects)
         poses = tuple((obj.name, obj.pose, id(obj.asset)) for obj in objects.values())
         starts = tuple((obj.name, obj.initial_pose, id(obj.asset)) for obj in objects.values())
         scene = None if session is None else session.scene
         at_rest = session is not None and session.at_rest
         self._surroundings.light(shown.shadows)
-        self._extra("names", shown.names and scene, poses, self._names)
+        self._name(scene if shown.names else None, poses)
         self._extra("hulls", shown.hulls and scene, poses, self._hulls)
         self._extra("ghost", shown.ghost and scene, starts, self._ghost)
         before = None if session is None else session.before
@@ -90,11 +100,23 @@ class View:
             if name in self._objects:
                 _put(self._objects[name][1], pose)
 
+    def _put(self, objects: dict[str, SceneObject]) -> None:
+        for name in [name for name, (asset, _) in self._objects.items() if asset is not _asset(objects, name)]:
+            self._objects.pop(name)[1].remove()
+        for obj in objects.values():
+            self._place(obj)
+
+    def _name(self, scene: Scene | None, poses: tuple[Any, ...]) -> None:
+        wanted = poses if scene is not None else None
+        if wanted != self._named:
+            self._named = wanted
+            self._names.show(scene)
+
     def _place(self, obj: SceneObject) -> None:
         if obj.name not in self._objects:
             # One instance of a batch: single meshes have no levels of detail.
             handle = self._scene.add_batched_glb(
-                self._path("objects"), shapes.glb(obj.asset), ((1.0, 0.0, 0.0, 0.0),), ((0.0, 0.0, 0.0),),
+                self._path("objects", obj.name), shapes.glb(obj.asset), ((1.0, 0.0, 0.0, 0.0),), ((0.0, 0.0, 0.0),),
                 lod=shapes.levels(obj.asset) or "off",
             )  # fmt: skip
             handle.on_click(lambda _, name=obj.name: self._clicked(name))
@@ -110,26 +132,13 @@ class View:
             handle.remove()
         self._extras[what] = wanted, draw(scene) if scene else []
 
-    def _names(self, scene: Scene) -> list[Any]:
-        made = []
-        for obj in scene.objects:
-            top = float(np.concatenate([obj.pose.apply(part.vertices) for part in obj.parts])[:, 2].max())
-            x, y, _ = obj.pose.position
-            made.append(
-                self._scene.add_label(
-                    self._path("names"), obj.name, position=(x, y, top + 0.01), font_screen_scale=0.7,
-                    anchor="bottom-center",
-                )
-            )  # fmt: skip
-        return made
-
     def _hulls(self, scene: Scene) -> list[Any]:
         made = []
         for number, colour in enumerate(HULL_COLOURS):
             parts = [(obj.pose, one) for obj in scene.objects for one in obj.parts[number :: len(HULL_COLOURS)]]
             if parts:
                 mesh = shapes.joined((pose, one.vertices, one.faces) for pose, one in parts)
-                made.append(self._see_through("hulls", mesh, colour, 0.45, flat_shading=True))
+                made.append(self._see_through("convex hulls", mesh, colour, 0.45, flat_shading=True))
         return made
 
     def _ghost(self, scene: Scene) -> list[Any]:
@@ -201,10 +210,15 @@ class View:
 
         self._gizmo = gizmo
 
-    def _path(self, what: str) -> str:
-        # Names of objects may have slashes, and a name that comes back must not meet the old one's messages.
-        self._made += 1
-        return f"/{what}/{self._made}"
+    def _path(self, folder: str, name: str = "") -> str:
+        """A path that was never used: what comes back must not meet the messages of what had gone."""
+        # A slash would be another level of the tree.
+        stem = f"/{folder}/{name.replace('/', '-')}" if name else f"/{folder}"
+        number = 1
+        while (path := stem if number == 1 else f"{stem} ({number})") in self._paths:
+            number += 1
+        self._paths.add(path)
+        return path
 
 
 def _turned(start: Pose, gizmo: Any) -> Pose:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from pat3d.scene.yaml_source import read_yaml, validate
 from pat3d.vision.camera import Pinhole
 from pat3d.vision.intrinsics import depth_per_metre, require_same_shape
 from pat3d.vision.observation import Observation
+from pat3d.vision.stance import Facing, Posture, Stance
 
 MAX_PIXELS = 50_000_000
 MAX_BYTES = 256 * 2**20
@@ -52,6 +53,8 @@ LABELS_SCHEMA: dict[str, Any] = {
                     "colours": {"type": "array", "items": _NAME, "maxItems": 8},
                     "material": _NAME,
                     "size": {**_POSITIVE, "description": "Longest side [m], if it is known."},
+                    "posture": {"enum": list(get_args(Posture)), "description": "Usual, the default, or fallen."},
+                    "facing": {"enum": list(get_args(Facing)), "description": "Where its front points in the picture."},
                 },
                 "required": ["name"],
                 "additionalProperties": False,
@@ -61,6 +64,7 @@ LABELS_SCHEMA: dict[str, Any] = {
             "enum": ["metric", "relative"],
             "description": "Metres, the default; or right up to a factor, which then follows from the sizes.",
         },
+        "least_occluded": {**_NAME, "description": "Name of the object of which least is hidden."},
     },
     "required": ["objects"],
     "additionalProperties": False,
@@ -80,6 +84,13 @@ class Label:
     material: str | None = None
     size: float | None = None
     """Longest side [m]."""
+    posture: Posture = "usual"
+    facing: Facing = "unclear"
+
+    @property
+    def stance(self) -> Stance:
+        """How it stands, as the label says."""
+        return Stance(posture=self.posture, facing=self.facing)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +100,8 @@ class Labels:
     objects: tuple[Label, ...]
     metric: bool = True
     """Whether the depth is in metres, or right up to a factor."""
+    least_occluded: str | None = None
+    """Name of the object of which least is hidden; None where nobody says."""
 
 
 def read_labels(path: Path) -> Labels:
@@ -118,9 +131,18 @@ def read_labels(path: Path) -> Labels:
                 colours=tuple(entry.get("colours", ())),
                 material=entry.get("material"),
                 size=entry.get("size"),
+                posture=entry.get("posture", "usual"),
+                facing=entry.get("facing", "unclear"),
             )
         )
-    labels = Labels(objects=tuple(found), metric=source.document.get("depth", "metric") == "metric")
+    least = source.document.get("least_occluded")
+    if least is not None and least not in [one.name for one in found]:
+        raise source.error(("least_occluded",), f'no object is called "{least}".')
+    labels = Labels(
+        objects=tuple(found),
+        metric=source.document.get("depth", "metric") == "metric",
+        least_occluded=least,
+    )
     if not labels.metric and all(one.size is None for one in found):
         raise SpecError(f'{path}: depth that is "relative" needs the size of at least one object.')
     return labels

@@ -3,8 +3,9 @@
 Every candidate is drawn and judged by the pixels around the mask (`pat3d.vision.window`). The camera sees directions
 well and distances badly, so the search is over direction and distance of the middle, the angle that the asset fills,
 and yaw: for each of many yaws the first three follow from areas and medians, and the best few are refined by the
-simplex method, which does not mind that the judgement has steps. It begins with a larger sigma, so that what is far
-off still feels where it belongs.
+simplex method, which does not mind that the judgement has steps, and by Gauss and Newton's, which ends at the least
+squares of the ranges (`pat3d.vision.guess`). It begins with a larger sigma, so that what is far off still feels where
+it belongs.
 """
 
 from __future__ import annotations
@@ -18,16 +19,16 @@ from scipy.optimize import minimize
 
 from pat3d.geometry.rotations import yaw_of
 from pat3d.vision.camera import Array, PlacedCamera
-from pat3d.vision.caster import Caster, Placement, orientation
+from pat3d.vision.caster import Caster, Placement
+from pat3d.vision.guess import Guess, polished
 from pat3d.vision.observation import Observation
+from pat3d.vision.stance import Stance
 from pat3d.vision.window import Window
 
 YAWS = 24
 """First guesses."""
 TRIED, REFINED = 7, 3
 """Yaws that are refined roughly, the best of the first guesses that are no neighbours; and of those, exactly."""
-EXPLAINED = 0.1
-"""Cost above which more of them are refined exactly."""
 STARTS = (1.0, 2.2)
 """Sizes of first guesses, over what the mask would say if nothing hid the object."""
 BLUR, HALFWAY = 12.0, 3.5
@@ -65,42 +66,7 @@ class Fit:
     """Of the pixels that asset or mask claim and nothing hides, those that both do [-]."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Guess:
-    """Direction and distance of the middle, the angle that is filled, and the turn."""
-
-    across: float
-    """Tangents of the direction, from the middle of the mask, to the right and down [-]."""
-    down: float
-    distance: float
-    """Of the middle of the bounding box [m]."""
-    fills: float
-    """Radius over distance [-]."""
-    yaw: float
-    pitch: float = 0.0
-    roll: float = 0.0
-    first: Array | None = None
-    """How the asset is turned before, shape (3, 3); None where it stands as it was made."""
-
-    base: float | None = None
-    """Height of the lowest point [m], from which the distance follows; None where it is free."""
-
-    def placed(self, window: Window, caster: Caster) -> Placement:
-        ray = window.middle + self.across * window.right + self.down * window.down
-        ray /= np.linalg.norm(ray)
-        rotation = orientation(self.yaw, self.pitch, self.roll)
-        rotation = rotation if self.first is None else rotation @ self.first
-        distance = self.distance
-        if self.base is not None:
-            sinks = ray[2] - self.fills * caster.half_height(rotation)
-            reached = (self.base - window.origin[2]) / sinks if sinks < -1e-3 else distance
-            distance = min(max(reached, 0.5 * distance), 2.0 * distance)
-        centre = window.origin + distance * ray
-        scale = self.fills * distance / caster.radius
-        return Placement(scale=scale, rotation=rotation, position=centre - scale * rotation @ caster.centre)
-
-
-def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster) -> Fit:
+def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, *, stance: Stance | None = None) -> Fit:
     """Scale, place and yaw with which `caster`'s mesh explains the pixels of object `name`.
 
     Where none does, other orientations are tried: pens lean in cups, bananas lie.
@@ -110,20 +76,25 @@ def fit(seen: Observation, camera: PlacedCamera, name: str, caster: Caster) -> F
         camera: in a frame whose z is up.
         name: of the object.
         caster: its mesh, in a frame whose z is up.
+        stance: how it stands, as somebody says; decides between candidates that the pixels leave nearly as good.
     """
+    said = stance or Stance()
     coarse, fine = (Window(seen, camera, name, pixels) for pixels in (COARSE, FINE))
     rings = [[_aligned(coarse, caster, start, yaw=2 * math.pi * k / YAWS) for k in range(YAWS)] for start in STARTS]
     firsts = [ring[k] for ring in rings for k in _valleys(_costs(coarse, caster, ring))]
     sharp = Window(seen, camera, name, SHARP)
     best = _judged(sharp, caster, _turned_about(fine, caster, _best(coarse, fine, caster, firsts)))
     tilted = False
-    if best[1] > fine.expected + UNEXPLAINED:
+    if said.fallen or best[1] > fine.expected + UNEXPLAINED:
         turned = [_aligned(coarse, caster, start, first=one) for one in _orientations() for start in STARTS]
         order = np.argsort(_costs(coarse, caster, turned), kind="stable")
         found = _best(coarse, fine, caster, [turned[k] for k in order[:TRIED]], leans=True)
         leaning = _judged(sharp, caster, found, leans=True)
-        if leaning[1] - fine.expected < TILT_GAIN * (best[1] - fine.expected):
+        most = best[1] + NEARLY if said.fallen else fine.expected + TILT_GAIN * (best[1] - fine.expected)
+        if leaning[1] < most:
             best, tilted = _straightened(fine, caster, leaning)
+    if not tilted:
+        best = _faced(fine, caster, best, said)
     return _fit(fine, caster, *best, tilted=tilted)
 
 
@@ -139,7 +110,7 @@ def stood(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, fo
     distance = float(np.linalg.norm(centre))
     # Away from the middle of the mask, in units of the plane that the middle ray is normal to.
     tangent = np.linalg.lstsq(np.column_stack([fine.right, fine.down, -centre / distance]), -fine.middle, rcond=None)[0]
-    guess = _Guess(
+    guess = Guess(
         float(tangent[0]),
         float(tangent[1]),
         distance,
@@ -156,13 +127,13 @@ def stood(seen: Observation, camera: PlacedCamera, name: str, caster: Caster, fo
     return _fit(fine, caster, *best, tilted=found.tilted)
 
 
-def _fit(window: Window, caster: Caster, guess: _Guess, cost: float, *, tilted: bool) -> Fit:
+def _fit(window: Window, caster: Caster, guess: Guess, cost: float, *, tilted: bool) -> Fit:
     placed = guess.placed(window, caster)
     drawn = caster.ranges(window.origin, window.rays, placed)
     return Fit(placed=placed, tilted=tilted, cost=max(0.0, cost - window.expected), overlap=window.overlap(drawn))
 
 
-def _straightened(window: Window, caster: Caster, leaning: tuple[_Guess, float]) -> tuple[tuple[_Guess, float], bool]:
+def _straightened(window: Window, caster: Caster, leaning: tuple[Guess, float]) -> tuple[tuple[Guess, float], bool]:
     """`leaning`, or the upright candidate next to it where it hardly leans; and whether it does."""
     guess, cost = leaning
     rotation = guess.placed(window, caster).rotation
@@ -173,57 +144,79 @@ def _straightened(window: Window, caster: Caster, leaning: tuple[_Guess, float])
     return (found, False) if found[1] < cost + NEARLY else (leaning, True)
 
 
-def _turned_about(window: Window, caster: Caster, found: list[tuple[_Guess, float]]) -> list[tuple[_Guess, float]]:
+def _turned_about(window: Window, caster: Caster, found: list[tuple[Guess, float]]) -> list[tuple[Guess, float]]:
     """`found`, best first, and what becomes of the best after quarter turns, which look alike until the last."""
     best, cost = found[0]
     if cost < window.perfect:
         return found
     quarters = [best.yaw + quarter * math.pi / 2 for quarter in (1, 2, 3)]
     others = [replace(best, yaw=yaw) for yaw in quarters]
-    if cost > window.expected + EXPLAINED:
+    if cost > window.explained:
         # Turned by a quarter, what is longer than wide has another size too: only the mask tells which.
         others += [_aligned(window, caster, start, yaw=yaw) for start in STARTS for yaw in (best.yaw, *quarters)]
-    rough = [_refined(window, caster, other, steps=ROUGH_STEPS, blur=HALFWAY)[0] for other in others]
-    tried = [_refined(window, caster, other, steps=ROUGH_STEPS) for other in rough]
+    tried = [_sharpened(window, caster, other) for other in others]
     return sorted([*found, *tried], key=lambda one: one[1])
 
 
 def _judged(
-    sharp: Window, caster: Caster, found: list[tuple[_Guess, float]], *, leans: bool = False
-) -> tuple[_Guess, float]:
+    sharp: Window, caster: Caster, found: list[tuple[Guess, float]], *, leans: bool = False
+) -> tuple[Guess, float]:
     """The best of `found`, best first, by more pixels where they are nearly as good as one another."""
     rivals = [one for one, cost in found if cost < found[0][1] + NEARLY]
     if len(rivals) == 1:
         return found[0]
-    costs = sorted(((_cost(sharp, caster, one), k) for k, one in enumerate(rivals)))
+    costs = sorted(((one.cost(sharp, caster), k) for k, one in enumerate(rivals)))
     closest = [rivals[k] for cost, k in costs if cost < costs[0][0] + NEARLY / 3][:2]
     tried = [_refined(sharp, caster, one, leans=leans, steps=ROUGH_STEPS) for one in closest]
-    if len(tried) > 1 and sharp.expected >= EXPLAINED:
+    if len(tried) > 1 and sharp.noisy:
         # Between noise and noise, what is not quite at its best is worse than its rival.
         tried = [_settled(sharp, caster, one, leans=leans) for one in tried]
     return min(tried, key=lambda one: one[1])
 
 
-def _costs(window: Window, caster: Caster, guesses: list[_Guess]) -> Array:
-    return np.array([_cost(window, caster, guess, BLUR) for guess in guesses])
+def _faced(window: Window, caster: Caster, best: tuple[Guess, float], said: Stance) -> tuple[Guess, float]:
+    """`best`, or what it becomes after turns by quarters where its front points against what is `said`."""
+    if not said.denies(best[0].placed(window, caster).rotation, window.middle):
+        return best
+    turned = [replace(best[0], yaw=best[0].yaw + quarter * math.pi / 2) for quarter in (1, 2, 3)]
+    agreed = [one for one in turned if not said.denies(one.placed(window, caster).rotation, window.middle)]
+    tried = [_refined(window, caster, one, steps=ROUGH_STEPS) for one in agreed]
+    other = _settled(window, caster, min(tried, key=lambda one: one[1]))
+    return other if other[1] < best[0].cost(window, caster) + NEARLY else best
+
+
+def _costs(window: Window, caster: Caster, guesses: list[Guess]) -> Array:
+    return np.array([guess.cost(window, caster, BLUR) for guess in guesses])
 
 
 def _best(
-    coarse: Window, fine: Window, caster: Caster, firsts: list[_Guess], *, leans: bool = False
-) -> list[tuple[_Guess, float]]:
+    coarse: Window, fine: Window, caster: Caster, firsts: list[Guess], *, leans: bool = False
+) -> list[tuple[Guess, float]]:
     """`firsts` after refinement, roughly at first, and their costs; the best first."""
-    firsts = sorted(firsts, key=lambda guess: _cost(coarse, caster, guess, BLUR))[:TRIED]
+    firsts = sorted(firsts, key=lambda guess: guess.cost(coarse, caster, BLUR))[:TRIED]
     rough = [_refined(coarse, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=BLUR) for guess in firsts]
     rough = sorted(rough, key=lambda one: one[1])
-    exact: list[tuple[_Guess, float]] = []
+    exact: list[tuple[Guess, float]] = []
     for guess, _ in rough:
-        nearer, _ = _refined(fine, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
-        exact.append(_refined(fine, caster, nearer, leans=leans))
+        exact.append(_sharpened(fine, caster, guess, leans=leans))
         least = min(cost for _, cost in exact)
-        if least < fine.perfect or (len(exact) >= REFINED and least < fine.expected + EXPLAINED):
+        if least < fine.perfect or (len(exact) >= REFINED and least < fine.explained):
             break
     exact = sorted(exact, key=lambda one: one[1])
     return [_settled(fine, caster, exact[0], leans=leans), *exact[1:]]
+
+
+def _sharpened(window: Window, caster: Caster, guess: Guess, *, leans: bool = False) -> tuple[Guess, float]:
+    """`guess`, which is roughly right, refined in two steps."""
+    near, _ = polished(window, caster, guess, leans=leans, blur=HALFWAY)
+    found = polished(window, caster, near, leans=leans)
+    if found[1] < window.perfect:
+        return found
+    if found[1] < window.explained:
+        nearer = found[0]
+    else:
+        nearer, _ = _refined(window, caster, guess, leans=leans, steps=ROUGH_STEPS, blur=HALFWAY)
+    return min(found, _refined(window, caster, nearer, leans=leans), key=lambda one: one[1])
 
 
 @cache
@@ -234,9 +227,7 @@ def _orientations() -> tuple[Array, ...]:
     return tuple(Rotation.random(TURNS, rng=np.random.default_rng(0)).as_matrix())
 
 
-def _settled(
-    window: Window, caster: Caster, found: tuple[_Guess, float], *, leans: bool = False
-) -> tuple[_Guess, float]:
+def _settled(window: Window, caster: Caster, found: tuple[Guess, float], *, leans: bool = False) -> tuple[Guess, float]:
     """What the simplex method comes to when it is started again where it ended."""
     for _ in range(RESTARTS):
         if found[1] < window.perfect:
@@ -249,13 +240,9 @@ def _settled(
     return found
 
 
-def _cost(window: Window, caster: Caster, guess: _Guess, blur: float = 1.0) -> float:
-    return window.cost(caster.ranges(window.origin, window.rays, guess.placed(window, caster)), blur)
-
-
-def _aligned(window: Window, caster: Caster, start: float, *, yaw: float = 0.0, first: Array | None = None) -> _Guess:
+def _aligned(window: Window, caster: Caster, start: float, *, yaw: float = 0.0, first: Array | None = None) -> Guess:
     """A first guess at an orientation: the area and the middle of the mask, and its median distance."""
-    guess = _Guess(0.0, 0.0, window.distance, 0.7 * start * window.angle, yaw, first=first)
+    guess = Guess(0.0, 0.0, window.distance, 0.7 * start * window.angle, yaw, first=first)
     fills, distance = guess.fills, guess.distance
     across = down = 0.0
     for _ in range(5):
@@ -271,7 +258,7 @@ def _aligned(window: Window, caster: Caster, start: float, *, yaw: float = 0.0, 
             distance += float(np.median((window.range - drawn)[both]))
             distance = min(max(distance, 0.3 * window.distance), 3.0 * window.distance)
             fills *= min(max(ratio, 0.6), 1.6)
-        guess = _Guess(across, down, distance, fills, yaw, first=first)
+        guess = Guess(across, down, distance, fills, yaw, first=first)
     return guess
 
 
@@ -291,37 +278,17 @@ def _valleys(costs: Array) -> list[int]:
 def _refined(
     window: Window,
     caster: Caster,
-    first: _Guess,
+    first: Guess,
     *,
     leans: bool = False,
     steps: int = STEPS,
     blur: float = 1.0,
-) -> tuple[_Guess, float]:
+) -> tuple[Guess, float]:
     """The best near `first`, and its cost."""
-    reach = [0.08 * first.fills, 0.08 * first.fills, 0.06, 0.15]
-    reach += [0.1 * first.fills] if first.base is None else []
-    reach += [0.25, 0.25] if leans else []
-
-    def guess(values: Array) -> _Guess:
-        moved = values * np.array(reach)
-        free = iter(moved)
-        across, down, fills, yaw = (float(next(free)) for _ in range(4))
-        distance = float(next(free)) if first.base is None else 0.0
-        return replace(
-            first,
-            across=first.across + across,
-            down=first.down + down,
-            distance=first.distance * math.exp(min(max(distance, -1.0), 1.0)),
-            fills=first.fills * math.exp(min(max(fills, -1.0), 1.0)),
-            yaw=first.yaw + yaw,
-            pitch=first.pitch + float(next(free, 0.0)),
-            roll=first.roll + float(next(free, 0.0)),
-        )
-
-    size = len(reach)
+    size = first.freedom(leans=leans)
     simplex = np.vstack([np.zeros(size), np.eye(size)]) - 0.3 / size
     found = minimize(
-        lambda values: _cost(window, caster, guess(values), blur),
+        lambda values: first.moved(values, leans=leans).cost(window, caster, blur),
         np.zeros(size),
         method="Nelder-Mead",
         options={
@@ -332,4 +299,4 @@ def _refined(
             "adaptive": True,
         },
     )
-    return guess(found.x), float(found.fun)
+    return polished(window, caster, first.moved(found.x, leans=leans), leans=leans, blur=blur)

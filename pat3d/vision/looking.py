@@ -9,6 +9,7 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,8 @@ class Photograph:
     """JSON or YAML, see `pat3d.vision.files.LABELS_SCHEMA`."""
     camera: Path | None = None
     """See `pat3d.vision.intrinsics`; None for what the photograph's own notes or the depth model say."""
+    relative: bool = False
+    """Whether the depth is right up to a factor, also where the labels do not say so."""
 
     def files(self) -> dict[str, dict[str, str]]:
         """Name and checksum of every file.
@@ -66,7 +69,7 @@ class Photograph:
         Raises:
             SpecError: one cannot be read.
         """
-        given = {name: path for name, path in vars(self).items() if path is not None}
+        given = {name: path for name, path in vars(self).items() if isinstance(path, Path)}
         return {name: {"file": path.name, "sha256": _hash(path)} for name, path in given.items()}
 
 
@@ -205,24 +208,19 @@ class _Looking:
     ) -> tuple[Arrays, dict[str, Any]]:
         """What `make` makes, or what an earlier run made of the same."""
         path = cache_root() / "looked" / f"{content_key(shown, {**said, 'weights': _weights(name)})}.npz"
-        begin = time.monotonic()
-        try:
-            with np.load(path, allow_pickle=False) as data:
-                arrays = {key: data[key] for key in data.files if key != "told"}
-                told = json.loads(str(data["told"]))
+        kept = _read_record(path)
+        if kept is not None:
             self.record[role] = {"model": name, "kept": True}
-        except Exception:
-            # A damaged archive raises whatever its damage happens to hit (zip, zlib, header, missing key).
-            arrays, told = make()
-            self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
-            try:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                kept: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
-                with replaced_file(path) as fresh, fresh.open("wb") as file:
-                    np.savez_compressed(file, **kept)
-            except OSError:
-                # A cache that cannot be written costs the next run its time, and this one nothing.
-                return arrays, told
+            return kept
+        begin = time.monotonic()
+        arrays, told = make()
+        self.record[role] = {"model": name, "seconds": round(time.monotonic() - begin, 1)}
+        # A cache that cannot be written costs the next run its time, and this one nothing.
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            written: dict[str, Any] = {**arrays, "told": np.array(json.dumps(told))}
+            with replaced_file(path) as fresh, fresh.open("wb") as file:
+                np.savez_compressed(file, **written)
         return arrays, told
 
 
@@ -246,6 +244,10 @@ def look(photograph: Photograph, lookers: Lookers, *, prompt: str, progress: Pro
     depth, measured = looking.depth(picture)
     if labels is None:
         labels = looking.labels(picture, values)
+    if photograph.relative:
+        labels = replace(labels, metric=False)
+        if all(one.size is None for one in labels.objects):
+            raise SpecError("depth that is right up to a factor needs the size of at least one object in the labels.")
     instances = instances_of(values, labels)
     height, width = depth.shape
     if photograph.camera is not None:
@@ -275,7 +277,8 @@ def _matched(labels: Labels, masks: Masks) -> Labels:
         if number is not None:
             left.remove((number, phrase))
             kept.append(replace(one, value=number))
-    return replace(labels, objects=tuple(kept))
+    least = labels.least_occluded if any(one.name == labels.least_occluded for one in kept) else None
+    return replace(labels, objects=tuple(kept), least_occluded=least)
 
 
 def _thumbnail(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -294,6 +297,16 @@ def _needed(make: Callable[[], Any] | None, otherwise: str) -> Any:
     if make is None:
         raise SpecError(otherwise)
     return make()
+
+
+def _read_record(path: Path) -> tuple[Arrays, dict[str, Any]] | None:
+    """What `_Looking._kept` has written at `path`; None where there is nothing, or it is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            return {key: data[key] for key in data.files if key != "told"}, json.loads(str(data["told"]))
+    except Exception:
+        # A damaged archive raises whatever its damage happens to hit (zip, zlib, header, missing key).
+        return None
 
 
 def _weights(name: str) -> list[tuple[str, int, int]]:

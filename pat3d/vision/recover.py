@@ -20,7 +20,9 @@ from pat3d.vision.dependencies import Judge, Pair, close_pairs, joined
 from pat3d.vision.fitting import STOOD_LOSS, Fit, fit, stood
 from pat3d.vision.gravity import Plane, ground_plane, level_camera, surface_plane
 from pat3d.vision.observation import Observation
+from pat3d.vision.occlusion import least_occluded
 from pat3d.vision.placing import from_the_ground
+from pat3d.vision.stance import Stance
 from pat3d.vision.supports import carried_at, supports
 
 POOR = 1.0
@@ -51,7 +53,7 @@ class Recovered:
         """Every object where it was fitted."""
         return {name: _body(name, self.assets[name], one.placed) for name, one in self.fits.items()}
 
-    def resized(self, sizes: Mapping[str, float], seen: Observation) -> Recovered:
+    def resized(self, sizes: Mapping[str, float], seen: Observation, *, said: str | None = None) -> Recovered:
         """The same scene larger or smaller, so that the least occluded object of `sizes` has its size.
 
         Depth that is right up to a factor leaves all lengths open by that factor, and nothing else.
@@ -59,8 +61,9 @@ class Recovered:
         Args:
             sizes: longest sides [m] of some objects.
             seen: the picture it was recovered from.
+            said: name of the object that somebody says is occluded least.
         """
-        name = max(sizes, key=lambda one: self.fits[one].overlap * float(seen.mask(one).sum()) ** 0.5)
+        name, by = least_occluded(self, seen, sizes, said)
         factor = sizes[name] / float(self.sized(name).size.max())
         fits = {
             each: replace(
@@ -71,19 +74,25 @@ class Recovered:
             )
             for each, one in self.fits.items()
         }
-        note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m.'
+        note = f'all lengths follow from the size of "{name}", {sizes[name]:g} m, the least occluded object ({by}).'
         camera = replace(self.camera, position=factor * self.camera.position)
         return replace(self, camera=camera, fits=fits, notes=(*self.notes, note))
 
 
 def recover(
-    seen: Observation, assets: Mapping[str, Asset], *, judge: Judge | None = None, progress: Progress = silent
+    seen: Observation,
+    assets: Mapping[str, Asset],
+    *,
+    stances: Mapping[str, Stance] | None = None,
+    judge: Judge | None = None,
+    progress: Progress = silent,
 ) -> Recovered:
     """Where the objects of a picture are.
 
     Args:
         seen: the picture with depth and masks.
         assets: what the masks show, by name; of any size.
+        stances: how objects stand, where somebody says so.
         judge: says what carries what, before the fitted surfaces do.
         progress: told of every object.
 
@@ -91,6 +100,7 @@ def recover(
         LayoutError: nothing in the picture tells what is level.
         ModelError: `judge` gives no valid answer.
     """
+    said = stances or {}
     lost = border_lost(seen)
     seen = bordered(seen, lost)
     camera, notes = _camera(seen, assets)
@@ -100,7 +110,7 @@ def recover(
     fits: dict[str, Fit] = {}
     for number, name in enumerate(seen.names):
         progress(Event(stage="fitting", detail=name, step=number, steps=len(seen.names)))
-        fits[name] = fit(seen, camera, name, casters[name])
+        fits[name] = fit(seen, camera, name, casters[name], stance=said.get(name, Stance()))
     slack = seen.noise * float(camera.position[2])
     bodies = {name: _body(name, assets[name], one.placed) for name, one in fits.items()}
     relations = supports(bodies, slack=slack)

@@ -31,6 +31,8 @@ LEAST_SIGMA = 0.002
 """Errors of the depth that are always reckoned with, over the depth [-]."""
 BORDER = 2.5
 """Pixels beside a mask that may still be the object's."""
+EXPLAINED = 0.02, 0.1
+"""Cost beyond that of the noise up to which a candidate explains what is seen: without noise, and with it."""
 HIDDEN = 0.5
 """Weight of pixels of which only a painted picture says whether the object is behind them."""
 NOISY = 0.01
@@ -58,6 +60,7 @@ class Window:
         grid = np.mgrid[low[0] + stride // 2 : high[0] : stride, low[1] + stride // 2 : high[1] : stride]
         row, column = grid.reshape(2, -1)
         self.own = mask[row, column]
+        self.others = (seen.instances[row, column] > 0) & ~self.own
         self.whole = None if whole is None else whole[row, column]
         """Where the object would be seen if nothing hid it; None where nobody knows."""
         self.origin = camera.position
@@ -68,8 +71,12 @@ class Window:
         """Cost of the true candidate, from the noise alone."""
         self.shift_free = False
         """Whether the depth of the object may be off by a common shift."""
-        self.perfect = self.expected + 0.01 if self.expected < 0.05 else 0.0
+        self.noisy = self.expected >= 0.05
+        """Whether the noise may hide what tells candidates apart."""
+        self.perfect = 0.0 if self.noisy else self.expected + 0.01
         """Cost from which on there is no need to look further; with noise, wrong candidates may seem as good."""
+        self.explained = self.expected + EXPLAINED[self.noisy]
+        """Cost from which on more candidates are looked at, and more closely."""
         self.range = np.where(known, seen.depth[row, column] * reach, np.nan)
         self.sigma = relative * np.where(known, self.range, 1.0)
         calm = self.sigma * (1.0 if seen.noise < NOISY else 0.35)
@@ -115,6 +122,8 @@ class Window:
         with np.errstate(invalid="ignore"):
             nearer = drawn - self.smooth
             free = np.where(nearer > self.calm, 0.0, np.where(nearer > -self.calm, UNSURE, 1.0))
+            # Where another object is seen, what touches it from behind is where it should be.
+            free = np.where(self.others, np.clip(-nearer / self.calm, 0.0, 1.0), free)
         return np.where(np.isfinite(self.smooth), free, UNSURE)
 
     def overlap(self, drawn: Ranges) -> float:

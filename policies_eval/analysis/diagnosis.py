@@ -143,6 +143,11 @@ def settings_in(suite: Suite, splits: Sequence[str]) -> tuple[Setting, ...]:
     )
 
 
+def _settings(suite: Suite) -> RolloutSettings:
+    request = suite.request
+    return RolloutSettings(robot=request.robot, vary=request.vary, max_objects=suite.most_objects)
+
+
 def place_of(scene: str) -> int:
     """Of a scene's folder in its suite."""
     return int(Path(scene).name)
@@ -181,7 +186,7 @@ def _trained(suite: Suite, folder: Path, extent: Extent, tell: Told, shares: Sha
 
     repeated = folder / "replay.json"
     if not repeated.is_file():
-        settings = RolloutSettings(robot=suite.request.robot, max_objects=suite.most_objects)
+        settings = _settings(suite)
         episodes = episodes_of(settings_in(suite, PARTS["train"]), extent.demonstrations, seed=extent.seed)
         shown = []
         for one in demonstrations(episodes, settings=settings):
@@ -242,7 +247,7 @@ def _tried(
         make_policy(name) if workers == 0 else name,
         episodes,
         folder / "episodes" / f"{policy} {part}".replace(" ", "-"),
-        settings=RolloutSettings(robot=suite.request.robot, max_objects=suite.most_objects),
+        settings=_settings(suite),
         workers=workers,
     )
     for one in done.results:

@@ -9,9 +9,6 @@ from typing import Any
 
 from pat3d.envs.suites.suite import Entry, Suite
 
-SIDE = 128
-"""Of the pictures in which objects are looked for [pixel]."""
-
 VIEWS = ("agentview", "closeview")
 """Cameras in which an object may be in view."""
 
@@ -81,6 +78,7 @@ def survey(
 def look(suite: Suite, entry: Entry) -> Surveyed:
     """Look at one scene."""
     from pat3d.envs.env import TabletopEnv
+    from pat3d.envs.suites.sight import about, shares
     from pat3d.envs.tasks.naming import called
     from pat3d.scene.model import GROUND
 
@@ -92,9 +90,9 @@ def look(suite: Suite, entry: Entry) -> Surveyed:
         env.reset(seed=0)
         scene = env.scene
         moved = tuple(env.task.needs(scene).grasp)
-        named = tuple(dict.fromkeys((*moved, *env.task.names)))
+        named = about(env.task, scene)
         kinds = {rel.child: rel.kind for rel in scene.relations if rel.supports}
-        seen = {camera: _shares(env, camera, named) for camera in VIEWS}
+        seen = {camera: shares(env.pictures, scene, camera, named) for camera in VIEWS}
         best = [env.placement.grasps[name][0] for name in moved]
         return Surveyed(
             place=entry.place,
@@ -125,13 +123,6 @@ def coverage(surveyed: Sequence[Surveyed]) -> dict[str, dict[str, int]]:
     return {
         name: dict(sorted(counts.items(), key=lambda item: (-item[1], item[0]))) for name, counts in counted.items()
     }
-
-
-def _shares(env: Any, camera: str, names: Sequence[str]) -> dict[str, float]:
-    """Share of a camera's picture that each object covers."""
-    picture = env.pictures.take(camera, SIDE, SIDE, segmentation=True).segmentation
-    numbers = {obj.name: number for number, obj in enumerate(env.scene.objects)}
-    return {name: float((picture == numbers[name] + 2).mean()) for name in names}
 
 
 def _way(lean: float) -> str:

@@ -20,6 +20,7 @@ from pat3d.envs.robots.arms import measure_gripper
 from pat3d.envs.tasks.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.errors import EnvironmentSetupError
 from pat3d.policies_eval.policies.policy import EpisodeStart
+from pat3d.policies_eval.policies.two_hands import TWO_HANDED, TwoHands
 
 Array = NDArray[np.float64]
 
@@ -82,13 +83,18 @@ class ScriptedPolicy:
         env = episode.env
         if env is None or env.control != "osc":
             raise EnvironmentSetupError('the scripted policy needs control="osc" and the environment itself.')
+        self._both = TwoHands(env) if env.task.kind in TWO_HANDED else None
+        if self._both is not None:
+            return
         self._env, self._servo, self._gripper = env, Servo(env), measure_gripper(env.robot)
         self._planner = self._plan()
         self._failures: dict[str, int] = {}
         self._begin()
 
     def act(self, observation: Any) -> NDArray[np.float32]:
-        """The next action, shape (7,); of two arms the other holds still, and the shape is (14,)."""
+        """The next action, shape (7,); of two arms (14,), the other holding still but in tasks for both."""
+        if self._both is not None:
+            return self._both.act()
         while True:
             action = getattr(self, f"_{self._phase}")()
             if action is not None:

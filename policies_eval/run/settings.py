@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.registration import IMAGE_SIDE
 from pat3d.envs.robots.arms import default_robot
 from pat3d.errors import EvaluationError
@@ -29,6 +30,8 @@ class RolloutSettings:
     image_size: int = IMAGE_SIDE
     max_objects: int = 32
     """Rows of the state's "objects", so that every scene of a suite gives observations of one shape."""
+    vary: float = 0.0
+    """By how much the start of an episode moves the objects [m], see `pat3d.envs.physics.variation`."""
     replan: int = 8
     """Actions that are done of several given at once before the policy is asked again."""
     strict: bool = False
@@ -42,6 +45,8 @@ class RolloutSettings:
         for name, low, high in (("max_steps", 0, 100_000), ("replan", 1, 1000), ("max_objects", 1, 1000)):
             if not low <= getattr(self, name) <= high:
                 raise EvaluationError(f"{name} is {low} to {high}, not {getattr(self, name)}.")
+        if not 0.0 <= self.vary <= LARGEST:
+            raise EvaluationError(f"an episode's start moves objects by 0 to {LARGEST:g} m, not {self.vary}.")
         if not 0.001 <= self.act_seconds <= 3600.0:
             raise EvaluationError(f"the time for an action is 0.001 to 3600 s, not {self.act_seconds}.")
 
@@ -55,6 +60,7 @@ class RolloutSettings:
             task=task,
             control_freq=self.control_freq,
             max_objects=self.max_objects,
+            vary=self.vary,
             cameras=self.cameras,
             image_size=(self.image_size, self.image_size),
             **kinds,

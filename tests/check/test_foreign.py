@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -15,7 +16,7 @@ from pat3d.cli.main import main
 from pat3d.errors import CheckError
 from pat3d.exporters import export
 from pat3d.exporters.common.objects import body_names
-from tests.exporters.things import mixed_scene
+from tests.exporters.things import hung_bar, mixed_scene
 from tests.scenes import tower
 
 TABLE = """<geom name="floor" type="plane" size="2 2 0.1"/>
@@ -178,6 +179,18 @@ def test_a_tower_is_at_rest_in_other_formats_and_not_after_a_lift(tmp_path, kind
     assert len(report.objects) == 2
     assert all(one.unbalanced < 0.01 for one in report.objects), report.failures
     assert not report.overlaps
+
+
+@pytest.mark.parametrize("loose", [False, True])
+def test_what_hangs_in_sdf_is_taken_as_fixed_with_what_it_hangs_from(tmp_path, loose):
+    scene = hung_bar()
+    if loose:
+        scene = replace(scene, objects=tuple(replace(obj, fixed=False) for obj in scene.objects))
+    read = load_foreign(export(scene, ("sdf",), tmp_path)["sdf"])
+    model = read.compile()
+    assert model.njnt == 0
+    assert np.allclose(model.body("a_bar").pos, scene["a bar"].pose.position, atol=1e-9)
+    assert any('"a_bar" has joints' in note for note in read.notes)
 
 
 def test_sdf_primitives_includes_and_angles(tmp_path):

@@ -82,6 +82,18 @@ def test_a_cube_over_a_filled_recess_floats(depth, held):
         assert certificate.support.unsupported["cube"][0].air == pytest.approx(depth, rel=0.05)
 
 
+@pytest.mark.parametrize(("step", "held"), [(0.0002, True), (0.0006, False)])
+def test_what_lies_on_the_high_side_of_a_lid_is_not_carried_by_its_low_side(step, held):
+    """4 mm of the cube are on a ledge; under its weight the lid is lower, and it tips by degrees to reach that."""
+    whole = box(0.1, 0.1, 0.05)
+    low = box(0.1, 0.2, 0.01).moved(x=0.03, z=0.05 - step).solid
+    lid = asset_of(Shape(whole.solid - low, whole.hulls), noun="lid")
+    cube = asset_of(box(0.02, 0.02, 0.02))
+    scene = scene_of(placed("lid", lid, fixed=True), placed("cube", cube, (-0.014, 0, 0.05 + GAP)))
+    assert certify(scene).passed
+    assert certify(scene, margin=True).passed is held
+
+
 def test_a_cube_as_wide_as_the_rim_stands_on_it():
     """The recess is 3 mm deep and the rim 1 cm wide; a larger cube rests on the rim all around."""
     cube = asset_of(box(0.07, 0.07, 0.07))
@@ -204,3 +216,18 @@ def test_the_distance_beyond_a_polygon_is_shapely_s(seed):
     furthest = shapely.distance(shapely.Polygon(corners), shapely.points(points)).max()
     # The corners may come in any order.
     assert beyond(points, corners[rng.permutation(len(corners))]) == pytest.approx(furthest, abs=1e-12)
+
+
+def test_a_log_on_a_table_may_roll_and_one_on_its_end_stands():
+    """Its block of a part holds it still; what is seen is straight along one way and as round as it is high."""
+    log = asset_of(cylinder(0.03, 0.2).turned("y", 90).moved(x=-0.1, z=0.03))
+    lying = replace(log, parts=asset_of(box(0.2, 0.06, 0.06)).parts)
+    standing = asset_of(cylinder(0.03, 0.2))
+    scene = scene_of(
+        placed("table", asset_of(box(0.8, 0.4, 0.02)), (0, 0, GAP)),
+        placed("lying", lying, (0.2, 0, 0.02 + 2 * GAP)),
+        placed("standing", standing, (-0.2, 0, 0.02 + 2 * GAP)),
+    )
+    certificate = certify(scene, margin=True)
+    assert dict(certificate.support.rolling) == {"lying": "neutral"}
+    assert certificate.passed

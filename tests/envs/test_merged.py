@@ -152,3 +152,23 @@ def test_what_cannot_differ_is_refused_with_what_to_do(worlds):
     other.model.opt.timestep = 0.001
     with pytest.raises(EnvironmentSetupError, match=r'"red mug".* has another timestep.*async'):
         merged([worlds[0], other])
+
+
+@pytest.mark.slow
+def test_mujoco_warp_steps_all_kinds_as_each_by_itself(worlds):
+    """Four control steps with random actions in single precision, contacts softened."""
+    pytest.importorskip("mujoco_warp")
+    from pat3d.envs.batch.physics import BatchedPhysics, Capacity
+
+    sizes, both = Capacity(contacts=200, rows=1200), merged(worlds)
+    together = BatchedPhysics(both, 2 * len(worlds), "osc", 20.0, "cpu", sizes)
+    actions = np.random.default_rng(0).uniform(-1.0, 1.0, (4, 2 * len(worlds), together.controller.size))
+    for action in actions.astype(np.float32):
+        together.step(action)
+    positions = together.data.qpos.numpy()
+    for number, (kind, world) in enumerate(zip(both.kinds, worlds, strict=True)):
+        for row in (number, number + len(worlds)):
+            one = BatchedPhysics(alone(world), 1, "osc", 20.0, "cpu", sizes)
+            for action in actions.astype(np.float32):
+                one.step(action[row : row + 1])
+            np.testing.assert_allclose(positions[row][kind.positions], one.data.qpos.numpy()[0], atol=10 * ALIKE)

@@ -17,7 +17,9 @@ KNOWN = [(kind, core) for kind, cores in CORES.items() for core in cores]
 
 
 def named(spec: str) -> list[str]:
-    """The kind of a task and the objects that it names."""
+    """The kind of a task and the objects that it names; where those are rearranged to is drawn with the scene."""
+    if spec.startswith("rearrange:"):
+        return spec.split(":")
     task = parse_task(spec)
     return [task.kind, *task.names]
 

@@ -206,7 +206,18 @@ def test_every_possible_task_can_be_written_down_and_read_again(breakfast):
         instruction = task.instruction(breakfast)
         assert instruction
         assert instruction == instruction.lower()
-    assert set(TASKS) == {"pick", "place", "stack", "sort", "unload", "retrieve", "chain"}
+    assert set(TASKS) == {
+        "pick",
+        "place",
+        "stack",
+        "sort",
+        "unload",
+        "retrieve",
+        "chain",
+        "rearrange",
+        "carry",
+        "handover",
+    }
 
 
 def test_sorting_pairs_objects_with_the_container_of_their_colour(breakfast):

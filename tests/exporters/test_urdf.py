@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+from pat3d.assets.materials import material, surface_of
 from pat3d.assets.shapes import box, convex, join
 from pat3d.errors import ExportError
 from pat3d.exporters import parity
@@ -226,3 +227,16 @@ def test_writing_again_replaces_the_export_and_other_folders_are_refused(scene, 
     with pytest.raises(ExportError, match="not empty"):
         write_urdf(scene, tmp_path / "mine")
     assert sorted(os.listdir(tmp_path)) == ["mine", "u"]
+
+
+def test_only_what_is_translucent_has_a_colour_beside_its_texture(tmp_path):
+    """SAPIEN and what stands on it show a colour of the URDF in place of the mesh's texture."""
+    block, pane = asset_of(box(0.1, 0.1, 0.1)), asset_of(box(0.1, 0.1, 0.1), material=material("glass"))
+    write_urdf(scene_of(placed("block", block, (0, 0, 0)), placed("pane", pane, (1, 0, 0))), tmp_path / "urdf")
+
+    def colours(name: str) -> list[str]:
+        root = ET.parse(tmp_path / "urdf" / "objects" / name / f"{name}.urdf")
+        return [str(one.get("rgba")) for one in root.iterfind("link/visual/material/color")]
+
+    assert colours("block") == []
+    assert colours("pane") == [f"1 1 1 {surface_of(pane).opacity:g}"]

@@ -1,46 +1,24 @@
 """`pat3d generate --image`: from files of a photograph to a verified scene, and what is refused on the way."""
 
-import base64
-import io
 import json
-import math
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from pat3d.assets import sources
-from pat3d.assets.variant import Variant
 from pat3d.cli.main import main
 from pat3d.cli.photographs import labeller_of
 from pat3d.cli.reading import chat
+from pat3d.errors import ModelError
 from pat3d.generation.pictured import generate_from_image
-from pat3d.generation.request import derived_seed
-from pat3d.geometry.pose import Pose
 from pat3d.plan.llm.chat import Chat
 from pat3d.plan.llm.settings import ModelSettings
 from pat3d.scene.io import load_scene
-from pat3d.vision.depth import MeasuredDepth
-from pat3d.vision.detection import Found
 from pat3d.vision.listing import ChatLister
 from pat3d.vision.looking import Lookers, Photograph
-from pat3d.vision.painting import ServedPainter
-from tests.loopback import Reply
-from tests.plan.llm_server import said, serving
-from tests.vision.seen import HEIGHT, WIDTH, camera_at, see
-
-CAMERA = camera_at((0.4, -0.8, 0.6), (0.0, 0.0, 0.05))
-
-
-def made(noun, name):
-    """The asset that a label of that name gets: of other seeds, proportions differ."""
-    return sources.make(noun, Variant(seed=derived_seed(0, name)))
-
-
-THINGS = {
-    "box": (made("storage box", "box"), Pose.from_yaw(0.3, (-0.1, 0.0, 0.0))),
-    "mug": (made("mug", "mug"), Pose.from_yaw(2.0, (0.22, -0.05, 0.0))),
-}
+from tests.generation.pictured import CAMERA, THINGS, Truth, painted_and_labelled
+from tests.plan.llm_server import fault, said, serving
+from tests.vision.seen import HEIGHT, WIDTH, see
 
 
 @pytest.fixture
@@ -95,6 +73,12 @@ def test_what_a_photograph_needs_is_said(photographed, tmp_path, capsys):
     assert "--paint needs a PROMPT" in capsys.readouterr().err
 
 
+def test_relative_depth_is_a_file_s(photographed, tmp_path, capsys):
+    del photographed["--depth"]
+    assert main(["generate", *words(photographed), "--relative-depth", "--out", str(tmp_path / "scene")]) == 2
+    assert "give it as --depth FILE" in capsys.readouterr().err
+
+
 def test_every_model_that_is_missing_is_named_at_once(tmp_path, monkeypatch, capsys):
     for name in ("PAT3D_DEPTH_MODEL", "PAT3D_SEGMENTATION_MODEL", "PAT3D_IMAGE_MODEL", "PAT3D_MODEL", "PAT3D_CONFIG"):
         monkeypatch.delenv(name, raising=False)
@@ -106,71 +90,63 @@ def test_every_model_that_is_missing_is_named_at_once(tmp_path, monkeypatch, cap
         assert name in told
 
 
-class Truth:
-    """Finds and measures what was drawn; counts how often it is asked."""
-
-    name = "truth"
-
-    def __init__(self, seen):
-        self.seen, self.asked = seen, 0
-
-    def find(self, picture, phrase):
-        self.asked += 1
-        return [
-            Found(phrase=phrase, score=0.9, mask=self.seen.instances == number)
-            for number, name in enumerate(self.seen.names, start=1)
-            if name == phrase
-        ]
-
-    def measure(self, picture):
-        self.asked += 1
-        return MeasuredDepth(depth=self.seen.depth, angle=2 * math.degrees(math.atan(WIDTH / 2 / CAMERA.pinhole.fx)))
-
-
 @pytest.mark.slow
 def test_a_prompt_becomes_a_photograph_and_this_a_scene_and_what_models_said_is_not_asked_twice(tmp_path, monkeypatch):
     """Real clients of a painter and a vision-language model on the loopback; detector and depth are the truth."""
     monkeypatch.setenv("NO_PROXY", "127.0.0.1")
     monkeypatch.setenv("PAT3D_CACHE", str(tmp_path / "cache"))
-    stream = io.BytesIO()
-    Image.fromarray(np.full((HEIGHT, WIDTH, 3), 120, dtype=np.uint8)).save(stream, format="PNG")
-    picture = {"data": [{"b64_json": base64.b64encode(stream.getvalue()).decode()}]}
-    kinds = [{"phrase": "box", "count": 1}, {"phrase": "mug", "count": 2}]
-    usual = {"colours": [], "material": None, "size": 0.1}
-    told = [
-        usual | {"number": 1, "name": "box", "noun": "storage box"},
-        usual | {"number": 2, "name": "mug", "noun": "mug"},
-    ]
-    replies = [Reply(body=json.dumps(picture).encode()), said({"kinds": kinds}), said({"objects": told})]
-    truth = Truth(see(THINGS, CAMERA))
-    with serving(*replies) as server:
-        settings = ModelSettings(name="eyes", base_url=server.url, key="secret", retries=0)
-        asks = Chat(settings)
-        lookers = Lookers(
-            painter=lambda: ServedPainter(settings),
-            lister=lambda: ChatLister(asks),
-            finder=lambda: truth,
-            labeller=lambda: labeller_of(asks),
-            depth=lambda: truth,
-        )
+    with painted_and_labelled() as (lookers, server):
         reports = []
         for _ in range(2):
             generate_from_image(Photograph(), out=tmp_path / "scene", prompt="a mug and a box", lookers=lookers)
             reports.append(json.loads((tmp_path / "scene" / "report.json").read_text())["understood"])
             assert len(server.requests) == 3
-            assert truth.asked == 3
+            assert lookers.finder().asked == 3
     assert [obj.name for obj in load_scene(tmp_path / "scene").objects] == ["box", "mug"]
     assert np.array(Image.open(tmp_path / "scene" / "photograph.png")).shape == (HEIGHT, WIDTH, 3)
     first, second = reports
     assert first["painted_by"]["images"] == 1
     assert first["found_by"]["model"] == first["measured_by"]["model"] == "truth"
     assert first["labelled_by"]["prompt_tokens"] == 200
+    assert first["least_occluded"] == "box"
     assert '1 of 2 "mug" found by truth' in first["notes"]
     assert second["found_by"]["kept"]
     assert second["measured_by"]["kept"]
     assert second["painted_by"]["cached"] == 1
     assert all(0.97 < one["scale"] < 1.03 for one in second["fits"].values())
     assert "secret" not in json.dumps(reports)
+
+
+def test_a_run_that_a_server_broke_leaves_nothing_and_goes_on_from_the_last_stage_that_was_done(tmp_path, monkeypatch):
+    monkeypatch.setenv("NO_PROXY", "127.0.0.1")
+    monkeypatch.setenv("PAT3D_CACHE", str(tmp_path / "cache"))
+    Image.fromarray(np.full((HEIGHT, WIDTH, 3), 120, dtype=np.uint8)).save(tmp_path / "photo.png")
+    truth = Truth(see(THINGS, CAMERA))
+    kinds = {"kinds": [{"phrase": "box", "count": 1}, {"phrase": "mug", "count": 1}]}
+    cut = said({"objects": []})
+    cut.sent = 40
+    runs = [
+        ([fault(500, "broken, very-secret")], "status 500", 0),
+        ([said(kinds), cut], "model", 3),
+        ([fault(429, "slow down")], "status 429", 3),
+        ([said("{"), said({"objects": [], "least_occluded": 1}), said("[]")], "no valid answer in 3", 3),
+    ]
+    for replies, says, asked in runs:
+        with serving(*replies) as server:
+            asks = Chat(ModelSettings(name="eyes", base_url=server.url, key="very-secret", retries=0))
+            lookers = Lookers(
+                lister=lambda asks=asks: ChatLister(asks),
+                finder=lambda: truth,
+                labeller=lambda asks=asks: labeller_of(asks),
+                depth=lambda: truth,
+            )
+            with pytest.raises(ModelError, match=says) as raised:
+                generate_from_image(Photograph(picture=tmp_path / "photo.png"), out=tmp_path / "scene", lookers=lookers)
+            assert not server.replies
+        assert truth.asked == asked
+        assert "very-secret" not in str(raised.value)
+        assert {one.name for one in tmp_path.iterdir()} <= {"cache", "photo.png"}
+    assert not any(b"very-secret" in one.read_bytes() for one in tmp_path.rglob("*") if one.is_file())
 
 
 def test_without_depth_and_without_a_model_both_are_named(photographed, tmp_path, monkeypatch, capsys):

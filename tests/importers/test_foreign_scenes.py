@@ -106,6 +106,17 @@ def test_a_robot_is_refused_by_its_joints_and_may_stand_still_or_be_left_out(tmp
     assert (left.left_out, [obj.name for obj in left.scene.objects]) == (("arm",), ["cube"])
 
 
+def test_a_body_without_a_name_has_that_of_the_mesh_that_no_other_has(tmp_path):
+    corners = "0 0 0  0.1 0 0  0 0.1 0  0 0 0.1"
+    meshes = "".join(f'<mesh name="{name}" vertex="{corners}"/>' for name in ("mug", "brick", "tray"))
+    body = '<body pos="{} 0 0.1"><freejoint/><geom type="mesh" mesh="{}"/></body>'
+    bodies = "".join(body.format(x, mesh) for x, mesh in enumerate(("mug", "brick", "brick", "tray")))
+    named = '<body name="tray" pos="9 0 0.1"><freejoint/><geom type="box" size="0.02 0.02 0.02"/></body>'
+    path = tmp_path / "scene.xml"
+    path.write_text(f"<mujoco><asset>{meshes}</asset><worldbody>{bodies}{named}</worldbody></mujoco>")
+    assert [obj.name for obj in import_scene(path).scene.objects] == ["mug", "body 2", "body 3", "body 4", "tray"]
+
+
 def test_sdf_frames_links_joints_and_includes(tmp_path):
     (tmp_path / "brick").mkdir()
     box = "<geometry><box><size>0.2 0.1 0.06</size></box></geometry>"
@@ -139,6 +150,11 @@ def test_sdf_frames_links_joints_and_includes(tmp_path):
     assert len(glued["two"].parts) == 2
     with pytest.raises(AssetError, match='"two/a" by revolute'):
         import_scene(written(two.format(joint.format("revolute"))))
+    post = '<model name="post"><link name="a"><collision name="c">{}</collision></link>{}</model>'
+    to_world = '<joint name="{0}" type="{0}"><parent>world</parent><child>a</child></joint>'
+    assert import_scene(written(post.format(box, to_world.format("fixed")))).scene["post"].fixed
+    with pytest.raises(AssetError, match='"post" by ball'):
+        import_scene(written(post.format(box, to_world.format("ball"))))
 
 
 def test_urdf_links_that_float_are_objects_and_doors_are_refused(tmp_path):
@@ -263,7 +279,7 @@ def test_an_open_shell_is_cut_as_a_whole_and_closed_lumps_one_by_one(tmp_path):
     assert (read.kept, read.cut) == (2, 0)
     assert all(part.box is not None for part in read.scene["pair"].parts)
     apart = boxes[0][faces[:10]].reshape(-1, 3)
-    (tmp_path / "two.obj").write_text(hull_obj(apart, np.arange(30).reshape(10, 3)))
+    (tmp_path / "two.obj").write_text(hull_obj(apart, np.arange(30, dtype=np.int32).reshape(10, 3)))
     tub = import_scene(tmp_path / "scene.urdf", cache_dir=tmp_path / "cache")
     assert tub.cut == 1
     inside = np.array([0.02, 0.02, 0.03]) - tub.scene["pair"].pose.position

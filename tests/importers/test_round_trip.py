@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from pat3d.errors import AssetError
 from pat3d.exporters import export
 from pat3d.importers.scene import Imported, import_scene
 from pat3d.scene.model import Scene, SceneObject
@@ -91,3 +93,16 @@ def test_what_hangs_by_points_still_does(tmp_path, name):
         expected = one.ends(scene[one.child].pose, scene[one.parent].pose)
         found = other.ends(read[one.child].pose, read[one.parent].pose)
         np.testing.assert_allclose(found, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("loose", [False, True])
+def test_what_hangs_in_an_sdf_world_is_refused_by_its_joint_and_may_stand_still(tmp_path, loose):
+    scene = hung_bar()
+    if loose:
+        scene = replace(scene, objects=tuple(replace(obj, fixed=False) for obj in scene.objects))
+    (path,) = export(scene, ("sdf",), tmp_path).values()
+    with pytest.raises(AssetError, match=r'"a_bar" by .*a_bar_hangs'):
+        import_scene(path)
+    still = import_scene(path, joints="fix").scene
+    assert still["a_bar"].fixed
+    np.testing.assert_allclose(still["a_bar"].pose.position, scene["a bar"].pose.position, atol=1e-12)

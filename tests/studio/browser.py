@@ -17,10 +17,8 @@ FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    # Without a graphics card, WebGL is drawn by the processor.
-    "--use-angle=swiftshader",
+    # Without a graphics card WebGL is drawn by the processor; how the page is put together is Chromium's own choice.
     "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 
 import numpy as np
@@ -15,11 +16,20 @@ if chromium() is None:
     pytest.skip("there is no Chromium", allow_module_level=True)
 
 from pat3d.scene.io import load_scene
+from pat3d.studio.names import HEIGHT, Eye
 from pat3d.studio.server import opened
 from pat3d.studio.workbench import needed
 
 pytestmark = pytest.mark.slow
 
+RECORDER = """
+window.shaders = [];
+const { shaderSource } = WebGL2RenderingContext.prototype;
+WebGL2RenderingContext.prototype.shaderSource = function (shader, text) {
+    window.shaders.push(text);
+    return shaderSource.call(this, shader, text);
+};
+"""
 SENTENCE = "a red mug on a cutting board"
 LONG = "a stack of ten books, a vase, a red mug, a bowl with six apples and a laptop on a desk"
 
@@ -33,6 +43,7 @@ def studio(tmp_path_factory):
 @pytest.fixture(scope="module")
 def browser(studio):
     with page() as made:
+        made.add_init_script(RECORDER)
         made.goto(studio.address)
         made.get_by_role("button", name="Make").wait_for()
         yield made
@@ -61,10 +72,17 @@ def server(studio):
     return studio.page.server
 
 
-def test_a_sentence_becomes_a_scene(studio, browser, shot):
+def test_a_sentence_becomes_a_scene(studio, browser, shot, monkeypatch):
+    seen, view = [], studio.page._view
+    begin, show = view.begin, view.pose
+    monkeypatch.setattr(view, "begin", lambda scene: (seen.append(scene["red mug"].pose), begin(scene)))
+    monkeypatch.setattr(view, "pose", lambda poses: (seen.append(poses["red mug"]), show(poses)))
     field(browser, "Sentence").fill(SENTENCE)
     browser.get_by_role("button", name="Make").click()
     browser.get_by_text("made and verified").first.wait_for()
+    # It was shown on its way, from its layout down to its rest.
+    assert len(seen) > 2
+    assert seen[0].position[2] > seen[-1].position[2]
     browser.get_by_text("it does not move").wait_for()
     assert {"red mug", "cutting board"} <= {obj.name for obj in needed(studio.bench.session).scene.objects}
 
@@ -75,6 +93,37 @@ def test_where_the_processor_draws_edges_are_not_smoothed(browser):
     )
     assert wishes["antialias"] is False
     assert wishes["preserveDrawingBuffer"] is True
+
+
+def test_where_the_processor_draws_surfaces_are_matt_until_shadows_and_reflections_are_asked_for(browser):
+    def lit():
+        """For every lit surface that was compiled: whether it shines."""
+        shaders = [text for text in browser.evaluate("window.shaders") if "RE_Direct_Physical" in text]
+        return [re.search(r"#define RE_Direct\s+(\w+)", text).group(1) == "RE_Direct_Physical" for text in shaders]
+
+    assert lit()
+    assert not any(lit())
+    box = browser.get_by_text("Shadows, reflections", exact=True)
+    box.click()
+    until(lambda: any(lit()))
+    box.click()
+
+
+def test_names_do_not_overlap_and_follow_the_eye(studio, browser):
+    (client,) = server(studio).get_clients().values()
+
+    def places():
+        found = {path: one for path, one in client.scene._handle_from_node_name.items() if path.startswith("/names/")}
+        return {path: one.position.copy() for path, one in found.items() if one.visible}
+
+    until(lambda: set(places()) == {"/names/red mug", "/names/cutting board"})
+    before = places()
+    # From far away the names come together.
+    client.camera.position = 25.0 * np.asarray(client.camera.position)
+    until(lambda: np.linalg.norm(places()["/names/red mug"] - before["/names/red mug"]) > 0.01)
+    mug, board = (Eye.of(client.camera).seen(places()[path][None])[0] for path in before)
+    assert abs(mug[1] - board[1]) >= HEIGHT - 0.1
+    server(studio).initial_camera.position = client.camera.position = client.camera.position / 25.0
 
 
 def test_a_click_selects_what_is_under_it(studio, browser, shot):

@@ -29,3 +29,10 @@ def test_what_the_edit_moved_comes_first_and_by_how_much(settled):
     assert float(rows[0][1]) == pytest.approx(20.0, abs=0.1)
     assert all(float(row[1]) < 0.1 for row in rows[1:])
     assert facts.changed(settled.undone()) == ""
+
+
+def test_words_of_others_are_shown_as_they_are_and_lead_nowhere():
+    shown = facts.plain("see https://example.org/a_b\n or <b>a@b.org</b>")
+    # CommonMark: a backslash before a mark makes it a plain letter.
+    assert re.sub(r"\\(.)", r"\1", shown) == "see https://example.org/a_b or <b>a@b.org</b>"
+    assert not re.search(r"(?<!\\)[:@<_]", shown)

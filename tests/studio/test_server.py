@@ -61,14 +61,21 @@ def test_what_is_selected_and_deleted_is_shown(studio):
     assert control(studio, "Settle").disabled
 
 
-@pytest.mark.parametrize("label", ["Names", "Convex hulls", "Contact forces", "Initial layout"])
+def test_the_tree_of_the_page_has_the_names_of_the_objects(studio):
+    def objects():
+        return {path for path in studio.page.scene._handle_from_node_name if path.startswith("/objects/")}
+
+    assert objects() == {"/objects/board", "/objects/brick", "/objects/block (2)"}
+
+
+@pytest.mark.parametrize("label", ["Convex hulls", "Contact forces", "Initial layout"])
 def test_what_is_shown_beside_the_objects_can_be_changed(studio, label):
     before = set(studio.page.scene._handle_from_node_name)
     box = control(studio, label)
     box.value = not box.value
     # viser tells of a change from another thread.
     for _ in range(600):
-        if len(set(studio.page.scene._handle_from_node_name) ^ before) >= 2:
+        if set(studio.page.scene._handle_from_node_name) != before:
             break
         time.sleep(0.05)
     else:

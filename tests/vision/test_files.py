@@ -13,6 +13,7 @@ from PIL import Image
 from pat3d.errors import SpecError
 from pat3d.vision import files, intrinsics
 from pat3d.vision.camera import Pinhole
+from pat3d.vision.stance import Stance
 
 NAMES = {"objects": [{"name": "red mug", "noun": "mug"}, {"name": "plate", "value": 7}]}
 
@@ -41,6 +42,13 @@ def test_labels_have_nouns_and_values_of_their_own(tmp_path):
     assert (one.noun, one.value, two.noun, two.value) == ("mug", 1, "plate", 7)
 
 
+def test_labels_tell_how_things_stand_and_which_of_them_is_hidden_least(tmp_path):
+    told = {"objects": [{"name": "mug", "posture": "on its side", "facing": "left"}, {"name": "plate"}]}
+    found = labels(tmp_path, told | {"least_occluded": "plate"})
+    assert [one.stance for one in found.objects] == [Stance(posture="on its side", facing="left"), Stance()]
+    assert found.least_occluded == "plate"
+
+
 @pytest.mark.parametrize(
     ("document", "said"),
     [
@@ -53,6 +61,8 @@ def test_labels_have_nouns_and_values_of_their_own(tmp_path):
         ({"objects": [{"name": "mug", "mesh": "/etc/passwd"}]}, "mesh"),
         ({"objects": [{"name": f"mug {k}"} for k in range(100)]}, "objects"),
         ({"objects": [{"name": "mug"}], "depth": "relative"}, "needs the size"),
+        ({"objects": [{"name": "mug"}], "least_occluded": "cup"}, 'no object is called "cup"'),
+        ({"objects": [{"name": "mug", "facing": "up"}]}, "facing"),
     ],
 )
 def test_labels_that_cannot_be_meant_are_refused(tmp_path, document, said):

@@ -24,14 +24,16 @@ MASKS[10:30, 10:30], MASKS[10:30, 40:70] = 3, 9
 PICTURE[MASKS == 3] = (250, 0, 0)
 
 
-def described(*objects):
-    usual = {"colours": [], "material": None, "size": 0.1}
-    return {"objects": [usual | {"number": k} | one for k, one in enumerate(objects, start=1)]}
+def described(*objects, least=1):
+    usual = {"colours": [], "material": None, "size": 0.1, "posture": "usual", "facing": "unclear"}
+    found = [usual | {"number": k} | one for k, one in enumerate(objects, start=1)]
+    return {"objects": found, "least_occluded": least}
 
 
 RIGHT = described(
     {"name": "red mug", "noun": "mug", "colours": ["red", "mauvish"], "material": "ceramic"},
-    {"name": "book", "noun": "book", "material": "unobtainium", "size": 0.24},
+    {"name": "book", "noun": "book", "material": "unobtainium", "size": 0.24, "posture": "leaning", "facing": "left"},
+    least=2,
 )
 
 
@@ -50,12 +52,15 @@ def labeller(tmp_path, monkeypatch):
 def test_masks_get_the_labels_of_the_cut_outs_that_were_sent(labeller):
     with serving(said(RIGHT)) as server:
         own = labeller(server)
-        found = own.labels(PICTURE, MASKS).objects
+        labels = own.labels(PICTURE, MASKS)
+    found = labels.objects
     assert [(one.name, one.noun, one.value, one.size) for one in found] == [
         ("red mug", "mug", 3, 0.1),
         ("book", "book", 9, 0.24),
     ]
     assert (found[0].colours, found[0].material, found[1].material) == (("red",), "ceramic", None)
+    assert [(one.posture, one.facing) for one in found] == [("usual", "unclear"), ("leaning", "left")]
+    assert labels.least_occluded == "book"
     (request,) = server.requests
     schema = request["response_format"]["json_schema"]["schema"]
     assert schema["properties"]["objects"]["items"]["properties"]["noun"]["enum"] == ["book", "mug"]
@@ -78,6 +83,8 @@ def test_masks_get_the_labels_of_the_cut_outs_that_were_sent(labeller):
         (described({"name": "../x", "noun": "mug"}, {"name": "b", "noun": "mug"}), "no slash"),
         (described({"name": "a", "noun": "mug", "size": 4e3}, {"name": "b", "noun": "mug"}), "a size of 4000 m"),
         (described({"name": "a", "noun": "rm -rf"}, {"name": "b", "noun": "mug"}), "not valid"),
+        (described({"name": "a", "noun": "mug"}, {"name": "b", "noun": "mug"}, least=3), "least_occluded is 3"),
+        (described({"name": "a", "noun": "mug", "facing": "up"}, {"name": "b", "noun": "mug"}), "not valid"),
         ("[1, 2", "not JSON"),
     ],
 )

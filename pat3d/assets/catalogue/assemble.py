@@ -12,6 +12,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from pat3d.assets.catalogue.registry import RGB, Build
+from pat3d.assets.catalogue.trimmed import trimmed
 from pat3d.assets.shapes import Shape
 from pat3d.errors import AssetError
 from pat3d.geometry.hulls import convex_part
@@ -33,11 +34,12 @@ def assemble(noun: str, build: Build, *, material: Material, scale: float, prove
     if union.status() != manifold3d.Error.NoError or union.is_empty():
         raise AssetError(f'recipe "{noun}" does not join into a solid: {union.status()}.')
     mesh_vertices, faces, colours = _painted(union, colour_of, build.paint)
-    points = np.concatenate([hull for shape, _ in build.parts for hull in shape.hulls])
+    parts = [hull for shape in trimmed([shape for shape, _ in build.parts], scale) for hull in shape.hulls]
+    points = np.concatenate(parts)
     low, high = points.min(axis=0), points.max(axis=0)
     origin = np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
     vertices = (mesh_vertices - origin) * scale
-    hulls = tuple(convex_part((hull - origin) * scale) for shape, _ in build.parts for hull in shape.hulls)
+    hulls = tuple(convex_part((hull - origin) * scale) for hull in parts)
     size = (high - low) * scale
     regions = tuple(_placed(region, origin, scale) for region in build.regions) or (top_of_box(size),)
     if not any(region.kind == "on" for region in regions):

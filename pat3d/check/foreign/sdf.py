@@ -46,11 +46,19 @@ def read_sdf_scene(path: Path) -> tuple[Any, tuple[str, ...]]:
     return spec, tuple(dict.fromkeys(notes))
 
 
-def _models(spec: Any, parent: ET.Element, folder: Path, frame: Pose, notes: list[str], depth: int) -> None:
+def _models(
+    spec: Any,
+    parent: ET.Element,
+    folder: Path,
+    frame: Pose,
+    notes: list[str],
+    depth: int,
+    joined: frozenset[str] = frozenset(),
+) -> None:
     if depth == 0:
         raise CheckError(f"{folder}: models that include models, more than {MAX_DEPTH} deep.")
     for model in parent.findall("model"):
-        _model(spec, model, folder, within(frame, _pose(model, notes)), notes)
+        _model(spec, model, folder, within(frame, _pose(model, notes)), notes, joined=model.get("name") in joined)
     for include in parent.findall("include"):
         target = _resolved(include.findtext("uri"), folder)
         target = target / "model.sdf" if target.is_dir() else target
@@ -67,11 +75,11 @@ def _models(spec: Any, parent: ET.Element, folder: Path, frame: Pose, notes: lis
         _model(spec, held, target.parent, within(frame, own), notes)
 
 
-def _model(spec: Any, model: ET.Element, folder: Path, frame: Pose, notes: list[str]) -> None:
+def _model(spec: Any, model: ET.Element, folder: Path, frame: Pose, notes: list[str], *, joined: bool = False) -> None:
     name = str(model.get("name"))
     links = model.findall("link")
     fixed = (model.findtext("static") or "").strip().lower() in ("true", "1")
-    if model.find("joint") is not None and not fixed:
+    if (joined or model.find("joint") is not None) and not fixed:
         notes.append(f'"{name}" has joints; it was taken as fixed.')
         fixed = True
     for number, link in enumerate(links):
@@ -82,7 +90,9 @@ def _model(spec: Any, model: ET.Element, folder: Path, frame: Pose, notes: list[
         for place, collision in enumerate(link.findall("collision")):
             _collision(spec, body, collision, folder, f"{own}_{number}_{place}", where, notes)
     if model.find("model") is not None:
-        _models(spec, model, folder, frame, notes, MAX_DEPTH - 1)
+        ends = [str(end.text).split("::") for end in model.iterfind("joint/*") if end.tag in ("parent", "child")]
+        held = frozenset(names[-2] for names in ends if len(names) > 1)
+        _models(spec, model, folder, frame, notes, MAX_DEPTH - 1, held)
 
 
 def _collision(

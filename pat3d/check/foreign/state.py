@@ -61,8 +61,22 @@ def owners(model: Any) -> Owners:
 
 
 def body_name(model: Any, body: int) -> str:
-    """The name of a body, or its number where it has none."""
-    return model.body(body).name or f"body {body}"
+    """The name of a body; where it has none, that of the mesh that it alone has, or its number."""
+    return model.body(body).name or _own_mesh(model, body) or f"body {body}"
+
+
+def _own_mesh(model: Any, body: int) -> str:
+    import mujoco
+
+    meshes = model.geom_type == mujoco.mjtGeom.mjGEOM_MESH
+    found = set(model.geom_dataid[meshes & (model.geom_bodyid == body)].tolist())
+    if len(found) != 1:
+        return ""
+    (mesh,) = found
+    name = model.mesh(mesh).name
+    taken = name in (model.body(other).name for other in range(model.nbody))
+    alone = set(model.geom_bodyid[meshes & (model.geom_dataid == mesh)].tolist()) == {body}
+    return name if alone and not taken else ""
 
 
 def start(model: Any, keyframe: str | None = None) -> Any:

@@ -156,22 +156,26 @@ class EditableScene:
         factor = factor_of(str(size), float(self.scene[name].asset.size.max()))
         return self._edited("scale", f"{what}: {size}", (name,), lambda draft: steps.resized(draft, name, factor))
 
-    def set(self, what: str, **values: Any) -> EditableScene:
+    def set(self, what: str, /, **values: Any) -> EditableScene:
         """Give objects another mass [kg], density [kg/m^3], friction [-] or material.
+
+        What is given beside a material holds instead of the material's own, in whichever order.
 
         Args:
             what: "the mug".
             values: mass=0.3, material="wood".
 
         Raises:
-            EditError: no such object, quantity or value.
+            EditError: no such object, quantity or value; or both a mass and a density.
             AssetError: no such material.
         """
         names = self._chosen(what, several=True)
+        if {"mass", "density"} <= set(values):
+            raise EditError(f'"{what}": give its mass or its density, not both.')
 
         def changed(draft: Draft) -> Draft:
             for name in names:
-                for key, value in values.items():
+                for key, value in sorted(values.items(), key=lambda one: one[0] != "material"):
                     draft = steps.set_value(draft, name, key, str(value))
             return draft
 

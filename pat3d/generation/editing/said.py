@@ -51,6 +51,8 @@ def _set(scene: EditableScene, what: str, said: str) -> EditableScene:
         key, equals, value = (piece.strip() for piece in part.partition("="))
         if not equals or not key or not value:
             raise EditError(f'"{part.strip()}" sets nothing; valid: "{EXAMPLES["set"]}".')
+        if key in values:
+            raise EditError(f'"{said.strip()}" sets the {key} twice.')
         values[key] = value
     return scene.set(what, **values)
 

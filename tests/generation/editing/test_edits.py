@@ -14,6 +14,7 @@ from pat3d.cli.main import main
 from pat3d.errors import EditError, LayoutError, PromptError
 from pat3d.generation.editing.draft import Draft
 from pat3d.generation.editing.resettling import Changes, settled
+from pat3d.generation.editing.said import applied
 from pat3d.generation.editing.selecting import chosen
 from pat3d.geometry.mass import mass_properties
 from pat3d.geometry.pose import Pose
@@ -152,6 +153,28 @@ def test_what_is_set_reaches_the_asset_and_a_heavier_thing_stays_where_it_is(des
     assert done.scene["apple 2"].asset.mass_properties.mass == desk.scene["apple 2"].asset.mass_properties.mass
     assert done.scene["desk"].fixed
     assert max(one.mm for one in done.changes.moved.values()) < UNMOVED
+
+
+def test_what_is_said_beside_a_material_holds_in_whichever_order(desk):
+    for said in ("material=wood, friction=0.6, density=900", "density=900, friction=0.6, material=wood"):
+        apple = applied(desk, [("set", f"apple 1: {said}")]).scene["apple 1"].asset
+        assert apple.material.name == "wood"
+        assert apple.material.friction == 0.6
+        assert apple.mass_properties.mass == pytest.approx(900 * apple.mass_properties.volume)
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [
+        ("mass=1, density=900", "not both"),
+        ("mass=1, mass=2", "twice"),
+        ("what=3", "cannot be set"),
+        ("mass", "nothing"),
+    ],
+)
+def test_what_cannot_be_set_is_refused(desk, said, message):
+    with pytest.raises(EditError, match=message):
+        applied(desk, [("set", f"apple 1: {said}")])
 
 
 def test_a_replacement_stands_where_the_old_one_stood_under_its_own_name(desk):

@@ -32,6 +32,18 @@ bool Load(sdf::Root &root, const std::string &file) {
   return errors.empty();
 }
 
+int bodies = 0;
+double mass = 0.0;
+
+// A loose model and those in it, which hang from it.
+void Count(const sdf::Model &model) {
+  if (model.Static()) return;
+  bodies += 1;
+  for (uint64_t link = 0; link < model.LinkCount(); ++link)
+    mass += model.LinkByIndex(link)->Inertial().MassMatrix().Mass();
+  for (uint64_t inner = 0; inner < model.ModelCount(); ++inner) Count(*model.ModelByIndex(inner));
+}
+
 }  // namespace
 
 int main(int count, char **files) {
@@ -51,15 +63,7 @@ int main(int count, char **files) {
     std::cerr << files[1] << ": no world\n";
     return 1;
   }
-  int bodies = 0;
-  double mass = 0.0;
-  for (uint64_t number = 0; number < world->ModelCount(); ++number) {
-    const sdf::Model *model = world->ModelByIndex(number);
-    if (model->Static()) continue;
-    bodies += 1;
-    for (uint64_t link = 0; link < model->LinkCount(); ++link)
-      mass += model->LinkByIndex(link)->Inertial().MassMatrix().Mass();
-  }
+  for (uint64_t number = 0; number < world->ModelCount(); ++number) Count(*world->ModelByIndex(number));
   std::cout << std::setprecision(17) << "{\"version\": \"" << SDF_VERSION_FULL << "\", \"bodies\": " << bodies
             << ", \"mass\": " << mass << "}\n";
   return 0;
