@@ -99,7 +99,7 @@ def shared_landmark(tokens: Sequence[Token]) -> list[Token]:
 
 
 def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a pot, its lid beside it, on a hob" as "a pot and a lid on a hob, and the lid is beside the pot"."""
+    """`tokens` with "a pot, its lid beside it, on a hob" as "a pot and a lid on a hob, and the lid is beside it"."""
     words = [token.text for token in tokens]
     for at in range(1, len(words) - 4):
         link = next((n for n in range(at + 3, min(at + 6, len(words))) if link_at(tokens, n)), 0)
