@@ -81,7 +81,7 @@ def _said(level: Level) -> str:
     """What the pairs say, where they say something."""
     if level.paired is None or not level.paired.episodes:
         return ""
-    change = f", {-100 * level.paired.difference:+.1f} points"
+    change = f", {0.0 - 100 * level.paired.difference:+.1f} points"
     return f"{change} (p = {level.paired.p_value:.2g})"
 
 

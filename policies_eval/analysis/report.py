@@ -84,6 +84,7 @@ UNITS = {
     "obs": ("observations", "{}"),
     "replan": ("actions of a chunk", "{}"),
     "strict": ("strict about actions", "{}"),
+    "vary": ("starts move objects by up to", "{} m"),
     "suite_sha256": ("checksum of the suite", "{:.16}"),
 }
 """How settings are called on the page, and with which unit their value is told."""

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
+from dataclasses import fields
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("gymnasium")
 
 from pat3d.assets.shapes import box
+from pat3d.cli.episodes import settings_of
+from pat3d.envs.config import BatchConfig, TabletopConfig
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.physics.variation import GAP, LARGEST, TURN
+from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.suite import Suite
 from pat3d.errors import EnvironmentSetupError
+from pat3d.policies_eval.run.settings import RolloutSettings
 from tests.envs.own_arm import own_arm
 from tests.scenes import GAP as SLIT
 from tests.scenes import asset_of, placed, scene_of
@@ -91,3 +100,17 @@ def test_what_has_no_room_stays_and_a_strength_out_of_range_is_refused(arm):
     env.close()
     with pytest.raises(EnvironmentSetupError, match=f"vary is 0 to {LARGEST:g} m"):
         TabletopEnv(robot=arm, vary=1.0)
+
+
+def test_environments_of_a_suite_vary_as_it_says_unless_told_otherwise_and_worlds_on_a_gpu_refuse_it(monkeypatch):
+    found = SimpleNamespace(request=Request(robot="panda", vary=STRENGTH))
+    monkeypatch.setattr(Suite, "open", staticmethod(lambda path: found))
+    assert TabletopConfig(suite="suite").vary == STRENGTH
+    assert TabletopConfig(suite="suite", vary=0.0).vary == 0.0
+    assert TabletopConfig().vary == 0.0
+    with pytest.raises(EnvironmentSetupError, match="resets of this suite move its objects"):
+        BatchConfig(suite="suite")
+    options = Namespace(**{field.name: field.default for field in fields(RolloutSettings)}, suite="suite")
+    assert settings_of(Namespace(**vars(options) | {"vary": None})).vary == STRENGTH
+    assert settings_of(options).vary == 0.0
+    assert settings_of(Namespace(**vars(options) | {"vary": None, "suite": ""})).vary == 0.0

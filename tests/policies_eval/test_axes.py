@@ -91,6 +91,7 @@ def test_curves_count_each_level_and_compare_it_with_the_plain_one_in_pairs():
     assert said[0].startswith("without perturbation: 80.0 %")
     assert "pose 0.2: 20.0 %" in said[2]
     assert "-60.0 points" in said[2]
+    assert ", +0.0 points" in lines_of(curves(evaluation([[1], [1], [1]])))[1]  # type: ignore[arg-type]
     assert drawing(found).count("<circle") == 3
 
 
