@@ -5,8 +5,8 @@ B [1/m] there (convex is positive), in a minimum of its potential if every eigen
 t = (A + B) s it moves its contact by s and its centre by h t: it comes back where the contact gets ahead of the centre.
 A ball on a flat floor is neutral, on another ball it rolls off, an egg lies on its side and not on its end.
 
-Curvatures are those of a polynomial of fourth order through the vertices of a mesh near the contact; where that does
-not fit, the surface has an edge or a flat there, and is none of these.
+Curvatures are those of a polynomial of fourth order through the vertices of a mesh near the contact, or through lines
+along which it is straight; where that does not fit, the surface has an edge or a flat there, and is none of these.
 """
 
 from __future__ import annotations

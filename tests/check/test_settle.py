@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from pat3d.assets.shapes import box, cylinder, vessel
+from pat3d.assets.shapes import box, cylinder, soft_box, vessel
 from pat3d.check.metrics.drift import mean_drift, share_still
 from pat3d.check.settle import settle_in_mujoco
 from pat3d.errors import CheckError
@@ -118,6 +118,17 @@ def test_what_still_moves_late_in_the_run_is_named(tmp_path):
     assert [obj.name for obj in report.creeping()] == ["high"]
     speed = 9.81 * 0.75 * 30.0
     assert report.worst_creep_mm == pytest.approx(60e3 * speed, rel=1e-3)
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_a_flush_tower_of_hulls_that_are_no_boxes_stands(tmp_path):
+    """Each face meets another of eight corners; colliders of meshes find many contacts there, and stop at none."""
+    block = asset_of(soft_box(0.1, 0.1, 0.05, 0.004))
+    assert block.parts[0].box is None
+    tower = [placed(f"block {k}", block, (0, 0, GAP + k * (0.05 + GAP))) for k in range(8)]
+    report = _settle(scene_of(*tower), tmp_path, 1.0)
+    assert report.passed
+    assert report.warnings == ()
 
 
 def test_an_engine_that_stops_is_a_scene_that_moves_and_no_crash(tmp_path, monkeypatch):

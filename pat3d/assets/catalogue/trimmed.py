@@ -2,7 +2,7 @@
 
 A part that reaches further beyond the picture than those of imported meshes may loses the corners that reach furthest,
 to planes that touch what is seen inside of it. Where 64 corners are too few it is cut in two, across its longest side.
-Everything that was seen in the parts stays in them, and no part grows.
+Everything that was seen in the parts stays in them.
 """
 
 from __future__ import annotations
