@@ -30,6 +30,9 @@ _WINDOW = 0.2
 _BENT = 0.5
 """A window should be no wider, to either side, than this share of the radius of curvature in it."""
 
+_REFINED = 0.2
+"""By more than this share a closer look finds another surface, such as the rounding of an edge."""
+
 _CLOSER = 6
 """Windows that are tried for lines, each half as wide as the one before."""
 
@@ -38,6 +41,9 @@ _PARALLEL = 0.99
 
 _FLAT = 1e-9
 """Faces with normals of this cosine below one are in one plane."""
+
+_GAP = 0.5
+"""Distance of lines, as a share of the window, from which what is between them may be flat."""
 
 _STEPS = 7
 """Points of a line across a window."""
@@ -94,7 +100,7 @@ def curvature(
     while (bent := float(np.abs(np.linalg.eigvalsh(found)).max()) * reach) > _BENT:
         reach *= max(0.5, _BENT / bent)
         closer = _fitted(_within(local, reach), reach)
-        if closer is None:
+        if closer is None or np.abs(closer - found).max() > _REFINED * np.abs(found).max():
             break
         found = closer
     return found
@@ -123,7 +129,7 @@ def _ruled(local: NDArray[np.float64], edges: NDArray[np.int64], reach: float) -
         on = beside & (steps > 0.0) & (steps < 1.0) & (np.abs(points[..., 2]) < reach)
         ways = along[long][on.any(axis=1), :2] / flat[long][on.any(axis=1), None]
         found = _fitted(_within(points[on], reach), reach) if len(ways) else None
-        if found is not None and (np.abs(ways @ ways[0]) > _PARALLEL).all():
+        if found is not None and (np.abs(ways @ ways[0]) > _PARALLEL).all() and _dense(points[on], ways[0], reach):
             smooth = found
             if float(np.abs(np.linalg.eigvalsh(found)).max()) * reach <= _BENT:
                 break
@@ -131,6 +137,12 @@ def _ruled(local: NDArray[np.float64], edges: NDArray[np.int64], reach: float) -
             break
         reach *= 0.5
     return smooth
+
+
+def _dense(points: NDArray[np.float64], way: NDArray[np.float64], reach: float) -> bool:
+    """Whether lines along `way` are so close that nothing between them can be flat."""
+    across = np.sort(points[:, :2] @ [-way[1], way[0]])
+    return bool(np.diff(across).max() < _GAP * reach)
 
 
 def _edges(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -142,7 +154,7 @@ def _edges(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[n
     every, owner = every[order], owner[order]
     pairs = np.flatnonzero((every[1:] == every[:-1]).all(axis=1))
     cosine = np.einsum("ei,ei->e", normals[owner[pairs]], normals[owner[pairs + 1]])
-    return every[pairs[cosine < 1.0 - _FLAT]]
+    return np.asarray(every[pairs[cosine < 1.0 - _FLAT]], dtype=np.int64)
 
 
 def _fitted(points: NDArray[np.float64], reach: float) -> NDArray[np.float64] | None:

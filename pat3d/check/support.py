@@ -30,6 +30,9 @@ UPRIGHT = 0.99
 FLAT_AROUND = 0.05
 """What is flat this far around a contact, as a share of the size of what lies there, is a floor."""
 
+STRAIGHT = 0.01
+"""Share of the largest curvature below which a surface is straight along one way."""
+
 CAP = 1.3
 """A surface is flat, not round, where it is near to the plane for this much further than its curvature says."""
 
@@ -228,7 +231,10 @@ def _rolling(scene: Scene, patch: Patch, corners: NDArray[np.float64], body: int
             return None
         lower = bent
     centre = pose.apply(np.array([asset.mass_properties.centre_of_mass]))
-    return rolling(upper, lower, sign * float(patch.plane.seen(centre)[0, 2]))
+    found = rolling(upper, lower, sign * float(patch.plane.seen(centre)[0, 2]))
+    # Along a line there may be a flat side that its ends do not show, so that it is only said that it may roll.
+    straight = np.abs(turns).min() < STRAIGHT * np.abs(turns).max()
+    return "neutral" if straight and found == "unstable" else found
 
 
 def _worst(names: list[str], own: list[Patch], body: int) -> tuple[Excess, ...]:

@@ -54,7 +54,8 @@ def settings_of(options: argparse.Namespace) -> RolloutSettings:
     settings = values(RolloutSettings, options)
     own = of_suite(options)
     settings["robot"] = settings["robot"] or own["robot"]
-    settings["vary"] = own["vary"] if settings["vary"] is None else settings["vary"]
+    # Of demonstrations the variation is the suite's.
+    settings["vary"] = own["vary"] if settings.get("vary") is None else settings["vary"]
     return RolloutSettings(**settings)
 
 

@@ -7,16 +7,16 @@ they decide.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from pat3d.geometry.pose import Pose
+from pat3d.scene.asset import Asset
+from pat3d.vision.camera import PlacedCamera
 from pat3d.vision.drawing import draw
+from pat3d.vision.fitting import Fit
 from pat3d.vision.observation import Observation
-
-if TYPE_CHECKING:
-    from pat3d.vision.recover import Recovered
 
 BELIEVED = 0.7
 """Of the share that is visible of the most visible object, what has to be visible of the one that is said."""
@@ -24,7 +24,25 @@ DOUBTFUL = 1.6
 """Factor between the size that is said and the one that the depth makes, from which on a note says so."""
 
 
-def visible_share(found: Recovered, seen: Observation, name: str) -> float:
+class Fitted(Protocol):
+    """Objects that were fitted to a picture, see `pat3d.vision.recover.Recovered`."""
+
+    @property
+    def camera(self) -> PlacedCamera:
+        """In the scene's frame."""
+        ...
+
+    @property
+    def fits(self) -> Mapping[str, Fit]:
+        """Of every object."""
+        ...
+
+    def sized(self, name: str) -> Asset:
+        """The asset of an object at its fitted size."""
+        ...
+
+
+def visible_share(found: Fitted, seen: Observation, name: str) -> float:
     """Share of the drawn object's pixels that its mask shows, less what the picture's border cuts off [-]."""
     placed, visual = found.fits[name].placed, found.sized(name).visual
     pose = Pose.from_matrix(placed.rotation, placed.position)
@@ -37,7 +55,7 @@ def visible_share(found: Recovered, seen: Observation, name: str) -> float:
 
 
 def least_occluded(
-    found: Recovered, seen: Observation, among: Mapping[str, float], said: str | None
+    found: Fitted, seen: Observation, among: Mapping[str, float], said: str | None
 ) -> tuple[str, str]:
     """Name of the least occluded object of `among`, and who decides it: "said" or "measured".
 
@@ -54,7 +72,7 @@ def least_occluded(
     return max(shares, key=lambda one: shares[one] * float(seen.mask(one).sum()) ** 0.5), "measured"
 
 
-def doubt_of_size(found: Recovered, name: str, size: float) -> str | None:
+def doubt_of_size(found: Fitted, name: str, size: float) -> str | None:
     """A note where the fitted length of object `name` and its `size` [m], as said, differ much; else None."""
     own = float(found.sized(name).size.max())
     if 1.0 / DOUBTFUL < own / size < DOUBTFUL:

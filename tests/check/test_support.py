@@ -216,3 +216,18 @@ def test_the_distance_beyond_a_polygon_is_shapely_s(seed):
     furthest = shapely.distance(shapely.Polygon(corners), shapely.points(points)).max()
     # The corners may come in any order.
     assert beyond(points, corners[rng.permutation(len(corners))]) == pytest.approx(furthest, abs=1e-12)
+
+
+def test_a_log_on_a_table_may_roll_and_one_on_its_end_stands():
+    """Its block of a part holds it still; what is seen is straight along one way and as round as it is high."""
+    log = asset_of(cylinder(0.03, 0.2).turned("y", 90).moved(x=-0.1, z=0.03))
+    lying = replace(log, parts=asset_of(box(0.2, 0.06, 0.06)).parts)
+    standing = asset_of(cylinder(0.03, 0.2))
+    scene = scene_of(
+        placed("table", asset_of(box(0.8, 0.4, 0.02)), (0, 0, GAP)),
+        placed("lying", lying, (0.2, 0, 0.02 + 2 * GAP)),
+        placed("standing", standing, (-0.2, 0, 0.02 + 2 * GAP)),
+    )
+    certificate = certify(scene, margin=True)
+    assert dict(certificate.support.rolling) == {"lying": "neutral"}
+    assert certificate.passed

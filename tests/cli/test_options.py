@@ -10,6 +10,7 @@ import pytest
 
 from pat3d.cli import options as declared
 from pat3d.cli.commands import COMMANDS, find
+from pat3d.cli.episodes import settings_of
 from pat3d.cli.main import main, parser
 from pat3d.generation.optimize_folder import optimize_folder
 from pat3d.generation.pipeline import build, generate
@@ -75,7 +76,7 @@ def test_defaults_of_the_library_are_those_of_the_command_line():
     options = parser(["generate"]).parse_args(["generate", "a mug"])
     assert Settings(**declared.values(Settings, options)) == Settings()
     options = parser(["evaluate"]).parse_args(["evaluate", "--policy", "random", "--out", "x"])
-    assert RolloutSettings(**declared.values(RolloutSettings, options)) == RolloutSettings()
+    assert settings_of(options) == RolloutSettings()
     options = parser(["optimize"]).parse_args(["optimize", "x"])
     assert (options.epochs, options.starts) == (OptimizeOptions.epochs, OptimizeOptions.starts)
     for function, settings in ((generate, Settings), (build, Settings), (optimize_folder, OptimizeOptions)):

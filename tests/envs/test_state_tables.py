@@ -84,7 +84,7 @@ def test_many_worlds_note_the_contacts_of_each_as_one_world_does():
             wp.array([one[3] for one in listed], dtype=wp.float32, device="cpu"),
             wp.array([[one[4]] for one in listed], dtype=int, device="cpu"),
             wp.array([one[0] for one in listed], dtype=int, device="cpu"),
-            wp.array(OWNER, dtype=int, device="cpu"),
+            wp.array([OWNER], dtype=int, device="cpu"),
             wp.array(FINGER, dtype=int, device="cpu"),
             touching,
             pinched,

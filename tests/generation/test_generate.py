@@ -212,11 +212,30 @@ def test_an_interrupted_run_leaves_nothing_unless_asked_to(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+HELD = """
+import contextlib, runpy, sys, time
+from pat3d.scene import replacement
+
+make = replacement.scratch_folder
+
+@contextlib.contextmanager
+def held(*arguments):
+    with make(*arguments) as folder:
+        time.sleep(600)
+        yield folder
+
+replacement.scratch_folder = held
+sys.argv[0] = "pat3d"
+runpy.run_module("pat3d", run_name="__main__", alter_sys=True)
+"""
+"""`python -m pat3d` that stops where its temporary folder is there: how fast it is decides nothing."""
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals differ")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_command_with_130_and_no_debris(tmp_path, number):
     """The command is stopped as soon as its temporary folder is there."""
-    command = [sys.executable, "-m", "pat3d", "generate", PROMPT, "--out", str(tmp_path / "scene")]
+    command = [sys.executable, "-c", HELD, "generate", PROMPT, "--out", str(tmp_path / "scene")]
     path = os.pathsep.join([str(Path(pat3d.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
     process = subprocess.Popen(
         command,

@@ -279,7 +279,7 @@ def test_an_open_shell_is_cut_as_a_whole_and_closed_lumps_one_by_one(tmp_path):
     assert (read.kept, read.cut) == (2, 0)
     assert all(part.box is not None for part in read.scene["pair"].parts)
     apart = boxes[0][faces[:10]].reshape(-1, 3)
-    (tmp_path / "two.obj").write_text(hull_obj(apart, np.arange(30).reshape(10, 3)))
+    (tmp_path / "two.obj").write_text(hull_obj(apart, np.arange(30, dtype=np.int32).reshape(10, 3)))
     tub = import_scene(tmp_path / "scene.urdf", cache_dir=tmp_path / "cache")
     assert tub.cut == 1
     inside = np.array([0.02, 0.02, 0.03]) - tub.scene["pair"].pose.position

@@ -114,7 +114,12 @@ class World:
         )
         simulation = SimpleNamespace(state=state, fingers=np.array([self.width, -self.width]) / 2)
         return SimpleNamespace(
-            control="osc", robot="", scene=self.scene, simulation=simulation, placement=SimpleNamespace(surface=0.0)
+            control="osc",
+            robot="",
+            task=SimpleNamespace(kind="pick"),
+            scene=self.scene,
+            simulation=simulation,
+            placement=SimpleNamespace(surface=0.0),
         )
 
 

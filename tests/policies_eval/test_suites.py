@@ -52,8 +52,10 @@ def test_the_version_of_the_code_counts_every_module_that_it_names():
 
 
 def test_episodes_of_a_suite_are_with_the_robot_it_was_made_for(monkeypatch):
-    suite = SimpleNamespace(request=SimpleNamespace(robot="so101"))
+    suite = SimpleNamespace(request=SimpleNamespace(robot="so101", vary=0.04))
     monkeypatch.setattr(suites.Suite, "open", staticmethod(lambda folder: suite))
     told = {one.name.lstrip("-").replace("-", "_"): one.keywords.get("default") for one in SETTINGS}
     assert settings_of(Namespace(**told, suite="s")).robot == "so101"
     assert settings_of(Namespace(**{**told, "robot": "panda"}, suite="s")).robot == "panda"
+    assert settings_of(Namespace(**told, suite="s")).vary == 0.04
+    assert settings_of(Namespace(**{**told, "vary": 0.0}, suite="s")).vary == 0.0

@@ -33,7 +33,7 @@ def guess_at(window, caster, placed):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_what_is_nearly_right_comes_to_the_truth(seed):
-    """Errors of a few degrees, a few percent and a few millimetres are gone to a thousandth, and none is made larger."""
+    """Errors of a few degrees, a few percent and a few millimetres are gone to a thousandth."""
     pose, caster = Pose.from_yaw(0.4, (0.02, -0.05, 0.0)), Caster(CHIRAL.visual)
     window = window_of({"it": (CHIRAL, pose)}, "it")
     truth = guess_at(window, caster, Placement(scale=1.0, rotation=pose.rotation, position=np.array(pose.position)))
@@ -57,7 +57,7 @@ def test_where_no_pixel_is_near_nothing_is_changed():
 
 
 def test_a_slab_under_another_is_where_it_should_be_though_little_of_it_is_seen():
-    """Its top lies right behind the front of what lies on it; as wide a slab explains what is seen, and costs nothing."""
+    """Its top lies right behind the front of what lies on it; so wide a slab explains what is seen."""
     slab, lid = asset_of(box(0.3, 0.2, 0.02)), asset_of(box(0.3, 0.2, 0.04))
     stack = {"slab": (slab, Pose()), "lid": (lid, Pose(position=(0.0, 0.0, 0.02)))}
     window, caster = window_of(stack, "slab"), Caster(slab.visual)

@@ -129,9 +129,11 @@ class _Auditor(Compared):
             after = words[at + 1] if at + 1 < len(words) else "."
             if word not in REPEATS | ORDINALS | NUMBERS.keys() or (after in ENDS and word not in EACH):
                 continue
-            near = any(at < mention.start <= at + _REACH and _leads(words[at + 1 : mention.first]) for mention in mentions)
+            near = any(
+                at < mention.start <= at + _REACH and _leads(words[at + 1 : mention.first]) for mention in mentions
+            )
             # "three of each" is said of what is named before it, "each has a lid" of what is behind it.
-            each = word in EACH and not (words[at - 1] == "of" and not after[0].isalnum())
+            each = word in EACH | {"both"} and not (words[at - 1] == "of" and not after[0].isalnum())
             if each or (at not in leading and (near or any(mention.start <= at for mention in mentions))):
                 return True
         return False
@@ -166,7 +168,12 @@ class _Auditor(Compared):
         asked = self.tasks.strip() or self.undone or "is read as the scene" in self.quoted
         made: list[tuple[int, str]] = []
         for at, word in enumerate(words):
-            if at in named or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3]} or word in SILENT or not word[0].isalpha():
+            if (
+                at in named
+                or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3]}
+                or word in SILENT
+                or not word[0].isalpha()
+            ):
                 continue
             if find_colour(word) or find_material(word) in materials:
                 continue

@@ -25,7 +25,9 @@ def broken(it: Compared, claim: Claim) -> str | None:
     if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
     whose = whose_of(it, claim)
-    if whose and not all(_holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])):
+    if whose and not all(
+        _holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])
+    ):
         of_what = '" or "'.join(dict.fromkeys(mention.text for mention in claim.whose))
         return f'"{claim.said}" is not read as said of {"all " * claim.whole}"{of_what}"'
     return None

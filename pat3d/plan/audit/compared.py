@@ -62,7 +62,9 @@ class Compared:
         told = [note for note in plan.notes if not _ASSUMED.search(note) and "no task does" not in note]
         self.told = " ".join((*map(_covered, told), *plan.set_aside)).lower()
         self.notes = [_covered(note).lower() for note in told]
-        self.absent = [quoted for note in told if _ABSENT.match(note) for quoted in _QUOTED.findall(_covered(note).lower())]
+        self.absent = [
+            quoted for note in told if _ABSENT.match(note) for quoted in _QUOTED.findall(_covered(note).lower())
+        ]
         self.absent += [aside.lower() for aside in plan.set_aside]
         self.quoted = " ".join((*plan.notes, *plan.set_aside)).lower()
         self.undone = " ".join(note for note in plan.notes if "no task does" in note).lower()
@@ -103,7 +105,7 @@ class Compared:
         return re.search(rf"\b{re.escape(text)}", self.told) is not None
 
     def missing(self, mention: Mention) -> bool:
-        """Whether a note says that what `mention` names, or the phrase with it, is not in the scene or not understood."""
+        """Whether a note says that what `mention` names is not in the scene, or its phrase not understood."""
         return any(re.search(rf"\b{re.escape(mention.text)}", quoted) for quoted in self.absent)
 
     def excused(self, claim: Claim) -> bool:
@@ -113,7 +115,8 @@ class Compared:
         words = self.said.words[claim.at : claim.end]
         told = {*words, *(word for kind in KINDS.get(claim.place, ()) for word in kind.split("_"))}
         return any(
-            re.search(rf"\b{re.escape(claim.of.text)}", note) and told & set(re.findall(r"[a-z']+", _QUOTED.sub(" ", note)))
+            re.search(rf"\b{re.escape(claim.of.text)}", note)
+            and told & set(re.findall(r"[a-z']+", _QUOTED.sub(" ", note)))
             for note in self.notes
         )
 

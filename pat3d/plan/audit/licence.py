@@ -12,8 +12,8 @@ from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import REACHING
 from pat3d.scene.relations import Relation
 
-_ASIDE = frozenset({"left", "right", "side", "sides", "row", "line", "end", "ends", "flank", "flanks", "flanked", "hand",
-                    "at", "leans", "leaning", "lean"})  # fmt: skip
+_ASIDE = frozenset({"left", "right", "side", "sides", "row", "line", "end", "ends", "flank", "flanks", "flanked",
+                    "hand", "at", "leans", "leaning", "lean"})  # fmt: skip
 """Words that put things beside one another and lead to no landmark."""
 _ADDING = frozenset({"too", "also", "likewise", "but"})
 _HEADLESS_INSIDE = re.compile(
@@ -120,7 +120,7 @@ def _landmarks(it: Compared, claim: Claim) -> set[str]:
 
 
 def _said_of(it: Compared, claim: Claim) -> set[str]:
-    """What `claim` may be said of: what is named in its part of the sentence, and before it where a word reaches back."""
+    """What `claim` may be said of: what its part of the sentence names, and all before it where a word reaches back."""
     if whose := whose_of(it, claim):
         return whose
     others = [mention for mention in it.said.mentions if mention is not claim.of]

@@ -11,7 +11,19 @@ from collections.abc import Iterator, Sequence
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Mention
-from pat3d.plan.audit.words import ARTICLES, CORNERS, EACH, ENDS, FLOOR, LEADING, NUMBERS, OPENING, PARTS, PRONOUNS, SPLITTING
+from pat3d.plan.audit.words import (
+    ARTICLES,
+    CORNERS,
+    EACH,
+    ENDS,
+    FLOOR,
+    LEADING,
+    NUMBERS,
+    OPENING,
+    PARTS,
+    PRONOUNS,
+    SPLITTING,
+)
 from pat3d.plan.scene_plan import Arrangement, PlannedObject
 from pat3d.scene.relations import carriers_of
 
@@ -88,7 +100,7 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
 
 
 def others(it: Compared) -> Iterator[tuple[int, str]]:
-    """ "The other", "another", "the second" where there is one of what is named before only."""
+    """What "the other", "another" or "the second" is one of, where there is only one of it."""
     words = it.said.words
     leading = {at for mention in it.said.mentions for at in range(mention.first, mention.end)}
     for at, word in enumerate(words):
@@ -126,14 +138,17 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
 def grounded(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be on the floor and is carried by something."""
     words = it.said.words
-    for at in (at for at, word in enumerate(words) if word in ("floor", "ground") and words[at - 2 : at] == ["on", "the"]):
+    for at in (
+        at for at, word in enumerate(words) if word in ("floor", "ground") and words[at - 2 : at] == ["on", "the"]
+    ):
         start = at - 2
         while start > 0 and words[start - 1] in LEADING:
             start -= 1
         said = next((mention for mention in it.said.mentions if mention.end == start), None)
         nouns = {obj.name: obj.noun for obj in it.plan.objects}
-        own = [obj for obj in it.which(said)] if said is not None else []
-        if own and all(set(nouns[name] for name in it.above(obj.name)) - _LYING for obj in own):
+        if said is None or not (own := it.which(said)):
+            continue
+        if all({nouns[name] for name in it.above(obj.name)} - _LYING for obj in own):
             yield at, f'not as said: "on the {words[at]}" of "{said.text}"'
 
 

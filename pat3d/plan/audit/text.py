@@ -173,7 +173,8 @@ def _mention(
     if _elliptic(words, ahead) or SOME & lead:
         number, plural = None, True
     return Mention(
-        start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun, plural=plural, number=number,
+        start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun,
+        plural=plural, number=number,
         new=number is not None and not {"the", "these", "those", "both", "all", "other"} & lead,
         lead=frozenset(lead - ARTICLES), owned=bool({"its", "their"} & lead), colours=colours, part=part,
     )  # fmt: skip
@@ -286,4 +287,3 @@ def _whose(said: Said, at: int) -> tuple[tuple[Mention, ...], bool]:
         return (), False
     back -= words[back - 1] == ","
     return tuple(mention for mention in said.mentions if mention.end == back), False
-

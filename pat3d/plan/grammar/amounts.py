@@ -24,8 +24,10 @@ def _is_number(word: str) -> bool:
 
 def _rounded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "about ten" as "ten"."""
-    return [token for token, after in zip(tokens, [*tokens[1:], tokens[-1]], strict=True)
-            if not (token.text in _ABOUT and _is_number(after.text) and after.text not in ("a", "an", "one", "both"))]  # fmt: skip
+    single = ("a", "an", "one", "both")
+    follows = zip(tokens, [*tokens[1:], tokens[-1]], strict=True)
+    return [token for token, after in follows
+            if not (token.text in _ABOUT and _is_number(after.text) and after.text not in single)]  # fmt: skip
 
 
 def _any_of(tokens: Sequence[Token]) -> list[Token]:
@@ -47,7 +49,9 @@ def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if end is not None and words[end + 1] == "there":
         return list(tokens)
     if end is not None:
-        namely = next((n for n in range(end, len(words) - 1) if words[n] == "namely" and _is_number(words[n + 1])), None)
+        namely = next(
+            (n for n in range(end, len(words) - 1) if words[n] == "namely" and _is_number(words[n + 1])), None
+        )
         if namely is not None:
             number = tokens[namely + 1]
             end_of = namely - (words[namely - 1] == ",")
@@ -57,7 +61,9 @@ def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         number = next((n for n in range(end + 1, min(end + 3, len(words))) if _is_number(words[n])), None)
         same = [tokens[number]] if number is not None else []
         return [*tokens[:at], *same, *tokens[at + 2 : end], joint, *tokens[end + 1 :]]
-    before = next((n for n in range(at - 1, -1, -1) if _is_number(words[n]) and lexicon.NUMBERS.get(words[n], 2) > 1), None)
+    before = next(
+        (n for n in range(at - 1, -1, -1) if _is_number(words[n]) and lexicon.NUMBERS.get(words[n], 2) > 1), None
+    )
     if before is None or not any(nouns.match(words[n : n + 1]) for n in range(before, at)):
         return list(tokens)
     return [*tokens[:at], replace(tokens[at], text=words[before]), *tokens[at + 2 :]]
@@ -67,7 +73,8 @@ def _of_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "mugs and bowls, three of each," as "three mugs and three bowls"."""
     words = [token.text for token in tokens]
     at = next((n for n in range(1, len(words) - 3)
-               if _is_number(words[n]) and words[n + 1 : n + 3] == ["of", "each"] and tokens[n + 3].mark), None)  # fmt: skip
+               if _is_number(words[n]) and words[n + 1 : n + 3] == ["of", "each"] and tokens[n + 3].mark),
+              None)  # fmt: skip
     if at is None or words[at - 1] not in (",", ":", "-"):
         return list(tokens)
     made = [*tokens[: at - 1], *tokens[at + 3 + (words[at + 3] == ",") :]]

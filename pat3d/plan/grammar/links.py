@@ -151,7 +151,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with"), "with", "featuring", "showing", "including both", "having", "complete with", "adorned by")
     add(Link(manner="with", finite=True), "features", "feature", "has", "have", "shows", "show", "includes", "boasts",
         "displays", "showcases", "depicts")  # fmt: skip
-    add(Link(manner="with", kind="on"), "decorated with", "adorned with", "topped with", "topped by", "occupied by", "covered with",
+    add(Link(manner="with", kind="on"), "decorated with", "adorned with", "topped with", "topped by", "covered with",
+        "occupied by",
         "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
         "stacked with", "dotted with")  # fmt: skip
     add(Link(manner="with", kind="on", finite=True), "wears")

@@ -1,0 +1,125 @@
+"""Phrases that stand elsewhere than what they are said of, where a plainer sentence has them.
+
+"A fork to the left and a knife to the right of a plate" says "of a plate" once for both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
+_FINITE = lexicon.COPULAS | lexicon.VERBS
+
+
+def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a bed, next to which there is a rug" as "a bed, and next to the bed is a rug"."""
+    made = list(tokens)
+    if sum(token.text == "which" for token in tokens) > 1:
+        # "A plate, to the left of which is a fork and to the right of which a knife": both of the plate.
+        return made
+    for at in range(len(tokens) - 3, 0, -1):
+        size = link_at(tokens, at)
+        which = at + size
+        after = which + 1 + (tokens[min(which + 1, len(tokens) - 1)].text == "there")
+        if not size or tokens[which].text != "which" or tokens[min(after, len(tokens) - 1)].text not in _FINITE:
+            continue
+        end = at - (tokens[at - 1].text == ",")
+        told = end < at or after > which + 1
+        name = next(
+            (
+                n
+                for n in (3, 2, 1)
+                if told and n <= end and nouns.match([token.text for token in tokens[end - n : end]])
+            ),
+            0,
+        )
+        if name:
+            joint, the = replace(tokens[at], text="and"), replace(tokens[which], text="the")
+            made[end:after] = [joint, *tokens[at:which], the, *tokens[end - name : end]]
+    return made
+
+
+def asked(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "could you set up a desk" as "create a desk"."""
+    at = next((n for n, token in enumerate(tokens) if token.text not in _ASKING), 0)
+    words = [token.text for token in tokens[at : at + 3]]
+    if words[:2] != ["set", "up"] or words[2] in lexicon.DEFINITE:
+        return list(tokens)
+    return [replace(tokens[at], text="create"), *tokens[at + 2 :]]
+
+
+def stateless(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "lies folded on" as "lies on", and "the remaining two" as "the other two"."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        state = token.text.endswith("ed") and token.text not in lexicon.PARTICIPLES and not nouns.match([token.text])
+        follows = made and made[-1].text in lexicon.VERBS and not link_at(tokens, at)
+        if state and follows and link_at(tokens, at + 1):
+            continue
+        made.append(
+            replace(token, text="other") if token.text == "remaining" and made and made[-1].text == "the" else token
+        )
+    return made
+
+
+def shared_landmark(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a fork to the left, and a knife to the right, of a plate" as "to the left of a plate and ...
+
+    a knife to the right of the plate".
+    """
+    words = [token.text for token in tokens]
+    sides = [at for at in range(len(words) - 3) if words[at] in ("to", "on") and words[at + 1] == "the"
+             and words[at + 2] in ("left", "right", "front", "back")]  # fmt: skip
+    for one, two in pairwise(sides):
+        of = two + 3 + (words[two + 3] == ",")
+        between = words[one + 3 : two]
+        if (
+            words[of] != "of"
+            or "and" not in between[:2]
+            or len(between) < 3
+            or any(link_at(tokens, n) > 1 for n in range(one + 3, two))
+        ):
+            continue
+        end = next(n for n in range(of + 1, len(words)) if tokens[n].mark or (n > of + 1 and (
+            words[n] == "and" or (words[n] != "of" and (link_at(tokens, n) or words[n] in _FINITE)))))  # fmt: skip
+        landmark = list(tokens[of:end])
+        counts = {"a", "an", *lexicon.NUMBERS}
+        again = [replace(token, text="the") if token.text in counts and before.text != "the" else token
+                 for before, token in pairwise([tokens[two], *landmark])]  # fmt: skip
+        start = one + 3 + (words[one + 3] == ",")
+        return [*tokens[: one + 3], *landmark, *tokens[start : two + 3], *again, *tokens[end:]]
+    return list(tokens)
+
+
+def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a pot, its lid beside it, on a hob" as "a pot and a lid on a hob, and the lid is beside the pot"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        link = next((n for n in range(at + 3, min(at + 6, len(words))) if link_at(tokens, n)), 0)
+        end = link + link_at(tokens, link) if link else 0
+        named = words[at : at + 2] == [",", "its"] and nouns.match([words[at - 1]])
+        if not (named and end and words[end : end + 2] == ["it", ","] and nouns.match([words[link - 1]])):
+            continue
+        stop = next(n for n in range(end + 2, len(words)) if words[n] == ".")
+        a, the, joint, verb = (replace(tokens[at + 1], text=text) for text in ("a", "the", "and", "is"))
+        thing, goes_on = tokens[at + 2 : link], words[end + 2] == "and"
+        listed = [tokens[at] if goes_on else joint, a, *thing, *tokens[end + 2 - goes_on : stop]]
+        told = [joint, the, *thing, verb, *tokens[link:end], the, tokens[at - 1]]
+        return [*tokens[:at], *listed, tokens[at], *told, *tokens[stop:]]
+    return list(tokens)
+
+
+def fronted(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
+    verb = next((n for n, token in enumerate(tokens) if token.text in ("is", "are")), 0)
+    if verb < 3 or tokens[0].text not in ("stacked", "piled") or not link_at(tokens, 1):
+        return list(tokens)
+    end = next(n for n in range(verb, len(tokens)) if tokens[n].mark)
+    return [*tokens[1:end], replace(tokens[0], text="stacked"), *tokens[end:]]
