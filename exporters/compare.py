@@ -18,14 +18,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
-from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import cdist
 
-from pat3d.errors import ExportError, Pat3dError
+from pat3d.errors import AssetError, ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.common.readback import BodyReadback
 from pat3d.exporters.left_out import left_out
-from pat3d.geometry.hulls import slivers
+from pat3d.geometry.hulls import convex_part, slivers
 from pat3d.geometry.normals import triangle_areas
 from pat3d.geometry.planes import plane_distances, planes
 from pat3d.scene.model import Asset, Scene, SceneObject
@@ -302,8 +301,8 @@ def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
 def _sides(shape: tuple[int, int], corners: bytes) -> NDArray[np.float64]:
     """Planes of the hull of corners [m], as `planes` has them, shape (faces, 4); NaN where they span no volume."""
     try:
-        return ConvexHull(np.frombuffer(corners).reshape(shape)).equations
-    except (QhullError, ValueError):
+        return planes(convex_part(np.frombuffer(corners).reshape(shape)))
+    except AssetError:
         return np.full((1, 4), np.nan)
 
 

@@ -18,6 +18,9 @@ SLIVER_ASPECT = 1e-5
 SLIVER_AREA = 1e-12
 """So is a face of less than this [m^2]: Drake refuses a scene for a triangle without a normal."""
 
+GRID = 1e-9
+"""Of the size of a point set, what corners may be off where Qhull cannot do without."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ConvexPart:
@@ -84,8 +87,13 @@ def _hull(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.
 
     try:
         hull = ConvexHull(points)
-    except (QhullError, ValueError) as error:
-        raise AssetError(f"{len(points)} points span no volume, so they have no convex hull.") from error
+    except (QhullError, ValueError):
+        # Points that lie in planes but for rounding make Qhull give up now and then; on a grid they lie in them.
+        grid = GRID * float(np.ptp(points, axis=0).max(initial=0.0))
+        try:
+            hull = ConvexHull(np.round(points / grid) * grid if grid > 0.0 else points)
+        except (QhullError, ValueError) as error:
+            raise AssetError(f"{len(points)} points span no volume, so they have no convex hull.") from error
     keep = np.unique(hull.simplices)
     renumber = np.zeros(len(points), dtype=np.int32)
     renumber[keep] = np.arange(len(keep), dtype=np.int32)
