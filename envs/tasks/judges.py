@@ -181,8 +181,8 @@ class RearrangeJudge(Judge):
             success=every & (self.timer >= REST_SECONDS),
             predicates={
                 **dict(zip(self._titles, (away <= self._there).T, strict=True)),
-                "released": free.all(axis=1),
-                "at rest": resting.all(axis=1),
+                "released": np.asarray(free.all(axis=1)),
+                "at rest": np.asarray(resting.all(axis=1)),
             },
             progress=share / len(objects),
             target=objects[due],
