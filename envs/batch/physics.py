@@ -13,8 +13,9 @@ import warp as wp
 from numpy.typing import NDArray
 
 from pat3d.envs.batch.controllers import BatchedController
-from pat3d.envs.batch.kernels import PHANTOM, mend_phantoms, note_peaks, note_touches
+from pat3d.envs.batch.kernels import note_peaks, note_touches
 from pat3d.envs.batch.merged import Merged
+from pat3d.envs.batch.phantoms import PHANTOM, mend_phantoms
 from pat3d.envs.batch.precision import CCD_TOLERANCE, SOLIMP, SOLREF
 from pat3d.envs.physics.loading import store_record
 from pat3d.envs.physics.predicates import OWNERS

@@ -7,7 +7,7 @@ import pytest
 
 wp = pytest.importorskip("warp")
 
-from pat3d.envs.batch.kernels import BOX, NOWHERE, mend_phantoms  # noqa: E402
+from pat3d.envs.batch.phantoms import BOX, NOWHERE, mend_phantoms  # noqa: E402
 
 GROUND, BRICK = (5.0, 5.0, 0.5), (0.1, 0.05, 0.02)
 DEPTH = 3e-5

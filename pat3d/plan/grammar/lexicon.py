@@ -387,3 +387,6 @@ BENEATH_CUPS = ("saucer", "coaster")
 """What a cup "with" it stands on."""
 TELLING = frozenset({*POSITIONS, *LEVELS, *SUPERLATIVES})
 """Words before "one" that tell it from its like."""
+
+HAVING = frozenset({"with", "has", "have", "holds", "hold", "holding", "contains", "contain", "containing", "carries"})
+"""Words after which a list is of what something has."""

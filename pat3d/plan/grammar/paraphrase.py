@@ -17,19 +17,11 @@ from pat3d.plan.grammar.displaced import absolute, asked, by_which, fronted, sha
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.vocabulary import Nouns
 
-_NEGATIONS = frozenset({
-    "not", "never", "neither", "nor", "isn't", "aren't", "don't", "doesn't", "cannot", "can't", "none", "nobody",
-    "wasn't", "weren't", "hasn't", "haven't",
-})  # fmt: skip
-_CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
-_HAVING = frozenset({"with", "has", "have", "holds", "hold", "holding", "contains", "contain", "containing", "carries"})
-"""Words after which a list is of what something has."""
 _MIDDLES = ("centre", "center", "middle")
-_ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
-"""Ordinals after "every"."""
 _ITS: dict[tuple[str, str], tuple[str, ...]] = {
     **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in _MIDDLES},
     **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
@@ -37,8 +29,6 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 }
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
-_FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
-_EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
 _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about",
     "and nothing else", "in that order",
@@ -56,10 +46,10 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
     tokens = counted(fronted(stateless(asked(_without(tokens, _SILENT)), nouns)), nouns)
-    _refuse_negations(tokens)
+    refuse_negations(tokens)
     tokens = absolute(shared_landmark(tokens), nouns)
     tokens = _sides_of(_its_places(_perfect(_parentheses(text, tokens, nouns))), nouns)
-    _refuse_inserted(text, tokens)
+    refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
@@ -94,39 +84,6 @@ def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> lis
     return kept
 
 
-def _refuse_negations(tokens: Sequence[Token]) -> None:
-    """Raises: PromptError: the sentence denies, leaves a choice, or counts by a fraction."""
-    for at, token in enumerate(tokens[:-1]):
-        follower = tokens[at + 1].text
-        if token.text in _NEGATIONS:
-            raise PromptError(
-                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
-                "are, and leave the rest out."
-            )
-        if (token.text, follower) in _EXCEPTIONS or token.text in ("except", "excluding"):
-            raise PromptError(
-                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say what is '
-                'there, and how many in numbers: "four of the five apples are in the basket".'
-            )
-        if token.text in ("every", "each") and follower in _ALTERNATE:
-            raise PromptError(
-                f'"{token.text} {follower}" (word {token.number}): say which of them by their places: "the first '
-                'and the third of four jars".'
-            )
-        side = follower in ("side", "end")
-        if token.text in _CHOICES and not side:
-            raise PromptError(f'"{token.text}" (word {token.number}): say the one thing that is to be there.')
-        number = follower == "of" and at + 2 < len(tokens) and tokens[at + 2].text in ("the", "them", "these", "all")
-        plural = number and any(
-            each.text in lexicon.NUMBERS or each.text in lexicon.PRONOUNS or singulars(each.text)
-            for each in tokens[at + 2 : at + 6]
-        )
-        if token.text in _FRACTIONS and plural and not tokens[at + 1].mark:
-            raise PromptError(
-                f'"{token.text}" (word {token.number}): say how many in numbers: "four of the eight blocks are red".'
-            )
-
-
 def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a cup (red)" as "a red cup"."""
     made: list[Token] = []
@@ -157,21 +114,6 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
-def _refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
-    """Raises: PromptError: "with two eggs and, next to it, a mill" leaves open what "it" is, and what is in what."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
-        end = at + 2 + size
-        inserted = size and words[end] in ("it", "them") and words[end + 1] == ","
-        if inserted and set(words[:at]) & _HAVING:
-            said = text[tokens[at + 2].start : tokens[end].end]
-            raise PromptError(
-                f'"{said}" (word {tokens[at + 2].number}) is inserted where it may be said of several things. Say it '
-                'in a sentence of its own: "Next to the pan is a pepper mill."'
-            )
-
-
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
     words = [token.text for token in tokens]
@@ -198,7 +140,7 @@ def _set_off(text: str, tokens: Sequence[Token]) -> list[Token]:
         link = LINKS.get((words[at - 1],)) if words[at] == "," else None
         opens = link is not None and link.inverse and link.manner != "include"
         # A verb that is a noun too ("bears") ends a list as well.
-        opens = opens and (not link.finite or words[at - 1] in _HAVING)  # type: ignore[union-attr]
+        opens = opens and (not link.finite or words[at - 1] in lexicon.HAVING)  # type: ignore[union-attr]
         close = next((n for n in range(at + 2, min(at + 7, len(words) - 1)) if words[n] == ","), 0)
         if not opens or not close:
             continue

@@ -1,0 +1,68 @@
+"""What a sentence leaves open, and no reading decides: what is not there, either of two, half of some."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.errors import PromptError
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+
+_NEGATIONS = frozenset({
+    "not", "never", "neither", "nor", "isn't", "aren't", "don't", "doesn't", "cannot", "can't", "none", "nobody",
+    "wasn't", "weren't", "hasn't", "haven't",
+})  # fmt: skip
+_CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
+_ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
+"""Ordinals after "every"."""
+_FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
+_EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
+
+
+def refuse_negations(tokens: Sequence[Token]) -> None:
+    """Raises: PromptError: the sentence denies, leaves a choice, or counts by a fraction."""
+    for at, token in enumerate(tokens[:-1]):
+        follower = tokens[at + 1].text
+        if token.text in _NEGATIONS:
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
+                "are, and leave the rest out."
+            )
+        if (token.text, follower) in _EXCEPTIONS or token.text in ("except", "excluding"):
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say what is '
+                'there, and how many in numbers: "four of the five apples are in the basket".'
+            )
+        if token.text in ("every", "each") and follower in _ALTERNATE:
+            raise PromptError(
+                f'"{token.text} {follower}" (word {token.number}): say which of them by their places: "the first '
+                'and the third of four jars".'
+            )
+        side = follower in ("side", "end")
+        if token.text in _CHOICES and not side:
+            raise PromptError(f'"{token.text}" (word {token.number}): say the one thing that is to be there.')
+        number = follower == "of" and at + 2 < len(tokens) and tokens[at + 2].text in ("the", "them", "these", "all")
+        plural = number and any(
+            each.text in lexicon.NUMBERS or each.text in lexicon.PRONOUNS or singulars(each.text)
+            for each in tokens[at + 2 : at + 6]
+        )
+        if token.text in _FRACTIONS and plural and not tokens[at + 1].mark:
+            raise PromptError(
+                f'"{token.text}" (word {token.number}): say how many in numbers: "four of the eight blocks are red".'
+            )
+
+
+def refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
+    """Raises: PromptError: "with two eggs and, next to it, a mill" leaves open what "it" is, and what is in what."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
+        end = at + 2 + size
+        inserted = size and words[end] in ("it", "them") and words[end + 1] == ","
+        if inserted and set(words[:at]) & lexicon.HAVING:
+            said = text[tokens[at + 2].start : tokens[end].end]
+            raise PromptError(
+                f'"{said}" (word {tokens[at + 2].number}) is inserted where it may be said of several things. Say it '
+                'in a sentence of its own: "Next to the pan is a pepper mill."'
+            )
