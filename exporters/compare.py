@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
+from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import cdist
 
 from pat3d.errors import AssetError, ExportError, Pat3dError
@@ -300,10 +301,15 @@ def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
 @functools.lru_cache(maxsize=4096)
 def _sides(shape: tuple[int, int], corners: bytes) -> NDArray[np.float64]:
     """Planes of the hull of corners [m], as `planes` has them, shape (faces, 4); NaN where they span no volume."""
+    points = np.frombuffer(corners).reshape(shape)
     try:
-        return planes(convex_part(np.frombuffer(corners).reshape(shape)))
-    except AssetError:
-        return np.full((1, 4), np.nan)
+        return ConvexHull(points).equations
+    except (QhullError, ValueError):
+        # That leaves out corners of slivers, which rounding makes, but has a hull where Qhull gives up.
+        try:
+            return planes(convex_part(points))
+        except AssetError:
+            return np.full((1, 4), np.nan)
 
 
 def _moments(found: np.ndarray, expected: np.ndarray) -> float:

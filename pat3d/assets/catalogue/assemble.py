@@ -19,6 +19,9 @@ from pat3d.geometry.hulls import convex_part
 from pat3d.geometry.mass import mass_properties
 from pat3d.scene.asset import Asset, Material, Region, VisualMesh
 
+WORN = frozenset({"cap", "cowboy hat", "hat", "helmet", "party hat", "top hat", "wizard hat"})
+"""What rests on a head by the inside of its parts, and would balance on too little with corners cut."""
+
 
 def assemble(noun: str, build: Build, *, material: Material, scale: float, provenance: Mapping[str, Any]) -> Asset:
     """Join a recipe's shapes into an asset standing on z = 0 with its footprint centred.
@@ -34,7 +37,8 @@ def assemble(noun: str, build: Build, *, material: Material, scale: float, prove
     if union.status() != manifold3d.Error.NoError or union.is_empty():
         raise AssetError(f'recipe "{noun}" does not join into a solid: {union.status()}.')
     mesh_vertices, faces, colours = _painted(union, colour_of, build.paint)
-    parts = [hull for shape in trimmed([shape for shape, _ in build.parts], scale) for hull in shape.hulls]
+    shapes = [shape for shape, _ in build.parts]
+    parts = [hull for shape in (shapes if noun in WORN else trimmed(shapes, scale)) for hull in shape.hulls]
     points = np.concatenate(parts)
     low, high = points.min(axis=0), points.max(axis=0)
     origin = np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
