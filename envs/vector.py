@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -195,8 +195,7 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         )
         self.pictures = None if config.obs == "state" else self._pictures(spec)
         """Draws the observations; `pictures.arrays` has the latest on the device."""
-        self._download: Callable[[], Any] = lambda: download(self.physics)
-        now = self._download()
+        now = download(self.physics)
         self.groups = tuple(_Group(job, BatchState(self.physics, number, now), spec) for number, job in enumerate(jobs))
         self._limit = np.zeros(num_envs, dtype=np.int64)
         for group in self.groups:
@@ -306,7 +305,9 @@ class BatchedTabletopEnv(VectorEnv[Any, Any, Any]):
         self._ended[worlds], self._steps[worlds] = False, 0
 
     def _refresh(self) -> None:
-        now = self._download()
+        from pat3d.envs.batch.state import download
+
+        now = download(self.physics)
         for group in self.groups:
             group.states.take(now)
 

@@ -6,7 +6,6 @@ in object lengths, and the distance and angle between the poses all have to be a
 
 from __future__ import annotations
 
-import functools
 import importlib.util
 import math
 from collections.abc import Callable, Sequence
@@ -16,19 +15,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
-from scipy.spatial import ConvexHull, QhullError
-from scipy.spatial.distance import cdist
 
-from pat3d.errors import AssetError, ExportError, Pat3dError
+from pat3d.errors import ExportError, Pat3dError
 from pat3d.exporters.common.objects import body_names
 from pat3d.exporters.common.readback import BodyReadback
+from pat3d.exporters.hull_distance import hulls_apart
 from pat3d.exporters.left_out import left_out
-from pat3d.geometry.hulls import convex_part, slivers
+from pat3d.geometry.hulls import slivers
 from pat3d.geometry.normals import triangle_areas
-from pat3d.geometry.planes import plane_distances, planes
-from pat3d.scene.model import Asset, Scene, SceneObject
+from pat3d.scene.model import Scene, SceneObject
 
 TOLERANCE = 1e-6
 """Largest error that passes: relative, or in metres and radians for poses."""
@@ -253,7 +248,7 @@ def _errors(obj: SceneObject, body: BodyReadback, silent: frozenset[str]) -> Bod
     inertia = np.array(properties.inertia)
     errors: dict[str, float | None] = {
         "friction": _relative(body.friction, asset.material.friction),
-        "hulls": None if "hulls" in silent else _hulls_apart(obj.asset, body.hulls),
+        "hulls": None if "hulls" in silent else hulls_apart(obj.asset, body.hulls),
         "mass": None,
         "centre": None,
         "inertia": None,
@@ -274,42 +269,6 @@ def _errors(obj: SceneObject, body: BodyReadback, silent: frozenset[str]) -> Bod
         rotation=math.atan2(float(sine), 0.5 * (float(np.trace(turn)) - 1.0)),
         **errors,  # type: ignore[arg-type]
     )
-
-
-def _hulls_apart(asset: Asset, found: Sequence[NDArray[np.float64]]) -> float:
-    """Largest distance of a convex part from the collider that lies nearest, over the object's longest side.
-
-    Corners beyond the other's faces, either way: Hausdorff's distance of convex sets, or less by the slope of a face.
-    """
-    if len(found) != len(asset.parts) or any(len(points) == 0 for points in found):
-        return math.inf
-    here = np.array([part.bounds.ravel() for part in asset.parts])
-    there = np.array([np.concatenate([points.min(axis=0), points.max(axis=0)]) for points in found])
-    if not np.isfinite(there).all():
-        return math.nan
-    length = float(asset.size.max())
-    worst = 0.0
-    for index, other in zip(*linear_sum_assignment(cdist(here, there)), strict=True):
-        part, points = asset.parts[index], np.asarray(found[other], dtype=np.float64)
-        beyond = plane_distances(points, planes(part)).max()
-        short = plane_distances(part.vertices, _sides(points.shape, points.tobytes())).max()
-        # max() would drop a NaN that stands second.
-        worst = float(np.max([worst, beyond / length, short / length]))
-    return worst
-
-
-@functools.lru_cache(maxsize=4096)
-def _sides(shape: tuple[int, int], corners: bytes) -> NDArray[np.float64]:
-    """Planes of the hull of corners [m], as `planes` has them, shape (faces, 4); NaN where they span no volume."""
-    points = np.frombuffer(corners).reshape(shape)
-    try:
-        return ConvexHull(points).equations
-    except (QhullError, ValueError):
-        # That leaves out corners of slivers, which rounding makes, but has a hull where Qhull gives up.
-        try:
-            return planes(convex_part(points))
-        except AssetError:
-            return np.full((1, 4), np.nan)
 
 
 def _moments(found: np.ndarray, expected: np.ndarray) -> float:

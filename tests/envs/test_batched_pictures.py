@@ -25,7 +25,7 @@ SPEC = ObservationSpec(
 
 @pytest.fixture(scope="module")
 def envs(tmp_path_factory):
-    """The shipped scene with the arm in another posture, and with everything turned and moved."""
+    """The shipped scene with the arm in another posture, and with everything turned, moved and darker."""
     path = tmp_path_factory.mktemp("robots") / "arm.xml"
     path.write_text(own_arm())
     made = [TabletopEnv(robot=str(path), task=task, start_noise=0.3) for task in ("pick:red mug", "pick:banana")]
@@ -37,6 +37,7 @@ def envs(tmp_path_factory):
         turned = np.array(data.qpos[first + 3 : first + 7]) + (0.1, 0.3, -0.2, 0.1)
         data.qpos[first + 3 : first + 7] = turned / np.linalg.norm(turned)
     mujoco.mj_forward(made[1].simulation.model, data)
+    world.model.mat_rgba[:, :3] *= 0.5
     yield made
     for env in made:
         env.close()

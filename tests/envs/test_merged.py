@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("gymnasium")
 pytest.importorskip("warp")
 
-from pat3d.envs.batch.merged import PARKED, alone, merged
+from pat3d.envs.batch.merged import PARKED, _joined, alone, merged
 from pat3d.envs.env import choose
 from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import compose
@@ -139,6 +139,12 @@ def test_who_owns_a_geom_is_said_by_every_scene_s_own_numbers(together):
     for number, kind in enumerate(together.kinds):
         there = np.flatnonzero(kind.geoms >= 0)
         np.testing.assert_array_equal(together.owner[number, kind.geoms[there]], kind.world.owner[there])
+
+
+def test_a_pose_in_a_frame_is_applied_before_the_frame_s():
+    outer, inner = Pose.from_yaw(0.7, (1.0, 2.0, 3.0)), Pose(position=(0.3, 0.0, -0.2), quat_wxyz=(0.8, 0.6, 0.0, 0.0))
+    points = np.random.default_rng(0).normal(size=(5, 3))
+    np.testing.assert_allclose(_joined(outer, inner).apply(points), outer.apply(inner.apply(points)), atol=1e-12)
 
 
 def test_copies_of_one_world_need_no_places(worlds):
