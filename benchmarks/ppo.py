@@ -39,7 +39,7 @@ STEPS = 100
 DISCOUNT = 0.97
 """The learner's, a step: it looks ahead for some 30 of them, 1.7 s. The reward's is 1, see pat3d.envs.reward."""
 
-SCALE = np.float32([0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 1.0])
+SCALE = np.array([0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 1.0], dtype=np.float32)
 """Of the learner's actions: 2.5 cm and 0.05 rad a step at most, so that exploring does not shake the hand."""
 
 Values = NDArray[np.float32]
@@ -76,6 +76,8 @@ class Worlds(VecEnv):
         self._nothing: list[dict[str, Any]] = [{} for _ in range(envs.num_envs)]
         self.succeeded: list[bool] = []
         """Of the episodes that ended, in their order."""
+        self.progress = 0.0
+        """Mean of all worlds after the last step."""
 
     def reset(self) -> Values:
         """Of all worlds."""
@@ -88,6 +90,7 @@ class Worlds(VecEnv):
     def step_wait(self) -> Any:
         """Do them."""
         seen, rewards, success, truncated, info = self.envs.step(SCALE * np.clip(self._actions, -1.0, 1.0))
+        self.progress = float(np.mean(info["progress"]))
         told = list(self._nothing)
         for world in np.flatnonzero(success | truncated).tolist():
             last = {name: values[None] for name, values in info["final_obs"][world].items()}
@@ -133,13 +136,12 @@ class Curve(BaseCallback):
     def _on_rollout_end(self) -> None:
         ended, self._worlds.succeeded = self._worlds.succeeded, []
         spent = time.perf_counter() - self._begin
-        progress = self._worlds.envs._potential.mean()
         row = {
             "seconds": round(spent, 1),
             "steps": self.num_timesteps,
             "episodes": len(ended),
             "success": round(float(np.mean(ended)), 4) if ended else None,
-            "progress": round(float(progress), 4),
+            "progress": round(self._worlds.progress, 4),
             "deviation": round(float(self.model.policy.log_std.exp().mean().detach()), 3),  # type: ignore[operator]
         }
         with (self._out / "curve.jsonl").open("a", encoding="utf-8") as file:
@@ -184,6 +186,7 @@ def learn(options: argparse.Namespace) -> None:
         device=options.device,
         scene=options.scene,
         task=options.task,
+        robot=options.robot,
         reward="dense",
         discount=1.0,
         max_episode_steps=STEPS,
@@ -230,7 +233,7 @@ def learn(options: argparse.Namespace) -> None:
 def attempt(path: Path, options: argparse.Namespace) -> None:
     """The mean actions of a saved policy in single environments."""
     actor = Actor(path)
-    env = TabletopEnv(options.scene, task=options.task)
+    env = TabletopEnv(options.scene, task=options.task, robot=options.robot)
     succeeded = 0
     for seed in range(options.episodes):
         seen, _ = env.reset(seed=seed)
@@ -256,6 +259,7 @@ def main() -> None:
     parser.add_argument("--device", default="cuda")
     parser.add_argument("--scene", help="a folder; the shipped scene without")
     parser.add_argument("--task", default="pick:red mug")
+    parser.add_argument("--robot", default="panda", help="the same wherever the policy runs")
     parser.add_argument("--discount", type=float, default=DISCOUNT)
     parser.add_argument("--rate", type=float, default=5e-4, help="the learner's")
     parser.add_argument("--rollout", type=int, default=16, help="steps of every world between two updates")

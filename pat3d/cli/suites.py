@@ -4,27 +4,23 @@ from __future__ import annotations
 
 import argparse
 import re
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from pat3d.cli.console import QUIET_SECONDS, console, verdict
+from pat3d.cli.console import console, verdict
 from pat3d.cli.diagnosis import diagnose
 from pat3d.cli.json_output import JSON, print_facts
 from pat3d.cli.options import DEGREES, LEAST_TILT, command, fields, option, values, with_verbs
 from pat3d.cli.paraphrasing import paraphrase
+from pat3d.cli.suite_progress import counting, making
 from pat3d.envs.suites.generate import LIMIT
 from pat3d.envs.suites.reference import REFERENCES, reference
 from pat3d.envs.suites.request import DEVICES, SPLITS, TASKS, TWO_ARMED, Request, in_split
 from pat3d.envs.surroundings.room import KINDS
 from pat3d.errors import SuiteError
 from pat3d.scene.folder import finite
-
-if TYPE_CHECKING:
-    from pat3d.envs.suites.generate import Status, Watcher
 
 MAX_EPISODES = 100_000
 
@@ -102,7 +98,7 @@ def generate(options: argparse.Namespace) -> int:
     request = Request(**values(Request, options) | more)
     if options.reference:
         request = _of_reference(options.reference, request)
-    with _progress() as tell:
+    with making() as tell:
         status = generate(
             options.folder, request, workers=options.workers, limit=options.limit, ray=options.ray, tell=tell
         )
@@ -138,7 +134,7 @@ def check(options: argparse.Namespace) -> int:
     from pat3d.envs.suites.worker_pool import worker_count
 
     suite = Suite.open(options.folder)
-    with _counting("checking") as tell:
+    with counting("checking") as tell:
         lines = check_suite(suite, settle=not options.quick, workers=worker_count(options.workers), tell=tell)
     if options.json:
         return _document(suite, lines)
@@ -198,7 +194,7 @@ def spec(options: argparse.Namespace) -> int:
             interface, episodes, settings, lambda text: console(stderr=True).print(text, markup=False, highlight=False)
         )
     if options.cameras:
-        with _counting("cameras") as tell:
+        with counting("cameras") as tell:
             interface |= {"cameras_of_scenes": cameras_of_scenes(suite, tell)}
     written = write_interface(suite.folder.path, interface)
     if options.json:
@@ -346,60 +342,3 @@ def _summary(suite: Any) -> None:
     for reason, count in sorted(found["rejected"].items(), key=lambda item: -item[1]):
         example = next(one["message"] for one in document["rejected"] if one["reason"] == reason)
         target.print(f"  rejected  {count:4d}  {reason}: {example}", markup=False, overflow="ellipsis", no_wrap=True)
-
-
-@contextmanager
-def _progress() -> Iterator[Watcher]:
-    """A bar with rate and time to go in a terminal, a line now and then elsewhere."""
-    target = console(stderr=True)
-    if not target.is_terminal:
-        yield _Lines(target).tell
-        return
-    with _bar(target, "{task.fields[words]}") as live:
-        task = live.add_task("scenes", total=None, words="")
-        yield lambda status: live.update(task, completed=status.done, total=status.total, words=_words(status))
-
-
-@contextmanager
-def _counting(what: str) -> Iterator[Callable[[int, int], None]]:
-    target = console(stderr=True)
-    if not target.is_terminal:
-        yield lambda done, of: None
-        return
-    with _bar(target, "{task.description}") as live:
-        task = live.add_task(what, total=None)
-        yield lambda done, of: live.update(task, completed=done, total=of)
-
-
-def _bar(target: Any, words: str) -> Any:
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn(words))
-    return Progress(*columns, console=target, transient=True)
-
-
-class _Lines:
-    def __init__(self, target: Any) -> None:
-        self._console, self._start, self._last = target, time.perf_counter(), -QUIET_SECONDS
-
-    def tell(self, status: Status) -> None:
-        now = time.perf_counter()
-        if now - self._last < QUIET_SECONDS and status.done < status.total:
-            return
-        self._last = now
-        line = f"{now - self._start:6.0f} s  {status.done} of {status.total} scenes  {_words(status)}"
-        self._console.print(line, markup=False)
-
-
-def _words(status: Status) -> str:
-    if status.note:
-        return status.note
-    left = status.left
-    going = "" if left is None else f", {_duration(left)} to go"
-    return f"{status.per_hour:.0f} an hour{going}; {status.rejected} rejected; {status.workers} workers"
-
-
-def _duration(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s" if minutes else f"{rest} s"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import multiprocessing
 from collections.abc import Mapping
 from multiprocessing.connection import Connection
@@ -9,7 +10,7 @@ from typing import Any, Protocol
 
 from pat3d.errors import EvaluationError, InfrastructureError, Pat3dError
 from pat3d.policies_eval.run.ensemble import Ensemble, Part
-from pat3d.policies_eval.run.processes import GRACE_SECONDS, POLL_SECONDS, cores, now, thread_limit, told
+from pat3d.policies_eval.run.processes import GRACE_SECONDS, POLL_SECONDS, cores, now, serve, thread_limit, told
 from pat3d.policies_eval.run.settings import RolloutSettings
 
 
@@ -134,26 +135,5 @@ def _no_score(reason: str) -> str:
 
 def _work(pipe: Connection, part: Part, settings: RolloutSettings, deadline: Any) -> None:
     """What a process does."""
-    import signal
-
-    # Ctrl-C is the parent's to handle.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    ensemble = Ensemble(part, settings, deadline)
-    while True:
-        try:
-            what, value = pipe.recv()
-        except (EOFError, OSError):
-            return
-        try:
-            pipe.send(("answer", getattr(ensemble, what)(value)))
-        except Pat3dError as error:
-            pipe.send(("error", f"{type(error).__name__}: {error}"))
-            return
-        except ModuleNotFoundError as error:
-            pipe.send(("missing", error.name or str(error)))
-            return
-        except BrokenPipeError:
-            return
-        except Exception as error:
-            pipe.send(("broken", told(error)))
-            return
+    made = functools.cache(lambda: Ensemble(part, settings, deadline))
+    serve(pipe, lambda asked: getattr(made(), asked[0])(asked[1]))

@@ -6,6 +6,7 @@ InfrastructureError, and the folder is not claimed before the first episode has 
 
 from __future__ import annotations
 
+import functools
 import json
 import multiprocessing
 import os
@@ -23,7 +24,7 @@ from pat3d.policies_eval.policies.policy import Policy
 from pat3d.policies_eval.policies.registry import identity, make_policy, require_known
 from pat3d.policies_eval.run.episodes import Episode, checksum
 from pat3d.policies_eval.run.manifest import make_manifest, require_same
-from pat3d.policies_eval.run.processes import GRACE_SECONDS, POLL_SECONDS, cores, now, thread_limit, told
+from pat3d.policies_eval.run.processes import GRACE_SECONDS, POLL_SECONDS, cores, now, serve, thread_limit, told
 from pat3d.policies_eval.run.records import Evaluation, RecordFolder, read_manifest, write_text
 from pat3d.policies_eval.run.rollout import Result, Runner
 from pat3d.policies_eval.run.settings import RolloutSettings
@@ -348,30 +349,8 @@ class _Pool:
 
 def _work(pipe: Connection, policy: str, settings: RolloutSettings, deadline: Any) -> None:
     """What a worker process does."""
-    import signal
-
-    # Ctrl-C is the parent's to handle.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    runner, made = Runner(settings, deadline=deadline), None
-    while True:
-        try:
-            episode = pipe.recv()
-        except (EOFError, OSError):
-            return
-        try:
-            made = made or make_policy(policy)
-            pipe.send(("result", runner.run(episode, made)))
-        except Pat3dError as error:
-            pipe.send(("error", f"{type(error).__name__}: {error}"))
-            return
-        except ModuleNotFoundError as error:
-            pipe.send(("missing", error.name or str(error)))
-            return
-        except BrokenPipeError:
-            return
-        except Exception as error:
-            pipe.send(("broken", told(error)))
-            return
+    runner, made = Runner(settings, deadline=deadline), functools.cache(make_policy)
+    serve(pipe, lambda episode: runner.run(episode, made(policy)))
 
 
 def _no_score(episode: Episode | None, reason: str) -> str:

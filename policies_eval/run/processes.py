@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from multiprocessing.connection import Connection
 from pathlib import Path
+from typing import Any
+
+from pat3d.errors import Pat3dError
 
 GRACE_SECONDS = 5.0
 """A policy that hangs where no signal reaches it is ended this much after its time."""
@@ -43,3 +48,32 @@ def told(error: Exception) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
     return f"{type(error).__name__}: {error}{where}"
+
+
+def serve(pipe: Connection, answer: Callable[[Any], Any]) -> None:
+    """What a process does: answers what comes through the pipe until that is closed, or until it fails.
+
+    Args:
+        pipe: gives requests; takes a word and a value: "answer", or "error", "missing" (a module) or "broken" with why.
+        answer: does one request.
+    """
+    # Ctrl-C is the parent's to handle.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    while True:
+        try:
+            request = pipe.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            pipe.send(("answer", answer(request)))
+        except Pat3dError as error:
+            pipe.send(("error", f"{type(error).__name__}: {error}"))
+            return
+        except ModuleNotFoundError as error:
+            pipe.send(("missing", error.name or str(error)))
+            return
+        except BrokenPipeError:
+            return
+        except Exception as error:
+            pipe.send(("broken", told(error)))
+            return
