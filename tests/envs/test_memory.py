@@ -71,7 +71,7 @@ def test_files_that_the_compiler_keeps_are_bounded_and_a_larger_bound_of_ones_ow
 
 
 def test_free_memory_is_given_back_where_the_c_library_can(monkeypatch):
-    """glibc is asked with no room to keep; others are not asked."""
+    """It is asked to keep no room; other libraries are not asked."""
     asked = []
     monkeypatch.setattr(memory, "_trim", lambda: asked.append)
     memory.give_back()
