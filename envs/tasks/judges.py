@@ -54,8 +54,8 @@ class LiftJudge(Judge):
 class LiftAndBackJudge(Judge):
     """Success when the object was raised by 5 cm and then has rested where it was, untouched, for half a second.
 
-    Progress: a sixth each for the hand's closeness to a grasp, the grasp and the height; once it was raised, half, three tenths
-    for its closeness to its place, a fifth for resting there.
+    Progress: a sixth each for the hand's closeness to a grasp, the grasp and the height; once it was raised, half,
+    three tenths for its closeness to its place, a fifth for resting there.
     """
 
     def __init__(self, states: States, target: str) -> None:
@@ -98,8 +98,8 @@ class LiftAndBackJudge(Judge):
 class PutJudge(Judge):
     """Success when the object has rested in or on its place, untouched, for half a second.
 
-    Progress: a fifth each for the hand's closeness to a grasp and the grasp (kept once the object rests in place), two fifths for
-    the object's closeness to its place, a fifth for resting there.
+    Progress: a fifth each for the hand's closeness to a grasp and the grasp (kept once the object rests in place), two
+    fifths for the object's closeness to its place, a fifth for resting there.
     """
 
     def __init__(self, states: States, target: str, where: str, *, stacked: bool = False) -> None:
