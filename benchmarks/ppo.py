@@ -39,8 +39,8 @@ STEPS = 100
 DISCOUNT = 0.97
 """The learner's, a step: it looks ahead for some 30 of them, 1.7 s. The reward's is 1, see pat3d.envs.reward."""
 
-SCALE = np.array([0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 1.0], dtype=np.float32)
-"""Of the learner's actions: 2.5 cm and 0.05 rad a step at most, so that exploring does not shake the hand."""
+SCALE = np.array([0.8, 0.8, 0.8, 0.15, 0.15, 0.15, 1.0], dtype=np.float32)
+"""Of the learner's actions: hands that turn while they explore meet more than they take."""
 
 Values = NDArray[np.float32]
 
@@ -164,7 +164,7 @@ class Actor:
         with np.load(path, allow_pickle=False) as stored:
             found = {name: stored[name].astype(np.float64) for name in stored.files}
         self._mean, self._deviation = found["mean"], np.sqrt(found["var"] + 1e-8)
-        names = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
+        names = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net.0")
         self._layers = [(found[f"{name}.weight"], found[f"{name}.bias"]) for name in names]
 
     def act(self, seen: dict[str, NDArray[Any]]) -> Values:
@@ -174,7 +174,7 @@ class Actor:
             values = values @ weight.T + bias
             if number + 1 < len(self._layers):
                 values = np.where(values > 0, values, np.expm1(np.minimum(values, 0.0)))
-        return SCALE * np.clip(values, -1.0, 1.0).astype(np.float32)
+        return SCALE * (values / (1.0 + np.abs(values))).astype(np.float32)
 
 
 def learn(options: argparse.Namespace) -> None:
@@ -213,6 +213,8 @@ def learn(options: argparse.Namespace) -> None:
         seed=0,
         device=learner,
     )
+    # Means stay within the bounds of actions: beyond them noise changes nothing, and nothing is learned.
+    model.policy.action_net = torch.nn.Sequential(model.policy.action_net, torch.nn.Softsign())
     print(f"{envs.instruction} ({envs.task.spec}), {options.worlds} worlds, {envs.physics.device}", flush=True)
     curve = Curve(worlds, normal, out, 60.0 * options.minutes, options.good)
     batch = options.worlds * options.rollout
