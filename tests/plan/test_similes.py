@@ -12,7 +12,7 @@ PLANNER = GrammarPlanner()
     [
         ("A candle that looks like a pear stands on a plate.", ["candle", "plate"], "that looks like a pear"),
         ("A bottle, as yellow as a lemon, is on the shelf.", ["bottle", "shelf"], "as yellow as a lemon"),
-        ("A vase the size of a teapot stands on a table.", ["vase", "table"], "the size of a bucket"),
+        ("A vase the size of a teapot stands on a table.", ["vase", "table"], "the size of a teapot"),
         ("A pillow shaped like a fish lies on a chair.", ["pillow", "chair"], "shaped like a fish"),
     ],
 )
