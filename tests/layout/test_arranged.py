@@ -9,7 +9,7 @@ from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import Body
 from pat3d.layout.layout import arrange
-from pat3d.layout.leaning import leaning_rotation
+from pat3d.layout.leaning import BEYOND, leaning_rotation
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.predicates import check_arranged, check_relations
 from pat3d.scene.arrangements import Arrangement, Posture
@@ -63,6 +63,30 @@ def test_a_row_is_straight_in_order_and_evenly_spaced():
     assert not holds("row", {"a": (0, 0), "b": (0.4, 0), "c": (0.2, 0)}, "abc"), "not in order"
     assert not holds("row", {"a": (0, 0), "b": (0.1, 0), "c": (0.4, 0)}, "abc"), "uneven"
     assert not holds("row", {"a": (0, 0), "b": (0.2, 0.05), "c": (0.4, 0)}, "abc"), "not straight"
+
+
+def test_the_ends_of_what_is_in_a_row_are_off_the_line_by_no_more_than_its_middles_may_be():
+    """Boards of 0.2 m that stand 25 cm apart: 37.5 mm allowed at an end 0.1 m away, 22 degrees, of which 15 at most.
+
+    Of boards 0.4 m long, 5 cm apart, end to end at 0.4012 m: 10 mm at 0.2 m are 2.9 degrees.
+    """
+    board = dict.fromkeys("abc", block(x=0.2, y=0.02))
+    for yaw, expected in ((14, True), (16, False), (90, False)):
+        places = {"a": (0, 0), "b": (0.25, 0, yaw), "c": (0.5, 0)}
+        assert holds("row", places, "abc", assets=board) is expected, yaw
+    long = dict.fromkeys("abc", block(x=0.02, y=0.4))
+    limit = math.degrees(math.asin(0.01 / math.hypot(0.2, 0.01)))
+    for share, expected in ((0.95, True), (1.05, False)):
+        places = {"a": (0, 0), "b": (0.05, 0, share * limit), "c": (0.1, 0)}
+        assert holds("row", places, "abc", assets=long) is expected, share
+
+
+def test_a_round_thing_in_a_row_is_turned_anyhow_and_a_turned_row_is_one():
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0, 77), "c": (0.4, 0)}, "abc", assets=dict.fromkeys("abc", ball()))
+    slanted = {name: (0.2 * k * math.cos(0.5), 0.2 * k * math.sin(0.5), 28.6) for k, name in enumerate("abc")}
+    assert holds("row", slanted, "abc")
+    tipped = Pose(position=(0.2, SIDE / 2, 0.0), quat_wxyz=(0.5**0.5, 0.5**0.5, 0.0, 0.0))
+    assert holds("row", {"a": (0, 0), "b": tipped, "c": (0.4, 0)}, "abc"), "on its side and turned by nothing"
 
 
 def test_a_row_of_unequal_things_may_have_equal_gaps_or_equal_distances():
@@ -146,11 +170,11 @@ def test_what_leans_would_fall_without():
 
 
 def test_leaning_things_are_tilted_enough_to_fall_to_the_wall_and_little_enough_not_to_slide():
-    """A board 1 cm thick, 25 cm long: 12 degrees. One 10 cm thick and 30 long needs 24; ladders slide from 22.6 on."""
+    """A board 1 cm thick, 25 cm long: 9 degrees. One 10 cm thick and 30 long needs 24; ladders slide from 22.6 on."""
     tilt = leaning_rotation(Body("board", block(0.1, 0.01, 0.25)), np.array([1.0, 0.0, 0.0]))
-    assert math.degrees(math.acos(tilt[2, 2])) == pytest.approx(12.0)
+    assert math.degrees(math.acos(tilt[2, 2])) == pytest.approx(9.0)
     lying = leaning_rotation(Body("pen", block(0.3, 0.1, 0.02)), np.array([0.0, 1.0, 0.0]))
-    assert lying[2, 0] == pytest.approx(math.cos(math.radians(12.0))), "its length is up"
+    assert lying[2, 0] == pytest.approx(math.cos(math.atan2(0.02, 0.3) + BEYOND)), "its length is up"
     assert lying[1, 2] < -0.9, "its top is turned away"
     assert np.linalg.det(lying) == pytest.approx(1.0)
     with pytest.raises(LayoutError, match="too thick to lean"):
