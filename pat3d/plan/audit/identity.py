@@ -25,6 +25,7 @@ from pat3d.plan.audit.words import (
     SILENT,
     SINGLE,
     TOGETHER,
+    UNCOUNTED,
 )
 from pat3d.scene.relations import OPPOSITE, RELATION_WORDS
 
@@ -154,6 +155,8 @@ def _unpacked(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         inside = next((mention for mention in it.said.mentions if mention.first <= at + 2 < mention.end), None)
         own = it.which(inside) if inside is not None else []
+        if word in ("piece", "pieces") and words[at + 2] in UNCOUNTED:
+            continue
         packed = any(packet & set(f"{obj.name} {obj.noun}".split()) for obj in it.plan.objects)
         if own and not packed and all(obj.noun == inside.noun and obj.noun not in POURED for obj in own if inside):
             yield at, f'"{word} of {words[at + 2]}" is made as "{own[0].noun}"'

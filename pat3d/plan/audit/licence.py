@@ -141,7 +141,8 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
             return True
-        kinds = ("on", "in") if claim.place == "with" else KINDS.get(claim.place, ())
+        taken = claim.place == "far" and bool(it.tasks.strip())
+        kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
         if kind in kinds and parent in below and child in above:
             return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):

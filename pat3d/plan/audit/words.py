@@ -133,7 +133,9 @@ POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce"
 ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
                        "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
 """What of something poured is meant to be on, or in."""
-PIECES = frozenset({"slice"})
+PIECES = frozenset({"slice", "piece", "wedge", "chunk"})
+UNCOUNTED = frozenset({"luggage", "furniture", "jewelry", "paper", "cloth", "fruit", "equipment", "chalk", "art"})
+"""What there are pieces of that are whole."""
 PACKETS = frozenset({"bottle", "jar", "can", "box", "carton", "packet", "tube", "shaker", "container", "jug"})
 
 

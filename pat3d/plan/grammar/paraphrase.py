@@ -19,9 +19,7 @@ from pat3d.plan.grammar.displaced import (
     asked,
     by_which,
     fronted,
-    on_another,
-    one_upon,
-    shared_landmark,
+    in_place,
     stateless,
 )
 from pat3d.plan.grammar.lexing import Token, singulars
@@ -62,7 +60,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = covering(opened(_without(bare(tokens, nouns), _SILENT), nouns), nouns)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(shared_landmark(one_upon(on_another(tokens, nouns))), nouns)
+    tokens = absolute(in_place(tokens, nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))

@@ -98,6 +98,10 @@ class Pronouns:
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             candidates.append((-0.6 if which else -0.1, meant[-1]))
+        steps = self._world.steps
+        if child and not plural and steps and steps[-1].manner == "pick":
+            # "Pick the bowl on the box and place it on the plate"
+            candidates.append((-1.2, list(steps[-1].items)))
         if world_front:
             # "Behind the sofa: a lamp. In front of it: a rug."
             candidates.append((-0.4, world_front))
