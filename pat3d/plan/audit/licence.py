@@ -85,6 +85,8 @@ def _nests(it: Compared, claim: Claim, rel: Relation) -> bool:
     if claim.of is not None:
         return claim.place in ("in", "holding") and bool({rel.child, rel.parent} & _names(it, [claim.of]))
     near = [mention for mention in it.said.mentions if mention.end == claim.at]
+    if not near and it.said.words[claim.at - 1] == "nothing":
+        return False
     return claim.place == "in" and all(rel.child in _names(it, [mention]) for mention in near)
 
 
@@ -217,7 +219,11 @@ def _joined(it: Compared, first: Mention) -> list[Mention]:
 
 def _landmarks(it: Compared, claim: Claim) -> set[str]:
     """What `claim` may lead to: what is named behind it and is joined to that, or all that a pronoun may mean."""
-    return {obj.name for obj in it.plan.objects} if claim.of is None else _names(it, _joined(it, claim.of))
+    if claim.of is not None:
+        return _names(it, _joined(it, claim.of))
+    one_of_several = it.said.words[claim.end - 1] in ("other", "others") and "one" in it.said.words[: claim.at]
+    nouns = [obj.noun for obj in it.plan.objects]
+    return {obj.name for obj in it.plan.objects if not one_of_several or nouns.count(obj.noun) > 1}
 
 
 def _said_of(it: Compared, claim: Claim) -> set[str]:

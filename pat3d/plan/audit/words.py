@@ -86,6 +86,7 @@ FORMED = frozenset({"row", "rows", "stack", "stacks", "pile", "piles", "heap"})
 """Those of them behind which the number of one such form may stand: "a stack of four books"."""
 SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
 """Words by which likes are told from one another."""
+SIDES = frozenset({"left", "right", "front", "back"})
 EACH = frozenset({"each", "every", "either"})
 ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
@@ -148,7 +149,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "in": ("in", "inside", "within", "into", "inside of", "share", "shares", "fill", "fills"),
         "beside": ("on one side of", "on the other side of", "at one end of", "on each side of", "on either side of",
                    "on both sides of", "beside", "next to", "near", "by",
-                   "close to", "alongside", "adjacent to", "along"),
+                   "close to", "closest to", "nearest to", "alongside", "adjacent to", "along"),
         "against": ("against",),
         "its left": ("to its left", "on its left"),
         "its right": ("to its right", "on its right"),

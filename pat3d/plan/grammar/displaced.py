@@ -20,7 +20,14 @@ _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
 def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "the other", "of which", orders and shared landmarks where what they are said of stands."""
+    """`tokens` with "the other", "of which", orders and shared landmarks where what they are said of stands.
+
+    What is nearest to something is next to it; that it is the nearest is not heard.
+    """
+    tokens = [
+        replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
+        for token, follower in pairwise([*tokens, tokens[-1]])
+    ]
     return _shared_landmark(_last_in_order(_of_which(_one_upon(_on_another(tokens, nouns)))))
 
 
@@ -98,6 +105,11 @@ def _of_which(tokens: Sequence[Token]) -> list[Token]:
 def _last_in_order(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "on it stand, in a row, a clock and a lamp" as "on it stand a clock and a lamp in a row"."""
     words = [token.text for token in tokens]
+    size = next((n for n in range(2, 6) if tuple(words[:n]) in EACH_OTHER and link_at(tokens, n)), 0)
+    if size and ":" in words:
+        # "From left to right on a shelf: a clock and a vase"
+        stop = next(n for n in range(size, len(words)) if tokens[n].mark and words[n] not in (",", ":"))
+        return [*tokens[size:stop], *tokens[:size], *tokens[stop:]]
     for at in range(1, len(words) - 3):
         told = words[at - 1] in ("it", "them", "with") or words[at - 1] in _FINITE
         close = next((n for n in range(at + 2, min(at + 7, len(words) - 1)) if words[n] in (",", ":")), 0)

@@ -102,6 +102,9 @@ class Pronouns:
         if child and not plural and steps and steps[-1].manner == "pick":
             # "Pick the bowl on the box and place it on the plate"
             candidates.append((-1.2, list(steps[-1].items)))
+        if child and plural and steps and steps[-1].manner == "stack":
+            # "Stack the bowl on the plate and place them in the tray"
+            candidates.append((-1.2, [*steps[-1].items, *steps[-1].goal]))
         if world_front:
             # "Behind the sofa: a lamp. In front of it: a rug."
             candidates.append((-0.4, world_front))

@@ -100,6 +100,8 @@ class Relating:
             world.beside(children, "around", owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
+        elif weak and world.is_a(owner, lexicon.DEVICES):
+            world.beside(children, "next_to", owners, weak=True)
         elif world.is_a(owner, lexicon.RACKS):
             world.place(children, "in", owners, weak=weak)
         elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
