@@ -71,7 +71,9 @@ def _without_remarks(plan: ScenePlan) -> str:
             continue
         said = re.escape(found[1])
         prompt = re.sub(rf",\s*{said}\s*,", "", prompt, count=1, flags=re.IGNORECASE)
-        prompt = re.sub(rf"\s{said}(?=\W|$)", "", prompt, count=1, flags=re.IGNORECASE)
+        before = re.search(rf"(\w+)\s+{said}", prompt, flags=re.IGNORECASE)
+        if before is not None and before[1].lower() not in BREAKING:
+            prompt = re.sub(rf"\s{said}(?=\W|$)", "", prompt, count=1, flags=re.IGNORECASE)
     return prompt
 
 

@@ -10,7 +10,7 @@ from pat3d.plan.audit.claims import whose_of
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
+from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
 from pat3d.scene.relations import OPPOSITE, Relation
 
 _SIDES = {"left": "left_of", "right": "right_of", "front": "in_front_of"}
@@ -163,6 +163,11 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         after = it.said.words[mention.end : mention.end + 1]
         at_it = after == [":"] or "at" in it.said.words[max(mention.start - _NEAR, 0) : mention.start]
         if _full_of(it, mention, child, parent) or (at_it and parent in _names(it, [mention])):
+            return True
+    for mention in it.said.mentions:
+        led = it.said.words[max(mention.first - 1, 0) : mention.first] == ["to"]
+        if led and DEEDS & set(it.said.words[: mention.first]) and parent in _names(it, [mention]):
+            # "Put a spoon to the counter"
             return True
     # What stands by something on a table stands there too.
     beside = {b for a, k, b in it.edges if a == child and k not in ("on", "in", "under")}

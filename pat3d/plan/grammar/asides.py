@@ -90,7 +90,11 @@ class Asides(RelationWords):
 
     def _absence(self) -> None:
         """Read "without a lid", "no people": set aside with the phrase."""
-        read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
+        read = (
+            self._phrases.read(self._at + 1)
+            if self._word(0) != "nothing" and self._word(1) not in lexicon.VERBS
+            else None
+        )
         end = read[1] if read else self._at + 1
         while self._tokens[end].text in ("or", "nor") and (more := self._phrases.read(end + 1)) is not None:
             # "no roses or tulips"
@@ -100,6 +104,9 @@ class Asides(RelationWords):
         while not told and not pronoun and (size := link_at(self._tokens, end)):
             more = self._phrases.read(end + size)
             pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
+            if pronoun and self._word(0) == "without" and self._tokens[end].text not in ("on", "in", "inside", "with"):
+                # "A glass without juice next to it": the glass is.
+                break
             if (more is None or self._word(0) == "without") and not pronoun:
                 # "A mug without a handle on a plate": the mug is on the plate.
                 break
