@@ -71,6 +71,8 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
+    aside: str = ""
+    """What was left out of the sentence before it was read."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
