@@ -137,7 +137,9 @@ class Maker:
                 "meant.",
                 number,
             )
-        doing = base_verb(word) is not None and (not phrase.determined or word != base_verb(word))
+        before = phrase.words.lower().split()[-2:-1]
+        named = bool(before) and (before[0] in lexicon.DETERMINERS or is_modifier(before[0]))
+        doing = base_verb(word) is not None and not named
         if self.no_thing(word) or (doing and not self._nouns.respelled(word)):
             return UnreadError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '

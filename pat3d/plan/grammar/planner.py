@@ -217,7 +217,7 @@ class GrammarPlanner:
     def _adds_nothing(self, clause: Clause, world: World, failure: PromptError | None) -> bool:
         """Whether `clause`, which cannot be read, only tells more of what was named, or asks what no task does."""
         known = [group.noun for group in world.groups]
-        sentence = Remarks(clause.tokens, self._nouns)
+        sentence = Tails(clause.tokens, self._nouns, {})
         if not known or clause.manner not in (None, "other") or not sentence.adds_nothing(known):
             return False
         # "The challenge lies in the angles": of nothing that is there.

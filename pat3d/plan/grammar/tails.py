@@ -6,7 +6,7 @@ words. None names an object of the catalogue that is named nowhere else, or a th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import JOINERS, link_at
@@ -57,12 +57,22 @@ class Tails(Remarks):
         for at, token in enumerate(self._tokens[:-1]):
             after = self._words[at + 1]
             head = self._tokens[at + 1].mark or after in JOINERS or after in FINITE or link_at(self._tokens, at + 1)
+            head = head or (base_verb(after) not in (None, after) and not is_quality(after))
             before = self._words[max(0, at - 3) : at]
             told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
             counted = any(word in told for word in before) or bool(singulars(token.text))
             if head and counted and token.text.isalpha() and not self._in_name(at) and not _is_told(token.text):
                 made.append(token)
         return made
+
+    def adds_nothing(self, known: Collection[str]) -> bool:
+        """Whether the sentence only tells more of the `known` catalogue nouns."""
+        new = {token.number for token in self.unknown()}
+        indefinite = any(
+            token.number in new and _COUNTING & set(self._words[max(0, at - 3) : at])
+            for at, token in enumerate(self._tokens)
+        )
+        return not indefinite and super().adds_nothing(known)
 
     def _in_name(self, at: int) -> bool:
         return any(start <= at < start + size for start, size in self._named.items())
@@ -184,11 +194,13 @@ class Tails(Remarks):
         if before in ("a", "an") or before in lexicon.NUMBERS:
             return False
         noun = before in lexicon.DETERMINERS or before in lexicon.POSSESSIVES or is_modifier(before)
-        return is_quality(word) or (base_verb(word) is not None and not noun)
+        done = base_verb(word) is not None and self._words[at + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES
+        return is_quality(word) or (done and not noun)
 
     def _noun(self, at: int) -> bool:
         word = self._words[at]
-        return makes_nothing(word) and not (link_at(self._tokens, at) or word in JOINERS or word in FINITE)
+        verb = word.endswith("s") and base_verb(word) is not None and not is_quality(word)
+        return makes_nothing(word) and not (verb or link_at(self._tokens, at) or word in JOINERS or word in FINITE)
 
 
 def _is_told(word: str) -> bool:

@@ -14,50 +14,52 @@ def _words(text: str) -> frozenset[str]:
 
 _DOINGS = _words("""
     accept access accomplish achieve acquire activate adapt add adhere adjust admire adopt affect agree aid aim
-    allow announce answer anticipate appear apply appreciate approach assemble assess assist associate assume attach
-    attempt attend attract avoid await balance bake bask be become begin believe belong bend beckon blend block
-    bloom boast boil borrow bother bounce break bring brew browse build bump burn burst bury buy calculate call
-    capture care carry catch cause celebrate challenge change chase check chew chill choose chop claim clamp clarify
-    clean clear click climb close collapse collect collide combine come compare compete complete compose comprise
-    conduct confirm connect consider construct consume continue contribute control convert cook cool coordinate cope
-    correspond cover cradle crack crawl create cross crumble crush cry cultivate curl cut dance dangle darken deal
-    decide decorate define defy delight deliver demand demonstrate depict depend deposit describe deserve detach
-    detect determine develop die dig diffuse dim dip disassemble disappear discard discover dispose distinguish
-    distribute disturb divide do dock dominate doze drag drain drape draw dream dribble drift drip drive drop drown
-    dry dump dwell earn ease eat echo elevate eliminate embody embrace emerge emit emphasize emphasise employ
-    emulate enable encounter encourage end endure engage enhance enjoy enter entice envelop erect erupt escape
-    establish evaluate evoke examine exceed excite execute exert exhibit exist expand expect explain explore expose
-    express extend extract exude face fade fail fall feature feed feel fetch fight fill filter find finish fit fix
-    flank flap flatten flicker flip float flow flutter fly focus fold follow force forget form free fry function
-    fuse gain gather gaze get give glance gleam glide glimmer glint glisten glitter glow go govern grab grace grasp
-    graze greet grip grow guard guess guide handle hang happen harmonize harmonise hear heat help hesitate hide
-    highlight hint hit hold hop hope hover huddle hug hunt hurry identify ignore illuminate illustrate imagine
-    imitate imply improve include increase indicate infuse inform inhabit insert inspect inspire install instruct
-    intend interact interlock intersect introduce invert invite involve jam jiggle join jostle jump justify jut keep
-    kick kill kneel knit knock know lack land lap last laugh launch lean leap learn leave lend let liberate lie lift
-    like line linger link listen live loom loosen lose lounge love lower lurk maintain make manage maneuver
-    manoeuvre manipulate march match matter mean measure meet melt mention merge mimic mingle miss mix moisten
-    monitor mount move mow multiply nap navigate need neglect nestle nibble nod notice obey observe obtain occupy
-    occur offer open operate oppose optimize orient originate overcome overflow overhang overlap overlook owe own
-    pause peek peel peep peer perceive perch perform permit persist pick pierce pinch play plead pluck plug point
-    poke ponder pop populate pose possess pour practice practise praise prefer prepare present preserve press
-    pretend prevent proceed process produce project promise promote prompt prop protect protrude prove provide pull
-    punctuate purchase push put puzzle radiate raise reach react read realize realise rearrange recall receive
-    recline recognize recognise recommend recover recycle refer refill reflect refresh regard regrasp reject relate
-    relax release remain remember remind remove render repeat replace reply report represent require rescue resemble
-    reset resolve respect respond rest restore result resume retain retract retrieve return reveal reverse rinse
-    rise roast roll roost rotate rub ruin run rush sail satisfy saturate save savor savour say scan scatter scoop
-    scrape scratch scrub seal search seek seem select sell send sense separate serve settle shake shape share shift
-    shimmer shine shove show shrink shut sigh signify simmer simulate sing sink sip sit sizzle skewer sleep slice
-    slide slip slosh slouch slump slurp smash smell smile snap sneak snooze snuggle soak soar solve sort span spare
-    sparkle speak spell spend spill spin splash split spoil sprawl spray spread sprinkle squat squeak squeeze
-    stabilize stabilise stack stagger stand stare start starve stay steal steer stick stir stop store stow strain
-    stretch strike strive struggle study succeed suck suffer suggest suit support suppose surprise surround survey
-    survive suspect sustain swallow sway sweep swell swim swing swirl swivel take talk tap taste tear tell tempt
-    tend test thank thaw think thrive throw tidy tie tighten tilt tip topple toss touch tow tower trace train
+    align allow announce answer anticipate appear apply appreciate approach arrange assemble assess assist associate
+    assume attach attempt attend attract avoid await bake balance bask be beckon become begin believe belong bend
+    blend block bloom boast boil borrow bother bounce break brew bring browse build bump burn burst bury buy
+    calculate call capture care carry catch cause celebrate center centre challenge change chase check chew chill
+    choose chop claim clamp clarify clean clear click climb close cluster collapse collect collide combine come
+    compare compete complete compose comprise conduct confirm connect consider construct consume continue contribute
+    control convert cook cool coordinate cope correspond cover crack cradle crawl create cross crumble crush cry
+    cultivate curl cut dance dangle darken deal decide decorate define defy delight deliver demand demonstrate
+    depend depict deposit describe deserve detach detect determine develop die diffuse dig dim dip disappear
+    disassemble discard discover dispose distinguish distribute disturb divide do dock dominate doze drag drain
+    drape draw dream dribble drift drip drive drop drown dry dump dwell earn ease eat echo elevate eliminate embody
+    embrace emerge emit emphasise emphasize employ empty emulate enable encounter encourage end endure engage
+    enhance enjoy ensure enter entice envelop erect erupt escape establish evaluate evoke examine exceed exchange
+    excite execute exert exhibit exist expand expect explain explore expose express extend extract exude face fade
+    fail fall feature feed feel fetch fight fill filter find finish fit fix flank flap flatten flicker flip float
+    flow flutter fly focus fold follow force forget form free fry function fuse gain gather gaze get give glance
+    gleam glide glimmer glint glisten glitter glow go govern grab grace grasp graze greet grip grow guard guess
+    guide hand handle hang happen harmonise harmonize hear heat help hesitate hide highlight hint hit hold hop hope
+    hover huddle hug hunt hurry identify ignore illuminate illustrate imagine imitate imply improve include increase
+    indicate inform infuse inhabit insert inspect inspire install instruct intend interact interlock intersect
+    introduce invert invite involve jam jiggle join jostle jump justify jut keep kick kill kneel knit knock know
+    lack land lap last laugh launch lay lean leap learn leave lend let liberate lie lift like line linger link
+    listen live load loom loosen lose lounge love lower lurk maintain make manage maneuver manipulate manoeuvre
+    march match matter mean measure meet melt mention merge mimic mingle miss mix moisten monitor mount move mow
+    multiply nap navigate need neglect nestle nibble nod notice nudge obey observe obtain occupy occur offer open
+    operate oppose optimize organise organize orient originate overcome overflow overhang overlap overlook owe own
+    pack pass pause peek peel peep peer perceive perch perform permit persist pick pierce pile pinch place plate
+    play plead pluck plug point poke ponder pop populate pose position possess pour practice practise praise prefer
+    prepare present preserve press pretend prevent proceed process produce project promise promote prompt prop
+    protect protrude prove provide pull punctuate purchase push put puzzle radiate raise randomize reach react read
+    realise realize rearrange recall receive recline recognise recognize recommend recover recycle refer refill
+    reflect refresh regard regrasp reject relate relax release relocate remain remember remind remove render repeat
+    replace reply report reposition represent require rescue resemble reset resolve respect respond rest restore
+    result resume retain retract retrieve return reveal reverse rinse rise roast roll roost rotate rub ruin run rush
+    sail satisfy saturate save savor savour say scan scatter scoop scrape scratch screw scrub seal search secure
+    seek seem select sell send sense separate serve set settle shake shape share shift shimmer shine shove show
+    shrink shut sigh signify simmer simulate sing sink sip sit sizzle skewer sleep slice slide slip slosh slouch
+    slump slurp smash smell smile snap sneak snooze snuggle soak soar solve sort span spare sparkle speak spell
+    spend spill spin splash split spoil sprawl spray spread sprinkle squat squeak squeeze stabilise stabilize stack
+    stagger stamp stand stare start starve stash stay steal steer stick stir stop store stow strain stretch strike
+    strive struggle study succeed suck suffer suggest suit support suppose surprise surround survey survive suspect
+    sustain swallow swap sway sweep swell swim swing swirl switch swivel take talk tap taste tear tell tempt tend
+    test thank thaw think thrive throw tidy tie tighten tilt tip topple toss touch tow tower trace trade train
     transfer transform transition translate transmit transport trap travel traverse treat tremble trickle trigger
     trim try tuck tug tumble turn twinkle twirl twist understand undo unfold unload unlock unpack unplug unscrew
-    unstack untangle untie unveil unwind unwrap use utilize utilise vanish vary verify view visit wait wake walk
+    unstack untangle untie unveil unwind unwrap use utilise utilize vanish vary verify view visit wait wake walk
     wander want warm warn wash waste watch wave wear weave weigh welcome whisper wiggle win wipe wish withdraw
     withstand wobble wonder work worry wrap wrestle write yawn yield
 """)  # fmt: skip
@@ -79,7 +81,8 @@ _IRREGULAR = {
     "stole": "steal", "stuck": "stick", "struck": "strike", "swept": "sweep", "swam": "swim", "swung": "swing",
     "took": "take", "taken": "take", "taught": "teach", "tore": "tear", "torn": "tear", "told": "tell",
     "thought": "think", "threw": "throw", "thrown": "throw", "understood": "understand", "withdrew": "withdraw",
-    "woke": "wake", "wore": "wear", "worn": "wear", "wove": "weave", "woven": "weave", "won": "win", "wrote": "write",
+    "woke": "wake", "has": "have", "had": "have", "wore": "wear", "worn": "wear", "wove": "weave", "woven": "weave",
+    "won": "win", "wrote": "write",
     "written": "write", "lying": "lie", "dying": "die", "tying": "tie", "hung": "hang", "sunk": "sink",
 }  # fmt: skip
 _QUALITIES = _words("""
@@ -140,22 +143,22 @@ _THINGS = _words("""
 """)  # fmt: skip
 """Things whose names end as those of qualities do."""
 _LITTLE = _words("""
-    along amid parallel perpendicular straight gentle askew alike able about above accordingly across actually
-    afterwards afterward again ago ahead akin alike almost alone already also although altogether always amidst anew
-    any anymore anything anytime anyway anywhere apart around as aside asleep at away back bare barely based because
-    before behind below besides best better between beyond both briefly but by certain consequently correct
-    corresponding daily despite done down due during each early either elsewhere enough entire especially etc even
-    eventually ever every everywhere evident exact extra far fast faster few finally first following for forth
-    forward from fully further furthermore half hard hardly hence here high how however i if immediately in inside
-    instead into its itself last later least less likewise little long longer low many may maybe me meanwhile might
-    moreover most mostly much must my namely near nearby nearly necessary neither never nevertheless next no
-    nonetheless normal nor not nothing now nowhere of off often on once only onto opposite or otherwise ought our
-    out outside over overall own per perhaps please possible previous quick quickly quite rather ready respectively
-    round same seldom several should since slow slowly so somehow somewhat somewhere soon still straight such sure
-    than thank thanks that their them themselves then there thereby therefore these they this those though through
-    throughout thus till to together too toward towards true twice until up upon upwards us usual various very via
-    we well what whatever when whenever where whereas whereby wherein wherever whether while whilst who whole whom
-    whose why will with within without would yet you your
+    farthest furthest nearest closest along amid parallel perpendicular straight gentle askew alike able about above
+    accordingly across actually afterwards afterward again ago ahead akin alike almost alone already also although
+    altogether always amidst anew any anymore anything anytime anyway anywhere apart around as aside asleep at away
+    back bare barely based because before behind below besides best better between beyond both briefly but by
+    certain consequently correct corresponding daily despite done down due during each early either elsewhere enough
+    entire especially etc even eventually ever every everywhere evident exact extra far fast faster few finally
+    first following for forth forward from fully further furthermore half hard hardly hence here high how however i
+    if immediately in inside instead into its itself last later least less likewise little long longer low many may
+    maybe me meanwhile might moreover most mostly much must my namely near nearby nearly necessary neither never
+    nevertheless next no nonetheless normal nor not nothing now nowhere of off often on once only onto opposite or
+    otherwise ought our out outside over overall own per perhaps please possible previous quick quickly quite rather
+    ready respectively round same seldom several should since slow slowly so somehow somewhat somewhere soon still
+    straight such sure than thank thanks that their them themselves then there thereby therefore these they this
+    those though through throughout thus till to together too toward towards true twice until up upon upwards us
+    usual various very via we well what whatever when whenever where whereas whereby wherein wherever whether while
+    whilst who whole whom whose why will with within without would yet you your
 """)  # fmt: skip
 """Words that build a sentence, beside those of the other tables."""
 _DESCRIBING = ("ful", "ish", "ous", "ic", "ical", "able", "ible", "less", "ive", "ed", "ing", "ual", "ly", "ary")
