@@ -45,6 +45,9 @@ DEMONSTRATIVES = frozenset({"that", "this"})
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
+RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
+"""Words that open a clause about the noun before them."""
+
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({"sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean",
     "perches", "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats",

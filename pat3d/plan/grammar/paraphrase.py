@@ -14,6 +14,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.commands import allowed
 from pat3d.plan.grammar.displaced import (
     absolute,
     asked,
@@ -57,7 +58,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = covering(opened(_without(bare(tokens, nouns), _SILENT), nouns), nouns)
+    tokens = covering(opened(allowed(_without(bare(tokens, nouns), _SILENT)), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
