@@ -192,11 +192,12 @@ def _as_many(
     """As many of `share`, from its beginning, as fit on one region, placed; and the rest."""
     best: list[Group] = []
     said: list[str] = []
-    fit, beyond = 0, len(share) + 1
-    tried = len(share)
+    cuts = _cuts(top, share, laterals)
+    fit, beyond = 0, len(cuts)
+    tried = len(cuts) - 1
     while fit < tried:
         remarks: list[str] = []
-        found = _on_region(top, region, share[:tried], laterals, before, rng, remarks)
+        found = _on_region(top, region, share[: cuts[tried]], laterals, before, rng, remarks)
         if found is None:
             beyond = tried
         else:
@@ -204,7 +205,19 @@ def _as_many(
         # By halving: of twenty that do not fit together, five shares are tried, not twenty.
         tried = (fit + beyond) // 2
     notes.extend(said)
-    return best, list(share[fit:])
+    return best, list(share[cuts[fit] :])
+
+
+def _cuts(top: Top, share: Sequence[Group], laterals: Sequence[Lateral]) -> list[int]:
+    """Where `share` may be parted among tiers: no row is, nor what stands beside another thing."""
+    if len(top.regions) == 1:
+        return list(range(len(share) + 1))
+    ties = [{lat.child, lat.parent} for lat in laterals] + [set(one.names) for one in top.wishes.formations]
+    names = [group.name for group in share]
+    return [
+        at for at in range(len(share) + 1)
+        if all(tie.isdisjoint(names[:at]) or tie.isdisjoint(names[at:]) for tie in ties)
+    ]  # fmt: skip
 
 
 def _on_region(

@@ -181,3 +181,21 @@ def test_rows_behind_each_other_are_told_as_one_and_what_lies_in_a_vessel_stands
     boxed = PLANNER.plan("Two rows of three eggs in a carton.")
     assert not boxed.held()
     assert any(note.startswith("not arranged") for note in boxed.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "standing"),
+    [
+        ("A row of three books on a shelf.", ["book 1", "book 2", "book 3"]),
+        ("Three books side by side on a bookshelf.", ["book 1", "book 2", "book 3"]),
+        ("Three books side by side on a shelf, the middle one leaning on the left one.", ["book 1", "book 3"]),
+        ("Three books in a row on a table.", []),
+        ("A row of three mugs on a shelf.", []),
+        ("Two stacks of two books in a row on a shelf.", []),
+        ("Two books on a shelf.", []),
+    ],
+)
+def test_books_in_a_row_on_a_shelf_stand(sentence: str, standing: list[str]):
+    plan = PLANNER.plan(sentence)
+    assert [one.object for one in plan.turned() if one.kind == "on_its_side"] == standing
+    assert not plan.notes
