@@ -191,7 +191,7 @@ FLOOR = ("bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee tabl
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
     "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet",
-    "yoga mat")  # fmt: skip
+    "yoga mat", "parasol")  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
@@ -249,7 +249,7 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "tray", "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
     "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet",
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
-    "envelope")  # fmt: skip
+    "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
