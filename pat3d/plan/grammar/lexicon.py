@@ -281,7 +281,10 @@ CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "di
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
           "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
-HOLDERS = ("wine rack", "test tube rack", "egg carton", "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
+DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
+"""What other things are with that stand beside it: "a laptop with a mouse"."""
+RACKS = ("wine rack", "test tube rack", "egg carton")
+HOLDERS = (*RACKS, "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
 """What has an inside and is no vessel."""
 SHUT = ("cabinet", "dresser", "wardrobe")
 """What things are in behind a door or in a drawer, and can stand on too."""
