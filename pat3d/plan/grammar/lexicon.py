@@ -256,6 +256,9 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
+BOUND = ("book", "notebook", "spell book", "binder")
+SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
+"""What people have standing, where it is in a row: on what."""
 NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket",
     "radio", "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher",
     "tray")  # fmt: skip

@@ -30,6 +30,7 @@ from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
+from pat3d.plan.grammar.surface_places import on_the_surface
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _MIDDLES = ("centre", "center", "middle")
@@ -62,7 +63,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(in_place(tokens, nouns), nouns)
+    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
