@@ -1,7 +1,13 @@
-"""Trays as large as what they carry asks for: nobody who says "a tray with a teapot and two cups" means a heap."""
+"""Things of the size that their company asks for.
+
+Trays as large as what they carry: nobody who says "a tray with a teapot and two cups" means a heap. And a spoon that is
+long enough for the bowl across which it lies, or a bowl small enough for it.
+"""
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -10,6 +16,7 @@ from pat3d.geometry.pose import Pose
 from pat3d.layout.bodies import place
 from pat3d.layout.flat import Item
 from pat3d.layout.frames import flat_regions
+from pat3d.layout.spans import crossing
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.asset import Asset
@@ -19,6 +26,9 @@ ENLARGED = frozenset({"tray", "cutting board"})
 
 FACTORS = (1.15, 1.3, 1.5)
 """Sizes that are tried, the smallest first, against the usual one."""
+
+LONGER, SMALLER = (1.0, 1.1, 1.2, 1.3), (1.0, 0.9, 0.8, 0.7, 0.6)
+"""Sizes of what lies across something, and of that, that are tried against the usual ones, the nearest first."""
 
 
 def enlarged_trays(
@@ -46,6 +56,38 @@ def enlarged_trays(
             larger = remake(obj.name, factor)
             if _side_by_side(larger, loads):
                 found[obj.name] = larger, factor
+                break
+    return found
+
+
+def crossings(
+    plan: ScenePlan, assets: Mapping[str, Asset], remake: Callable[[str, float], Asset]
+) -> dict[str, tuple[Asset, float]]:
+    """Assets of other sizes, with their factors, for what lies across one thing of `plan` and is too short to rest so.
+
+    What the prompt gives a size, and a carrier that carries something else too, stay as they are. Arguments as for
+    `enlarged_trays`.
+    """
+    planned = {obj.name: obj for obj in plan.objects}
+    found: dict[str, tuple[Asset, float]] = {}
+
+    def factors(name: str, tried: Sequence[float]) -> Sequence[float]:
+        obj = planned[name]
+        return tried if obj.scale == 1.0 and obj.extent is None and name not in found else (1.0,)
+
+    for one in plan.held():
+        if one.kind != "across" or len(one.of) != 1:
+            continue
+        name, carrier = one.objects[0], one.of[0]
+        alone = [rel.child for rel in plan.relations if rel.supports and rel.parent == carrier] == [name]
+        pairs = itertools.product(factors(name, LONGER), factors(carrier, SMALLER) if alone else (1.0,))
+        for longer, smaller in sorted(pairs, key=lambda pair: math.log(pair[0]) - math.log(pair[1])):
+            made = {
+                each: (assets[each] if factor == 1.0 else remake(each, factor), factor)
+                for each, factor in ((name, longer), (carrier, smaller))
+            }
+            if crossing(*(place(each, asset, Pose()) for each, (asset, _) in made.items())) is not None:
+                found |= {each: sized for each, sized in made.items() if sized[1] != 1.0}
                 break
     return found
 
