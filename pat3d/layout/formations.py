@@ -40,6 +40,8 @@ class Formation:
     ring: bool = False
     fixed: Mapping[str, Array] = field(default_factory=dict)
     """Offsets of the members' middles [m], shape (2,) each, where they are given."""
+    cells: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    """Column and row of every member, where they stand in several rows with aligned columns."""
     overlapping: bool = False
     """Whether members may lie above one another."""
 
@@ -61,7 +63,10 @@ class Formation:
         if self.ring:
             return _ring(self.members, self.centre, items, gap)
         own = [lat for lat in laterals if lat.child in self.members and lat.parent in self.members]
-        lines = [_line([items[name] for name in self.members], np.array(way), gap) for way in _DIRECTIONS]
+        if self.cells:
+            lines = _lattices(self.cells, [items[name] for name in self.members], gap)
+        else:
+            lines = [_line([items[name] for name in self.members], np.array(way), gap) for way in _DIRECTIONS]
         return next((line for line in lines if all(_agrees(lat, line) for lat in own)), lines[0])
 
 
@@ -133,6 +138,16 @@ def _line(items: Sequence[Item], way: Array, gap: Gap) -> dict[str, Array]:
         at += _reach(before, way) + free + _reach(item, -way)
         found[item.name] = at * way
     return found
+
+
+def _lattices(cells: Mapping[str, tuple[int, int]], items: Sequence[Item], gap: Gap) -> list[dict[str, Array]]:
+    """Members at the crossings of equally spaced lines, rows along x to the right and to the back first."""
+    free = max(gap(first, second) for first, second in combinations(items, 2))
+    pitch = np.max([item.high - item.middle for item in items], axis=0) + free
+    pitch -= np.min([item.low - item.middle for item in items], axis=0)
+    at = {name: np.array(cell, dtype=np.float64) for name, cell in cells.items()}
+    ways = [np.diag([i, j]) for i in (1.0, -1.0) for j in (1.0, -1.0)]
+    return [{name: pitch * (way @ cell) for name, cell in at.items()} for way in (*ways, *(way[::-1] for way in ways))]
 
 
 def _reach(item: Item, way: Array) -> float:

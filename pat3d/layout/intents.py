@@ -18,11 +18,12 @@ from pat3d.layout.formations import Formation, Sight, Wishes, close_row, pairs, 
 from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, under_offset
 from pat3d.layout.tops import item_of
-from pat3d.scene.arrangements import Arrangement
+from pat3d.scene.arrangements import Arrangement, crossing
 from pat3d.scene.relations import GROUND, SIDES
 
 _AHEAD = 17.0
 """Angle [degrees] at which the ends of a row see what all of it faces."""
+_LINES = ("row", "side_by_side")
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 """Where the first, second, ... of several that face one thing have it."""
 
@@ -90,7 +91,9 @@ class Intents:
         Raises:
             LayoutError: something has no room under, or nothing to lean on.
         """
-        formations, far, places = [], set(), {}
+        lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in _LINES]
+        grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
+        formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
         for intent in self.by_surface.get(support, []):
             one, objects, of = (
                 intent.arrangement,
@@ -99,8 +102,9 @@ class Intents:
             )
             if not {*objects, *of} <= set(groups):
                 continue
-            if one.kind in ("row", "side_by_side"):
-                formations.append(self._row(objects, groups))
+            if one.kind in _LINES:
+                if not any(set(objects) <= set(cells) for cells in grids):
+                    formations.append(self._row(objects, groups))
             elif one.kind == "between" and len(of) == 2:
                 formations.append(Formation(members=(of[0], *objects, of[1])))
             elif one.kind == "between":
@@ -140,7 +144,7 @@ class Intents:
 
     def _back(self, sight: Sight, support: str, groups: Mapping[str, Group]) -> float:
         """How far from its target the row of an observer stands [m], so that its ends too have it nearly ahead."""
-        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in ("row", "side_by_side")]
+        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in _LINES]
         for row in (one.moved(one.arrangement.objects) for one in rows):
             if sight.observer in row and set(row) <= set(groups):
                 sizes = [groups[name].size[:2] for name in row]
@@ -181,7 +185,7 @@ class Intents:
         one = intent.arrangement
         if one.rule.on_it:
             self.yaws.setdefault(intent.support, 0.0)
-        elif one.kind in ("row", "side_by_side"):
+        elif one.kind in _LINES:
             self.yaws |= {name: self.yaws.get(name, 0.0) for name in one.objects}
         elif one.kind == "leaning_against":
             way = self._way(intent, one.objects[0], one.of[0]) or (0.0, 1.0)
@@ -191,17 +195,20 @@ class Intents:
             targets = one.of * len(one.objects) if one.of else one.objects[::-1]
             sights = self._sights.setdefault(intent.support, [])
             line = self._line(intent) if one.of else ()
+            ahead = next((way for name in line if (way := self._way(intent, name, one.of[0]))), (0.0, 1.0))
             for number, (observer, target) in enumerate(zip(one.objects, targets, strict=True)):
                 ring = self._ring_angle(intent, observer, target)
                 if ring is not None:
                     way = (-math.cos(ring), -math.sin(ring))
                 else:
-                    way = self._way(intent, observer, target) or ((0.0, 1.0) if line else _FACING[number])
+                    way = ahead if line else self._way(intent, observer, target) or _FACING[number]
                     pair = intent.moved((observer, target))
                     # Of a row, the middle one has the target straight ahead.
                     if not line or observer == line[len(line) // 2]:
                         sights.append(Sight(observer=pair[0], target=pair[1], way=way))
-                self.targets.append((observer, target))
+                if not line:
+                    # What stands in a row stays turned alike.
+                    self.targets.append((observer, target))
                 # The front of an asset is at -y.
                 self.yaws[observer] = math.atan2(way[1], way[0]) + math.pi / 2
 
@@ -209,7 +216,7 @@ class Intents:
         """The row in which all objects of `intent` stand, if there is one."""
         for other in self.by_surface.get(intent.support, []):
             one = other.arrangement
-            if one.kind in ("row", "side_by_side") and set(intent.arrangement.objects) <= set(one.objects):
+            if one.kind in _LINES and set(intent.arrangement.objects) <= set(one.objects):
                 return tuple(name for name in one.objects if name in intent.arrangement.objects)
         return ()
 

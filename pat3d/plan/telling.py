@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
-from pat3d.scene.arrangements import ARRANGEMENTS
+from pat3d.scene.arrangements import ARRANGEMENTS, crossing
 from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation, carriers_of
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -154,9 +155,16 @@ class _Teller:
 
     def _rows(self) -> list[str]:
         rows = [each for each in self._plan.arrangements if each.kind == "row" and each.arranged]
-        return [
-            f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in rows if len(each.objects) > 1
-        ]
+        grids = crossing([each.objects for each in rows])
+        made = [self._grid(cells) for cells in grids]
+        alone = [each for each in rows if len(each.objects) > 1 and not any(set(each.objects) <= set(g) for g in grids)]
+        return made + [f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in alone]
+
+    def _grid(self, cells: Mapping[str, tuple[int, int]]) -> str:
+        """Several rows with aligned columns."""
+        lengths = list(Counter(row for _, row in cells.values()).values())
+        each = f"of {_count(lengths[0])}" if len(set(lengths)) == 1 else f"of {_joined([_count(n) for n in lengths])}"
+        return f"{self._all(list(cells))} are in {_count(len(lengths))} rows {each}, one behind the other"
 
     def _direction(self, row: Arrangement) -> str:
         """Where a row runs: as a relation of its first two has it, else to the right."""

@@ -67,6 +67,30 @@ def test_a_row_is_straight_in_order_and_evenly_spaced():
     assert not holds("row", {"a": (0, 0), "b": (0.2, 0.05), "c": (0.4, 0)}, "abc"), "not straight"
 
 
+def test_the_ends_of_what_is_in_a_row_are_off_the_line_by_no_more_than_its_middles_may_be():
+    """Boards of 0.2 m that stand 25 cm apart: 37.5 mm allowed at an end 0.1 m away, 22 degrees, of which 15 at most.
+
+    Of boards 0.4 m long, 5 cm apart, end to end at 0.4012 m: 10 mm at 0.2 m are 2.9 degrees.
+    """
+    board = dict.fromkeys("abc", block(x=0.2, y=0.02))
+    for yaw, expected in ((14, True), (16, False), (90, False)):
+        places = {"a": (0, 0), "b": (0.25, 0, yaw), "c": (0.5, 0)}
+        assert holds("row", places, "abc", assets=board) is expected, yaw
+    long = dict.fromkeys("abc", block(x=0.02, y=0.4))
+    limit = math.degrees(math.asin(0.01 / math.hypot(0.2, 0.01)))
+    for share, expected in ((0.95, True), (1.05, False)):
+        places = {"a": (0, 0), "b": (0.05, 0, share * limit), "c": (0.1, 0)}
+        assert holds("row", places, "abc", assets=long) is expected, share
+
+
+def test_a_round_thing_in_a_row_is_turned_anyhow_and_a_turned_row_is_one():
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0, 77), "c": (0.4, 0)}, "abc", assets=dict.fromkeys("abc", ball()))
+    slanted = {name: (0.2 * k * math.cos(0.5), 0.2 * k * math.sin(0.5), 28.6) for k, name in enumerate("abc")}
+    assert holds("row", slanted, "abc")
+    tipped = Pose(position=(0.2, SIDE / 2, 0.0), quat_wxyz=(0.5**0.5, 0.5**0.5, 0.0, 0.0))
+    assert holds("row", {"a": (0, 0), "b": tipped, "c": (0.4, 0)}, "abc"), "on its side and turned by nothing"
+
+
 def test_a_row_of_unequal_things_may_have_equal_gaps_or_equal_distances():
     wide = {"b": block(x=0.2)}
     assert holds("row", {"a": (0, 0), "b": (0.2, 0), "c": (0.4, 0), "d": (0.53, 0)}, "abcd", assets=wide)

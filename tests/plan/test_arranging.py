@@ -151,3 +151,33 @@ def test_what_leans_and_what_is_under_is_told_once():
     assert tell(PLANNER.plan("A book leaning against a box.")) == (
         "A book and a box stand on the ground. The book is leaning against the box."
     )
+
+
+@pytest.mark.parametrize(
+    ("sentence", "rows", "columns"),
+    [
+        ("Six dominoes in two rows on a table.", ["123", "456"], ["14", "25", "36"]),
+        ("Two rows of three cans.", ["123", "456"], ["14", "25", "36"]),
+        ("A 2x3 grid of cups.", ["123", "456"], ["14", "25", "36"]),
+        ("A grid of six cups on a tray.", ["123", "456"], ["14", "25", "36"]),
+        ("Seven mugs in a grid.", ["1234", "567"], ["15", "26", "37"]),
+        ("Five cups in two rows.", ["123", "45"], ["14", "25"]),
+        ("A row of four cups.", ["1234"], []),
+        ("Two stacks of three plates in a row.", ["14"], []),
+    ],
+)
+def test_every_row_and_every_column_is_a_row_of_the_scene(sentence: str, rows: list[str], columns: list[str]):
+    plan = PLANNER.plan(sentence)
+    assert not plan.notes
+    held = [one for one in plan.held() if one.kind == "row"]
+    assert ["".join(name.split()[-1] for name in one.objects) for one in held] == [*rows, *columns]
+
+
+def test_rows_behind_each_other_are_told_as_one_and_what_lies_in_a_vessel_stands_in_no_row():
+    from pat3d.plan.telling import tell
+
+    told = tell(PLANNER.plan("Eleven cups in three rows."))
+    assert told.endswith("The eleven cups are in three rows of four, four and three, one behind the other.")
+    boxed = PLANNER.plan("Two rows of three eggs in a carton.")
+    assert not boxed.held()
+    assert any(note.startswith("not arranged") for note in boxed.notes)

@@ -10,14 +10,22 @@ from pat3d.plan.audit.claims import whose_of
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import HEADLESS, REACHING, REPEATS
+from pat3d.plan.audit.words import FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
 from pat3d.scene.relations import OPPOSITE, Relation
 
 _SIDES = {"left": "left_of", "right": "right_of", "front": "in_front_of"}
 _ORDERS = frozenset({"row", "rows", "line", "lined", "order", "side"})
 _FLANKING = frozenset({"flank", "flanks", "flanked", "flanking"})
 _ADDING = frozenset({"too", "likewise"})
-_STACKING = REPEATS | HEADLESS | frozenset({"stacked", "tower", "top", "piled", "pyramid", "nested", "its", "others"})
+_STACKING = FORMED | frozenset(
+    {"stacked", "stack", "towers", "tower", "column", "piled", "pyramid", "nested", "heaped"}
+)
+"""Words by which likes stand on one another."""
+_UPON = frozenset({"on", "onto", "upon", "atop", "top", "carries", "holds", "supports", "bears", "carrying", "holding",
+                   "supporting", "below", "beneath", "under", "in", "inside", "contains", "containing"})  # fmt: skip
+_ANOTHER = (REPEATS | HEADLESS | PRONOUNS | frozenset({"others", "itself"})) - {"left", "right"}
+_WITHIN = 4
+"""Words from a relation word to the like without a noun that it leads to."""
 _FEATURING = frozenset({"decorated", "including", "includes", "features", "featuring"})
 """Words by which what is first named has all that follows."""
 _SO = frozenset({"is", "are", "does", "do", "was", "were"})
@@ -39,7 +47,7 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
         nested = _HEADLESS_INSIDE.search(" ".join(it.said.words)) or any(_nests(it, c, rel) for c in it.said.claims)
         if alike and rel.kind == "in" and not nested:
             yield f'assumed: "{rel.child}" in "{rel.parent}"'
-        told = not alike or _STACKING & set(it.said.words) or _licensed(it, rel.child, rel.kind, rel.parent)
+        told = not alike or _stacked(it.said.words) or _licensed(it, rel.child, rel.kind, rel.parent)
         if rel.kind == "on" and not told:
             yield f'assumed: "{objects[rel.child].phrase}" on "{objects[rel.parent].phrase}"'
         if rel.parent in objects and not alike:
@@ -54,6 +62,14 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
                  for rel in relations)  # fmt: skip
         if child != parent and not any(given) and parent.lower() not in noted and child.lower() not in it.told:
             yield f'assumed: "{child}" {relations[0].kind.replace("_", " ")} "{parent}"'
+
+
+def _stacked(words: Sequence[str]) -> bool:
+    """Whether a word says that likes stand on one another, or something on one of which the noun is not said."""
+    upon = (at for at, word in enumerate(words) if word in _UPON)
+    return bool(_STACKING & set(words)) or any(
+        _ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon
+    )
 
 
 def _told_of(it: Compared, claim: Claim) -> set[str]:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
+from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.words import ADJECTIVES, NUMBERS, POSED
+from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, NUMBERS, POSED
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
 _SMALL = frozenset({"small", "little", "tiny", "mini"})
@@ -130,13 +131,15 @@ def sizes(it: Compared) -> Iterator[tuple[int, str]]:
 
 
 def shared_colours(it: Compared) -> Iterator[tuple[int, str]]:
-    """A colour before two plurals that only the first of them has: "red mugs and bowls"."""
+    """What is said before two plurals and only the first of them has: "red mugs and bowls", "small cups and jars"."""
     for one, other in pairwise(it.said.mentions):
         joined = it.said.words[one.end : other.start] == ["and"] and one.plural and other.plural
-        for colour in one.colours if joined and one.number is None else ():
-            has = [[obj for obj in it.which(mention) if it.has(obj, colour)] for mention in (one, other)]
-            if has[0] and not has[1] and it.which(other):
-                yield one.start, f'"{colour}" is read as said of "{one.text}" and not of "{other.text}"'
+        lead = [word for word in it.said.words[one.first : one.start] if word not in ARTICLES]
+        for word in lead if joined and one.number is None else ():
+            described = find_colour(word) or find_material(word) or word in ADJECTIVES
+            has = [[obj for obj in it.which(mention) if it.has(obj, word)] for mention in (one, other)]
+            if described and has[0] and not has[1] and it.which(other):
+                yield one.start, f'"{word}" is read as said of "{one.text}" and not of "{other.text}"'
 
 
 def storeys(it: Compared) -> Iterator[tuple[int, str]]:

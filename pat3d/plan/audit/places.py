@@ -139,6 +139,13 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         follower = words[at + 1] if at + 1 < len(words) else "."
         if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
             continue
+        if (
+            word == "other"
+            and {"side", "end"} & set(words[:at])
+            and words[at - 2 : at] in (["on", "the"], ["at", "the"])
+        ):
+            # "A lamp on one side of the bed and a clock on the other"
+            continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
         ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
         named = ones[-1:] if word in ("other", "others") and ones else before
@@ -278,6 +285,10 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         else:
             plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
             owners, things = (it.which(plural[-1]) if plural else []), _listed(it, behind)
+            for mention, last in reversed(list(pairwise(plural))):
+                if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
+                    break
+                owners = [*owners, *it.which(mention)]
         yield from _fewer(it, at, things, len(owners), word)
 
 

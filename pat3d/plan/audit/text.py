@@ -225,7 +225,8 @@ def _size(words: Sequence[str], at: int) -> int:
         place = RELATIONS.get(tuple(words[at : at + size]))
         after = words[at + size] if at + size < len(words) else ""
         leads_on = after[:1].isalnum() and (after == "of" or after not in BREAKING | ARTICLES | OPENING)
-        if place is not None and not (place == "side" and leads_on):
+        upon = words[at : at + size] == ["on", "the", "other"] and words[at - 1] == "one" and "side" not in words[:at]
+        if place is not None and not (place == "side" and (leads_on or upon)):
             return size
     return 0
 

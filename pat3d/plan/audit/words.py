@@ -82,6 +82,8 @@ REPEATS = frozenset({
     "without",
 })  # fmt: skip
 """Words by which there are more of a thing than its name's number says."""
+FORMED = frozenset({"row", "rows", "stack", "stacks", "pile", "piles", "heap"})
+"""Those of them behind which the number of one such form may stand: "a stack of four books"."""
 SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
 """Words by which likes are told from one another."""
 EACH = frozenset({"each", "every", "either"})
@@ -142,7 +144,8 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "on": ("on", "onto", "upon"),
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
         "in": ("in", "inside", "within", "into", "inside of", "share", "shares", "fill", "fills"),
-        "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by",
+        "beside": ("on one side of", "on the other side of", "at one end of", "on each side of", "on either side of",
+                   "on both sides of", "beside", "next to", "near", "by",
                    "close to", "alongside", "adjacent to", "along"),
         "against": ("against",),
         "its left": ("to its left", "on its left"),
@@ -175,7 +178,9 @@ RELATIONS = _relations()
 LONGEST = max(map(len, RELATIONS))
 PLACING = frozenset(phrase[-1] for phrase in RELATIONS)
 """Words behind which a landmark stands."""
-_WITHIN = frozenset({"left", "right", "front", "top", "full", "side", "row", "middle", "other", "back"}) | ARTICLES
+_WITHIN = (
+    frozenset({"left", "right", "front", "top", "full", "side", "end", "row", "middle", "other", "back"}) | ARTICLES
+)
 """Words of relation phrases that stand in noun phrases too."""
 BREAKING = (
     LEADING | PRONOUNS | frozenset(word for phrase in RELATIONS for word in phrase) | {

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
@@ -44,6 +44,33 @@ def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             joint, the = replace(tokens[at], text="and"), replace(tokens[which], text="the")
             made[end:after] = [joint, *tokens[at:which], the, *tokens[end - name : end]]
     return made
+
+
+def one_upon(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "two cubes, one on the other" as "one on top of the other": no side of anything."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4):
+        upon = words[at : at + 4] == ["one", "on", "the", "other"] and tokens[at + 4].mark
+        if upon and "side" not in words[:at] and words[max(at - 1, 0)] != "on":
+            on = tokens[at + 1]
+            return [*tokens[: at + 2], replace(on, text="top"), replace(on, text="of"), *tokens[at + 2 :]]
+    return list(tokens)
+
+
+def on_another(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a hat on one chair and a bag on the other" as "a hat on one chair and a bag on another"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 5):
+        named = words[at] in ("on", "in") and words[at + 1] == "one" and nouns.match([words[at + 2]])
+        if named and any(words[at + 2] in singulars(word) for word in words[:at]):
+            # "Two chairs: a cat on one chair and a dog on the other"
+            continue
+        other = [words[at], "the", "other"]
+        told = next((n for n in range(at + 3, len(words) - 3) if words[n : n + 3] == other and tokens[n + 3].mark), 0)
+        if named and told:
+            another = replace(tokens[told + 1], text="another", end=tokens[told + 2].end)
+            return [*tokens[: told + 1], another, *tokens[told + 3 :]]
+    return list(tokens)
 
 
 def asked(tokens: Sequence[Token]) -> list[Token]:

@@ -301,9 +301,7 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
             relations += [Relation(child=names[b], kind="next_to", parent=names[a]) for a, b in beside]
             world.note(f'"{group.words}": its objects lie side by side, since as a stack they would not stay.')
         if group.rows:
-            own = world.bases(group.items)
-            length = -(-len(own) // group.rows)
-            lines = [own[at : at + length] for at in range(0, len(own), length)]
+            lines = arranging.rows_of(world, group)
             for line in lines:
                 pairs = zip(line, line[1:], strict=False)
                 relations += [Relation(child=names[a], kind="left_of", parent=names[b]) for a, b in pairs]

@@ -14,7 +14,16 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.displaced import absolute, asked, by_which, fronted, shared_landmark, stateless
+from pat3d.plan.grammar.displaced import (
+    absolute,
+    asked,
+    by_which,
+    fronted,
+    on_another,
+    one_upon,
+    shared_landmark,
+    stateless,
+)
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
@@ -53,7 +62,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = covering(opened(_without(bare(tokens, nouns), _SILENT), nouns), nouns)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(shared_landmark(tokens), nouns)
+    tokens = absolute(shared_landmark(one_upon(on_another(tokens, nouns))), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))

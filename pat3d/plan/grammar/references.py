@@ -11,6 +11,7 @@ from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
@@ -88,9 +89,20 @@ class References(Contrast):
         again = again or [
             group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
         ]
+        again = again or [
+            # "Sort the coins: coins in the jar"
+            group for group in world.groups
+            if self._all_of(at, phrase) and group.phrase.definite and group.phrase.plural and not group.counted
+            and group.modifiers == NO_MODIFIERS and all(world.support(item) is None for item in group.items)
+        ]  # fmt: skip
         if not phrase.definite and not any(group.noun == phrase.noun for group in again):
             return None
         besides = self._besides(at)
+        likes = [group for group in world.groups if group.noun == phrase.noun and not group.replaced]
+        if len(likes) > 1 and self._all_of(at, phrase) and not any(
+            group in besides or group.cycle or self._elsewhere(at, group) for group in likes
+        ):  # fmt: skip
+            return [item for group in likes for item in group.items]
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
@@ -204,6 +216,10 @@ class References(Contrast):
         if phrase.head == "each":
             self.each.add(at)
             plural = self._plural_before(at)
+            listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
+            if len(listed) > 1 and all(len(self.known[head]) > 1 for head in listed):
+                # "Two mugs and two bowls, each with a spoon"
+                return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
         if rest and world.telling:
@@ -324,19 +340,6 @@ class References(Contrast):
             tell(item, words)
         self._world.telling = [item for item in free if item not in picked]
         return picked or list(whole.items[:count])
-
-    def _plural_before(self, at: int) -> list[Group]:
-        refs = [self.known[before] for before in sorted(self.known, reverse=True) if before < at and self.known[before]]
-        groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
-        return list(dict.fromkeys(groups))
-
-    def _before(self, at: int) -> list[Item]:
-        """What the clause that chunk `at` belongs to begins with."""
-        plural = self._plural_before(at)
-        listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
-        if len(listed) > 1:
-            return [item for head in listed for item in self.known[head]]
-        return list(plural[0].items) if plural else list(self._world.subject)
 
     def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
         """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""
