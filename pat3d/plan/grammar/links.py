@@ -156,7 +156,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on"), "decorated with", "adorned with", "topped with", "topped by", "covered with",
         "occupied by",
         "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
-        "stacked with", "dotted with")  # fmt: skip
+        "stacked with", "dotted with", "piled with", "piled high with", "heaped with", "heaped high with",
+        "stacked high with", "loaded high with", "littered with", "scattered with", "laid with")  # fmt: skip
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
