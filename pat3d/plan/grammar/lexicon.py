@@ -259,7 +259,7 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
     "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
-ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
+ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank", "domino")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
 BOUND = ("book", "notebook", "spell book", "binder")
 SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
