@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,7 +136,13 @@ def floors(world: World, pairs: Sequence[tuple[str, str]], kind: Literal["in", "
     )
 
 
-@functools.lru_cache(maxsize=1024)
+_CORNERS: WeakKeyDictionary[Asset, Array] = WeakKeyDictionary()
+"""Gone with the assets, whose meshes and textures take megabytes."""
+
+
 def corners(asset: Asset) -> Array:
     """Of the convex parts of an asset, in its frame [m], shape (n, 3)."""
-    return np.concatenate([part.vertices for part in asset.parts])
+    found = _CORNERS.get(asset)
+    if found is None:
+        found = _CORNERS[asset] = np.concatenate([part.vertices for part in asset.parts])
+    return found

@@ -146,14 +146,12 @@ def _is_round(body: Placed) -> bool:
 
 def _side_by_side(bodies: Sequence[Placed]) -> tuple[bool, str]:
     holds, detail = _row(bodies)
-    turns = [_angle(a.rotation[:2, 1], b.rotation[:2, 1]) for a, b in zip(bodies, bodies[1:], strict=False)]
     gaps = [polygon_gap(_footprint(a), _footprint(b)) for a, b in zip(bodies, bodies[1:], strict=False)]
     limits = [
         reach_of_beside((a.high - a.low)[:2], (b.high - b.low)[:2]) for a, b in zip(bodies, bodies[1:], strict=False)
     ]
     near = all(gap <= limit for gap, limit in zip(gaps, limits, strict=True))
-    detail = f"{detail}, at most {1e3 * max(gaps):.0f} mm apart, turned by {max(turns):.0f} degrees"
-    return holds and near and max(turns) <= ALIKE, detail
+    return holds and near, f"{detail}, at most {1e3 * max(gaps):.0f} mm apart"
 
 
 def _circle(bodies: Sequence[Placed], centre: Placed | None) -> tuple[bool, str]:

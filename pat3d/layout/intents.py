@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from pat3d.layout.flat import Lateral, natural_gap
 from pat3d.layout.formations import Formation, Sight, Wishes, close_row, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, under_offset
+from pat3d.layout.shelved import holds_books
 from pat3d.layout.tops import item_of
 from pat3d.scene.arrangements import Arrangement, crossing
 from pat3d.scene.relations import GROUND, SIDES
@@ -94,18 +96,17 @@ class Intents:
         lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in _LINES]
         grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
         formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
+        rows = [one for one in self._rows(lines, groups, gap) if not any(set(one.members) <= set(c) for c in grids)]
+        formations += rows
         for intent in self.by_surface.get(support, []):
             one, objects, of = (
                 intent.arrangement,
                 intent.moved(intent.arrangement.objects),
                 intent.moved([] if intent.arrangement.rule.on_it else intent.arrangement.of),
             )
-            if not {*objects, *of} <= set(groups):
+            if not {*objects, *of} <= set(groups) or one.kind in _LINES or _within(one.kind, objects, of, rows):
                 continue
-            if one.kind in _LINES:
-                if not any(set(objects) <= set(cells) for cells in grids):
-                    formations.append(self._row(objects, groups))
-            elif one.kind == "between" and len(of) == 2:
+            if one.kind == "between" and len(of) == 2:
                 formations.append(Formation(members=(of[0], *objects, of[1])))
             elif one.kind == "between":
                 formations.append(Formation(members=of, centre=objects[0], ring=True))
@@ -135,12 +136,37 @@ class Intents:
         )
         return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places)
 
-    def _row(self, members: tuple[str, ...], groups: Mapping[str, Group]) -> Formation:
-        """A row; close together where every two neighbours carry something, as the lowest of a pyramid do."""
+    def _rows(self, lines: Sequence[Intent], groups: Mapping[str, Group], gap: float) -> list[Formation]:
+        """Rows, each with what it is between, and with those leaning that lean on their neighbours."""
+        made = []
+        for line in lines:
+            members = line.moved(line.arrangement.objects)
+            beside = self.by_surface[line.support]
+            around = [one for one in beside if one.arrangement.kind == "between" and len(one.arrangement.of) == 2]
+            ends = next(
+                (one.moved(one.arrangement.of) for one in around if one.moved(one.arrangement.objects) == members), ()
+            )
+            members = (*ends[:1], *members, *ends[1:])
+            if set(members) <= set(groups):
+                made.append(self._row(members, line.support, groups, gap))
+        return made
+
+    def _row(self, members: tuple[str, ...], support: str, groups: Mapping[str, Group], gap: float) -> Formation:
+        """A row; close together what are books, or where two neighbours carry something, as in a pyramid."""
         carried = {frozenset(carriers) for carriers in self.spans.values()}
-        if not all(frozenset(pair) in carried for pair in zip(members, members[1:], strict=False)):
-            return Formation(members=members)
-        return Formation(members=members, fixed=close_row([item_of(groups[one], turnable=False) for one in members]))
+        if all(frozenset(pair) in carried for pair in pairwise(members)):
+            fixed = close_row([item_of(groups[one], turnable=False) for one in members])
+            return Formation(members=members, fixed=fixed)
+        steps: dict[tuple[str, str], Array] = {}
+        for intent in self.by_surface[support]:
+            one = intent.arrangement
+            if one.kind == "leaning_against":
+                (name,), (other,) = intent.moved(one.objects), intent.moved(one.of)
+                if (name, other) in pairwise(members) or (other, name) in pairwise(members):
+                    away = leaning_offset(groups[name], groups[other], self.leaning[name], gap)
+                    steps |= {(other, name): away, (name, other): -away}
+        close = frozenset(name for name in members if holds_books(groups[name]))
+        return Formation(members=members, close=close, steps=steps, overlapping=bool(steps))
 
     def _back(self, sight: Sight, support: str, groups: Mapping[str, Group]) -> float:
         """How far from its target the row of an observer stands [m], so that its ends too have it nearly ahead."""
@@ -247,6 +273,13 @@ class Intents:
         if self.path(name)[1] != support:
             return []
         return list(dict.fromkeys(path[path.index(support) - 1] for path in paths))
+
+
+def _within(kind: str, objects: Sequence[str], of: Sequence[str], rows: Sequence[Formation]) -> bool:
+    """Whether one of `rows` has it that `objects` are between, or lean on, `of`."""
+    if kind == "between" and len(of) == 2:
+        return any(row.members == (of[0], *objects, of[1]) for row in rows)
+    return kind == "leaning_against" and any((objects[0], of[0]) in row.steps for row in rows)
 
 
 def _pair(name: str, other: str, away: Array) -> Formation:

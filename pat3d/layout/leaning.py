@@ -18,6 +18,7 @@ from pat3d.layout.bodies import Array, Body, Placed, Witness, distance
 from pat3d.layout.drop import clear
 from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map
+from pat3d.layout.shelved import BOUND, STOOD
 
 LEAST_TILT, LARGEST_TILT = math.radians(9.0), math.radians(20.0)
 BEYOND = math.radians(6.0)
@@ -55,6 +56,8 @@ def leaning_rotation(body: Body, way: Array) -> Array:
     axes[:, long], axes[:, thin] = _UP, sign * way
     rest = 3 - long - thin
     axes[:, rest] = np.cross(axes[:, (rest + 1) % 3], axes[:, (rest + 2) % 3])
+    if body.asset.noun in BOUND and abs(way[0]) > abs(way[1]):
+        axes = STOOD
     tilt = max(LEAST_TILT, math.atan2(float(size[thin]), float(size[long])) + BEYOND)
     if tilt > LARGEST_TILT:
         raise LayoutError(

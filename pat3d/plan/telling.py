@@ -205,7 +205,13 @@ class _Teller:
         # What lies by nature and is said to stand does so on its edge.
         on_end = {one.object for one in self._plan.postures if re.search(r"upright|end|edge", one.said)}
         told |= {name: "on its edge" for name in told if name in on_end and held[name] == "on_its_side"}
-        return [f"{self._the(name)} {self._is([name])} {how}" for name, how in told.items()]
+        by_how: dict[str, list[str]] = {}
+        for name, how in told.items():
+            by_how.setdefault(how, []).append(name)
+        return [
+            f"{self._all(names)} {self._is(names)} {how if len(names) == 1 else how.replace('its', 'their')}"
+            for how, names in by_how.items()
+        ]
 
     def _is(self, names: Sequence[str]) -> str:
         return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"

@@ -1,6 +1,7 @@
 """When arrangements hold: blocks at given places, moved across the border of every definition."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from pat3d.assets import shapes
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
-from pat3d.layout.bodies import Body, place
+from pat3d.layout.bodies import Body, distance, place, place_all
 from pat3d.layout.layout import arrange
 from pat3d.layout.leaning import BEYOND, leaning_rotation
 from pat3d.layout.postures import posture_rotation
@@ -16,7 +17,7 @@ from pat3d.layout.predicates import check_arranged, check_relations
 from pat3d.layout.spans import crossing
 from pat3d.scene.arrangements import Arrangement, Posture
 from pat3d.scene.model import Relation
-from tests.layout.things import asset, ball, block, mug, pen, table, vessel
+from tests.layout.things import asset, ball, block, mug, pen, shelf, table, vessel
 
 SIDE = 0.06
 
@@ -282,3 +283,72 @@ def test_what_is_laid_across_a_bowl_bridges_it_and_what_is_too_short_is_refused(
     assert check_arranged((across,), (), things, layout.poses)[0].holds
     with pytest.raises(LayoutError, match=r'"a" \(0.10 m long\) does not reach across "b"'):
         arrange({**things, "a": pen(0.1)}, relations, seed=0, arrangements=(across,))
+
+
+def book(thick: float = 0.03):
+    return block(x=0.16, y=0.22, z=thick, noun="book")
+
+
+def on_shelf(names):
+    return tuple(Relation(child=name, kind="on", parent="shelf") for name in names)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_books_in_a_row_stand_on_one_tier_close_together_between_bookends_that_turn_their_plates_to_them(seed):
+    books = {name: book(0.02 + 0.005 * k) for k, name in enumerate("abcd")}
+    ends = {
+        "left": block(x=0.12, y=0.12, z=0.15, noun="bookend"),
+        "right": block(x=0.12, y=0.12, z=0.15, noun="bookend"),
+    }
+    assets = {"shelf": shelf(), **books, **ends}
+    asked = (
+        Arrangement(kind="row", objects=tuple(books)),
+        Arrangement(kind="between", objects=tuple(books), of=("left", "right")),
+    )
+    stood = dict.fromkeys(books, "on_its_side")
+    poses = arrange(assets, on_shelf([*books, *ends]), seed=seed, arrangements=asked, postures=stood).poses
+    found = check_arranged(asked, tuple(Posture(object=name, kind="on_its_side") for name in books), assets, poses)
+    assert [result for result in found if not result.holds] == []
+    placed = place_all(assets, poses)
+    order = ["left", *books, "right"]
+    gaps = [placed[b].low[0] - placed[a].high[0] for a, b in pairwise(order)]
+    assert gaps == pytest.approx([0.003] * 5, abs=1e-6)
+    for name in books:
+        assert placed[name].rotation @ [-1, 0, 0] == pytest.approx([0, -1, 0], abs=1e-9), "its spine is in front"
+        assert placed[name].rotation @ [0, -1, 0] == pytest.approx([0, 0, -1], abs=1e-9), "on its lower edge"
+    # The plate of a bookend is at -x of its own.
+    assert placed["left"].rotation[0, 0] == pytest.approx(-1.0)
+    assert placed["right"].rotation[0, 0] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("count", [4, 9])
+def test_what_stands_beside_another_is_never_on_another_tier(count):
+    """Boxes of 20 cm, each left of the next: four fit a tier of 0.78 m, and nine are refused, not parted."""
+    names = [f"box {k}" for k in range(count)]
+    assets = {"shelf": shelf(), **dict.fromkeys(names, block(0.18, 0.1, 0.1, noun="box"))}
+    beside = tuple(Relation(child=a, kind="left_of", parent=b) for a, b in pairwise(names))
+    if count > 4:
+        with pytest.raises(LayoutError, match='finds no room on "shelf"'):
+            arrange(assets, on_shelf(names) + beside, seed=0)
+        return
+    poses = arrange(assets, on_shelf(names) + beside, seed=0).poses
+    assert len({round(poses[name].position[2], 3) for name in names}) == 1
+    assert [found for found in check_relations(beside, assets, poses) if not found.holds] == []
+
+
+def test_of_books_side_by_side_the_second_leans_on_the_first_and_the_third_stands_by_it():
+    assets = {"shelf": shelf(), **{name: book() for name in "abc"}}
+    asked = (
+        Arrangement(kind="side_by_side", objects=tuple("abc")),
+        Arrangement(kind="leaning_against", objects=("b",), of=("a",)),
+    )
+    beside = (Relation(child="a", kind="left_of", parent="b"), Relation(child="b", kind="left_of", parent="c"))
+    postures = dict.fromkeys("ac", "on_its_side")
+    poses = arrange(assets, on_shelf("abc") + beside, seed=0, arrangements=asked, postures=postures).poses
+    placed = place_all(assets, poses)
+    row, _ = check_arranged(asked, (), assets, poses)
+    assert row.holds, row.detail
+    upper = placed["b"].rotation @ [0, 1, 0]
+    assert upper[0] < -0.2, "to the left"
+    assert distance(placed["a"], placed["b"]).distance < 0.003
+    assert placed["c"].low[0] > placed["b"].high[0]

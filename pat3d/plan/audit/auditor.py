@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, numbers, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
     carried,
     for_each,
@@ -72,7 +72,9 @@ def _without_remarks(plan: ScenePlan) -> str:
             continue
         said = re.escape(found[1])
         prompt = re.sub(rf",\s*{said}\s*,", "", prompt, count=1, flags=re.IGNORECASE)
-        prompt = re.sub(rf"\s{said}(?=\W|$)", "", prompt, count=1, flags=re.IGNORECASE)
+        before = re.search(rf"(\w+)\s+{said}", prompt, flags=re.IGNORECASE)
+        if before is not None and before[1].lower() not in BREAKING:
+            prompt = re.sub(rf"\s{said}(?=\W|$)", "", prompt, count=1, flags=re.IGNORECASE)
     return prompt
 
 
@@ -134,7 +136,7 @@ class _Auditor(Compared):
             *the_one(self),
             *without(self),
         ]
-        made += [*confused(self), *numbers(self), *choices(self), *sizes(self), *storeys(self)]
+        made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *insides(self), *carried(self)]
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
@@ -175,6 +177,9 @@ class _Auditor(Compared):
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
+            bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
+            listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
+            least = max(least, listed if listed > 1 else 0)
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
             members = [mention for mention in known if self._member(mention, mentions)]

@@ -10,7 +10,7 @@ from pat3d.plan.audit.claims import whose_of
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
+from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
 from pat3d.scene.relations import OPPOSITE, Relation
 
 _SIDES = {"left": "left_of", "right": "right_of", "front": "in_front_of"}
@@ -85,6 +85,8 @@ def _nests(it: Compared, claim: Claim, rel: Relation) -> bool:
     if claim.of is not None:
         return claim.place in ("in", "holding") and bool({rel.child, rel.parent} & _names(it, [claim.of]))
     near = [mention for mention in it.said.mentions if mention.end == claim.at]
+    if not near and it.said.words[claim.at - 1] == "nothing":
+        return False
     return claim.place == "in" and all(rel.child in _names(it, [mention]) for mention in near)
 
 
@@ -141,7 +143,8 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
             return True
-        kinds = ("on", "in") if claim.place == "with" else KINDS.get(claim.place, ())
+        taken = claim.place == "far" and bool(it.tasks.strip())
+        kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
         if kind in kinds and parent in below and child in above:
             return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
@@ -160,6 +163,11 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         after = it.said.words[mention.end : mention.end + 1]
         at_it = after == [":"] or "at" in it.said.words[max(mention.start - _NEAR, 0) : mention.start]
         if _full_of(it, mention, child, parent) or (at_it and parent in _names(it, [mention])):
+            return True
+    for mention in it.said.mentions:
+        led = it.said.words[max(mention.first - 1, 0) : mention.first] == ["to"]
+        if led and DEEDS & set(it.said.words[: mention.first]) and parent in _names(it, [mention]):
+            # "Put a spoon to the counter"
             return True
     # What stands by something on a table stands there too.
     beside = {b for a, k, b in it.edges if a == child and k not in ("on", "in", "under")}
@@ -216,7 +224,11 @@ def _joined(it: Compared, first: Mention) -> list[Mention]:
 
 def _landmarks(it: Compared, claim: Claim) -> set[str]:
     """What `claim` may lead to: what is named behind it and is joined to that, or all that a pronoun may mean."""
-    return {obj.name for obj in it.plan.objects} if claim.of is None else _names(it, _joined(it, claim.of))
+    if claim.of is not None:
+        return _names(it, _joined(it, claim.of))
+    one_of_several = it.said.words[claim.end - 1] in ("other", "others") and "one" in it.said.words[: claim.at]
+    nouns = [obj.noun for obj in it.plan.objects]
+    return {obj.name for obj in it.plan.objects if not one_of_several or nouns.count(obj.noun) > 1}
 
 
 def _said_of(it: Compared, claim: Claim) -> set[str]:

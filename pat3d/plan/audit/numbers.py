@@ -24,6 +24,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _all_but(it)
     yield from _dozens(it)
     yield from _as_many(it)
+    yield from _of_one(it)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -105,6 +106,27 @@ def _as_many(it: Compared) -> Iterator[tuple[int, str]]:
         counts = [sum(obj.noun == each.noun for obj in it.plan.objects) for each in named if each is not None]
         if len(counts) == 2 and counts[0] != counts[1]:
             yield 0, f'counted otherwise: "{found[0]}"; there are {counts[0]} and {counts[1]}'
+
+
+def rows(it: Compared) -> Iterator[tuple[int, str]]:
+    """A row, or an order from left to right, that no two things of the plan stand in."""
+    stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
+    stands = stands or any(not rel.supports for rel in it.plan.relations)
+    words = it.said.words
+    for said in ("in a row", "in a line", "from left to right", "side by side", "in a circle", "in a ring"):
+        size = len(said.split())
+        at = next((at for at in range(len(words)) if " ".join(words[at : at + size]) == said), None)
+        if at is not None and not stands and len(it.plan.objects) > 1 and said not in it.quoted:
+            yield at, f'not as said: "{said}"'
+
+
+def _of_one(it: Compared) -> Iterator[tuple[int, str]]:
+    """Some of what is one object in the plan: "flowers, one of which lies beside the vase"."""
+    words = it.said.words
+    for at in (at for at in range(1, len(words) - 2) if words[at + 1 : at + 3] == ["of", "which"]):
+        before = [mention for mention in it.said.mentions if mention.end <= at][-1:]
+        if words[at] in NUMBERS and before and before[0].plural and len(it.which(before[0])) == 1:
+            yield at, f'not as said: "{words[at]} of which"; "{before[0].text}" are one object'
 
 
 def choices(it: Compared) -> Iterator[tuple[int, str]]:

@@ -35,6 +35,8 @@ _LYING = frozenset({"rug", "mat", "carpet", "doormat", "bath mat", "blanket"})
 """On the floor is what is on these too."""
 _LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
 """How many there are at least of what a word without a noun is one of."""
+_ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
+"""Words that say on which side of each something is."""
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -317,7 +319,7 @@ def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
     """The first of `behind`, and what "and" joins to it."""
     made = list(behind[:1])
     for mention in behind[1:]:
-        between = set(it.said.words[made[-1].end : mention.start])
+        between = set(it.said.words[made[-1].end : mention.start]) - _ASIDE
         if "and" not in between or len(between) > 2 + len(mention.lead) or not mention.new:
             break
         made.append(mention)

@@ -56,6 +56,16 @@ def rows_of(world: World, group: Group) -> list[list[Item]]:
     return [own[at : at + length] for at in range(0, len(own), length)]
 
 
+def shelved(world: World, item: Item) -> bool:
+    """Whether `item` stands upright because people have its like so: books in a row on a shelf."""
+    carrier, edges = world.support(item), world.supports.values()
+    if carrier is None or not (world.is_a(item, lexicon.BOUND) and world.is_a(carrier, lexicon.SHELVES)):
+        return False
+    leans = any(each.kind == "leaning_against" and item in each.items for each in world.arranged)
+    row = any(each.kind in _LINES and each.arranged and item in each.items for each in world.arranged)
+    return row and not leans and item.group.height == 1 and all(edge.parent is not item for edge in edges)
+
+
 def further_carriers(world: World, names: dict[Item, str]) -> list[Relation]:
     """The carriers, beyond the first, of what lies across several."""
     return [

@@ -45,6 +45,9 @@ DEMONSTRATIVES = frozenset({"that", "this"})
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
+RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
+"""Words that open a clause about the noun before them."""
+
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({"sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean",
     "perches", "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats",
@@ -253,6 +256,9 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
+BOUND = ("book", "notebook", "spell book", "binder")
+SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
+"""What people have standing, where it is in a row: on what."""
 NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket",
     "radio", "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher",
     "tray")  # fmt: skip
@@ -278,7 +284,10 @@ CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "di
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
           "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
-HOLDERS = ("wine rack", "test tube rack", "egg carton", "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
+DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
+"""What other things are with that stand beside it: "a laptop with a mouse"."""
+RACKS = ("wine rack", "test tube rack", "egg carton")
+HOLDERS = (*RACKS, "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
 """What has an inside and is no vessel."""
 SHUT = ("cabinet", "dresser", "wardrobe")
 """What things are in behind a door or in a drawer, and can stand on too."""

@@ -319,3 +319,15 @@ class Placing:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)
+
+    def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
+        """Phrases of which a bare plural means many, and the generics that list others."""
+        fillings: set[int] = set()
+        kinds: dict[int, int] = {}
+        for fact in facts:
+            link = self._chunks[fact[1]].link if fact[0] == "have" else None
+            if link is not None and link.filling and len(fact[3]) == 1:
+                fillings |= set(fact[3])
+            if fact[0] == "include":
+                kinds |= dict.fromkeys(fact[3], fact[2][0])
+        return fillings, kinds

@@ -121,12 +121,10 @@ class References(Contrast):
             # "Both burners" of which one was named after the other.
             return alike
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
-            storage = [
-                item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
-            ]
-            storage = [
-                item for item in storage if phrase.head not in ("shelf", "shelves") or not world.is_a(item, ("desk",))
-            ]
+            others = ("desk",) if phrase.head in ("shelf", "shelves") else ("shelf", "bookshelf", "bookcase")
+            storage = [item for item in world.items() if world.is_a(item, lexicon.STORAGE)]
+            storage = [item for item in storage if item.group not in besides and not world.is_a(item, others)]
+            storage = [item for item in storage if item.group.said not in lexicon.DRAWERS]
             return storage[-1:] or None
         return None
 
@@ -296,6 +294,13 @@ class References(Contrast):
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
+        told = words.size_word if words.size_word in _LARGER | _SMALLER else ""
+        if told and not phrase.definite and phrase.words.lower().split()[-1] == "one" and not words.colours:
+            named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
+            first = named[0] if named else self._world.subject
+            if len(first) == 1 == len(first[0].group.items):
+                # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
+                return self._one_like(first, phrase)
         if words.size_word and not words.colours:
             for item in self._world.items():
                 size = item.told.size_word or item.group.modifiers.size_word

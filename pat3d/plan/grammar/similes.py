@@ -13,6 +13,7 @@ from pat3d.plan.grammar.vocabulary import Nouns
 Span = tuple[int, int]
 """The first token and the one after the last."""
 
+_RANKED = frozenset({"furthest", "farthest", "further", "farther"})
 _LOOKING = frozenset(
     {"shaped", "looking", "looks", "look", "painted", "styled", "designed", "formed", "coloured", "colored"}
 )
@@ -33,9 +34,15 @@ def similes(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     at = 1
     while at < len(words):
         behind = _opening(words, at)
-        end = _thing(tokens, behind, nouns) if behind else 0
+        end = _thing(tokens, behind, nouns, ranked=words[at] in _RANKED) if behind else 0
         if end:
             start = at - (words[at - 1] in _BEFORE)
+            if (
+                words[at] in _RANKED
+                and words[at - 1] in ("is", "are", "stands", "stand", "lies", "lie")
+                and words[at - 2] in _BEFORE
+            ):
+                start = at - 2
             set_off = start > 0 and words[start - 1] == "," == words[end]
             made.append((start - set_off, end + set_off))
         at = max(end, at + 1)
@@ -49,6 +56,8 @@ def _opening(words: Sequence[str], at: int) -> int:
         return at + 2
     if words[at] in _RESEMBLING:
         return at + 1
+    if words[at] in _RANKED and words[at + 1 : at + 2] == ["from"]:
+        return at + 2
     if words[at] in ("similar", "identical") and words[at + 1 : at + 2] == ["to"]:
         return at + 2
     if three[:1] == ["as"] == three[2:] and three[1] not in ("well", "many", "much", "few", "soon", "far", "long"):
@@ -60,7 +69,7 @@ def _opening(words: Sequence[str], at: int) -> int:
     return 0
 
 
-def _thing(tokens: Sequence[Token], start: int, nouns: Nouns) -> int:
+def _thing(tokens: Sequence[Token], start: int, nouns: Nouns, *, ranked: bool) -> int:
     """The end of the name of the catalogue that begins at token `start`; 0 where none does."""
     end = start
     while end < min(start + _LONGEST, len(tokens)) and not tokens[end].mark and not link_at(tokens, end):
@@ -72,6 +81,6 @@ def _thing(tokens: Sequence[Token], start: int, nouns: Nouns) -> int:
             # "As tall as the bottle": that is there too, where nothing before has named it.
             there = tokens[start].text in lexicon.DEFINITE
             known = any(token.text == tokens[end].text for token in tokens[:start])
-            return end + 1 if known or not there else 0
+            return end + 1 if ranked or known or not there else 0
         end += 1
     return 0
