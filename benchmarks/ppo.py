@@ -2,6 +2,7 @@
 
     python -m benchmarks.ppo [--minutes 10] [--scene FOLDER] [--task pick:NAME] [--out FOLDER]
     python -m benchmarks.ppo --try FOLDER/policy.npz [--episodes 50]
+    python -m benchmarks.ppo --draw FOLDER/curve.jsonl > docs/ppo.svg
 
 The learner is stable-baselines3's (Schulman et al. 2017). Every row of the curve says how many of the episodes that
 ended since the row before succeeded, with the exploration's noise. At its end the mean actions are judged in all
@@ -12,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
 from pathlib import Path
 from typing import Any
@@ -33,14 +35,17 @@ from pat3d.policies_eval.analysis.statistics import wilson
 TARGET = 0.8
 """Share of episodes that succeed, within 30 minutes on one H200."""
 
+SHOWN = 500
+"""Episodes that end between two rows of the curve, for a row that is drawn."""
+
 STEPS = 100
 """Of an episode: five times as long as the hand needs to the object and up."""
 
 DISCOUNT = 0.97
 """The learner's, a step: it looks ahead for some 30 of them, 1.7 s. The reward's is 1, see pat3d.envs.reward."""
 
-SCALE = np.array([0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 1.0], dtype=np.float32)
-"""Of the learner's actions: 2.5 cm and 0.05 rad a step at most, so that exploring does not shake the hand."""
+SCALE = np.array([0.8, 0.8, 0.8, 0.15, 0.15, 0.15, 1.0], dtype=np.float32)
+"""Of the learner's actions: hands that turn while they explore meet more than they take."""
 
 Values = NDArray[np.float32]
 
@@ -164,7 +169,7 @@ class Actor:
         with np.load(path, allow_pickle=False) as stored:
             found = {name: stored[name].astype(np.float64) for name in stored.files}
         self._mean, self._deviation = found["mean"], np.sqrt(found["var"] + 1e-8)
-        names = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net")
+        names = ("mlp_extractor.policy_net.0", "mlp_extractor.policy_net.2", "action_net.0")
         self._layers = [(found[f"{name}.weight"], found[f"{name}.bias"]) for name in names]
 
     def act(self, seen: dict[str, NDArray[Any]]) -> Values:
@@ -174,7 +179,7 @@ class Actor:
             values = values @ weight.T + bias
             if number + 1 < len(self._layers):
                 values = np.where(values > 0, values, np.expm1(np.minimum(values, 0.0)))
-        return SCALE * np.clip(values, -1.0, 1.0).astype(np.float32)
+        return SCALE * (values / (1.0 + np.abs(values))).astype(np.float32)
 
 
 def learn(options: argparse.Namespace) -> None:
@@ -213,6 +218,8 @@ def learn(options: argparse.Namespace) -> None:
         seed=0,
         device=learner,
     )
+    # Means stay within the bounds of actions: beyond them noise changes nothing, and nothing is learned.
+    model.policy.action_net = torch.nn.Sequential(model.policy.action_net, torch.nn.Softsign())
     print(f"{envs.instruction} ({envs.task.spec}), {options.worlds} worlds, {envs.physics.device}", flush=True)
     curve = Curve(worlds, normal, out, 60.0 * options.minutes, options.good)
     batch = options.worlds * options.rollout
@@ -246,6 +253,32 @@ def attempt(path: Path, options: argparse.Namespace) -> None:
     told(succeeded, options.episodes, f"mean actions, within {STEPS} steps, one environment in double precision")
 
 
+def drawn(path: Path) -> str:
+    """The curve as a picture in SVG: how many of the episodes that ended succeeded, over the seconds of training."""
+    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    points = [(row["seconds"] / 60.0, row["success"]) for row in rows if row["episodes"] >= SHOWN]
+    minutes = max(5.0, math.ceil(rows[-1]["seconds"] / 300.0) * 5.0)
+
+    def at(minute: float, share: float) -> str:
+        return f"{50 + 520 * minute / minutes:.1f},{210 - 180 * share:.1f}"
+
+    lines = []
+    for share in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0):
+        (left, y), right = at(0, share).split(","), at(minutes, share).split(",")[0]
+        colour = "#c33" if share == TARGET else "#ddd"
+        lines.append(f'<path d="M{left},{y}H{right}" stroke="{colour}"/>')
+        lines.append(f'<text x="44" y="{float(y) + 4:.0f}" text-anchor="end">{100 * share:.0f} %</text>')
+    for minute in np.arange(0.0, minutes + 1.0, 5.0 if minutes > 5.0 else 1.0):
+        lines.append(f'<text x="{at(minute, 0).split(",")[0]}" y="228" text-anchor="middle">{minute:.0f} min</text>')
+    curve = " ".join(at(*point) for point in points)
+    return (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 240" font-family="sans-serif" font-size="12">'
+        '<rect width="600" height="240" fill="white"/>'
+        + "".join(lines)
+        + f'<polyline points="{curve}" fill="none" stroke="#246" stroke-width="2"/></svg>'
+    )
+
+
 def told(succeeded: int, episodes: int, what: str) -> None:
     """Print a rate with its interval."""
     print(f"{what}: {wilson(succeeded, episodes)} (target {100 * TARGET:.0f} %)", flush=True)
@@ -268,7 +301,11 @@ def main() -> None:
     parser.add_argument("--out", default="ppo")
     parser.add_argument("--try", dest="policy", type=Path, help="a saved policy to run on the CPU")
     parser.add_argument("--episodes", type=int, default=50)
+    parser.add_argument("--draw", type=Path, metavar="CURVE", help="of a training, as a picture in SVG")
     options = parser.parse_args()
+    if options.draw:
+        print(drawn(options.draw))
+        return
     if options.policy:
         attempt(options.policy, options)
     else:

@@ -12,6 +12,9 @@ _SHARED = ("far_from", "under")
 """Kinds that have both on the same support and no lateral relation that says so."""
 
 
+_LINES = ("row", "side_by_side")
+
+
 def together(world: World) -> list[Edge]:
     """What stands on the same surface because of an arrangement, as lateral relations of `world`."""
     return [
@@ -28,7 +31,12 @@ def settle(world: World) -> None:
     for group in world.groups:
         if group.pyramid:
             _heap_up(world, group)
+        if group.rows:
+            _line_up(world, group)
     for each in world.arranged:
+        if each.kind in _LINES:
+            # Of stacks in a row the lowest stand in it.
+            each.items = world.bases(each.items)
         if each.kind == "in_middle" and not each.of:
             carrier = world.support(each.items[0])
             each.of = [] if carrier is None else [carrier]
@@ -39,6 +47,23 @@ def settle(world: World) -> None:
             world.note(f"not arranged: {each.otherwise}")
             if each.kind == "under":
                 world.beside(each.items, "next_to", each.of)
+
+
+def rows_of(world: World, group: Group) -> list[list[Item]]:
+    """The rows that the objects of `group` stand in, the first in front, each from left to right."""
+    own = world.bases(group.items)
+    length = -(-len(own) // group.rows) if group.rows else len(own)
+    return [own[at : at + length] for at in range(0, len(own), length)]
+
+
+def shelved(world: World, item: Item) -> bool:
+    """Whether `item` stands upright because people have its like so: books in a row on a shelf."""
+    carrier, edges = world.support(item), world.supports.values()
+    if carrier is None or not (world.is_a(item, lexicon.BOUND) and world.is_a(carrier, lexicon.SHELVES)):
+        return False
+    leans = any(each.kind == "leaning_against" and item in each.items for each in world.arranged)
+    row = any(each.kind in _LINES and each.arranged and item in each.items for each in world.arranged)
+    return row and not leans and item.group.height == 1 and all(edge.parent is not item for edge in edges)
 
 
 def further_carriers(world: World, names: dict[Item, str]) -> list[Relation]:
@@ -64,6 +89,16 @@ def _heap_up(world: World, group: Group) -> None:
         world.beside([left], "left_of", [right])
     for at in range(lowest, len(items)):
         world.arrange("across", [items[at]], [items[below] for below in carriers_in_pyramid(at, lowest)])
+
+
+def _line_up(world: World, group: Group) -> None:
+    """Arrange every row of `group`, and where there are several every column from front to back."""
+    rows = rows_of(world, group)
+    columns = [[row[at] for row in rows if at < len(row)] for at in range(len(rows[0]))] if len(rows) > 1 else []
+    known = [{*world.bases(each.items)} for each in world.arranged if each.kind in _LINES]
+    for line in (*rows, *columns):
+        if len(line) > 1 and {*line} not in known:
+            world.arrange("row", line, (), f'"{group.words}" in a row')
 
 
 def _takes(each: Arranged) -> bool:

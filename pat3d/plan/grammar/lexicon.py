@@ -199,7 +199,7 @@ FLOOR = ("bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee tabl
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
     "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet",
-    "yoga mat")  # fmt: skip
+    "yoga mat", "parasol")  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
@@ -257,10 +257,13 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "tray", "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
     "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet",
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
-    "envelope")  # fmt: skip
+    "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
 ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
+BOUND = ("book", "notebook", "spell book", "binder")
+SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
+"""What people have standing, where it is in a row: on what."""
 NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket",
     "radio", "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher",
     "tray")  # fmt: skip
@@ -286,7 +289,10 @@ CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "di
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
           "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
-HOLDERS = ("wine rack", "test tube rack", "egg carton", "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
+DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
+"""What other things are with that stand beside it: "a laptop with a mouse"."""
+RACKS = ("wine rack", "test tube rack", "egg carton")
+HOLDERS = (*RACKS, "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
 """What has an inside and is no vessel."""
 SHUT = ("cabinet", "dresser", "wardrobe")
 """What things are in behind a door or in a drawer, and can stand on too."""

@@ -77,6 +77,8 @@ class Maker:
         for word in (told or phrase.modifiers).adjectives:
             if word in lexicon.HONOURED | lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
                 continue
+            if word in (phrase.said or phrase.noun).split():
+                continue
             kind = self._nouns.match([word]) is not None or word in lexicon.SUBSTANCES
             if kind and not is_modifier(word):
                 world.note(f'"{word}" of {said} is left out: it is made as a "{phrase.said or phrase.head}".')

@@ -30,6 +30,7 @@ from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.remarks import Remarks, Span
 from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rules import Grammar
+from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
@@ -147,6 +148,10 @@ class GrammarPlanner:
 
         Second is the next likely reading where it is nearly as likely.
         """
+        if compared := similes(clause.tokens, self._nouns):
+            for start, end in compared:
+                world.note(f'not modelled: "{_quoted(text, clause.tokens[start:end]).strip(" ,")}"')
+            clause = replace(clause, tokens=_without(clause.tokens, compared))
         if clause.aside:
             world.note(f'not modelled: "{clause.aside}"')
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
