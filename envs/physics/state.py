@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.compiled import as_written
 from pat3d.envs.physics import predicates
-from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors
+from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors, grips
 from pat3d.envs.physics.world import World
 from pat3d.scene.model import Scene
 
@@ -36,8 +36,6 @@ class States:
     qpos: Array
     xquat: Array
     """Of body frames (wxyz), shape (worlds, bodies, 4)."""
-    site_xmat: NDArray[Any]
-    """Shape (worlds, sites, 9)."""
     snapshot: Snapshot
     """All that the predicates read."""
 
@@ -61,6 +59,7 @@ class States:
             "dofs": dofs,
             "hand": self.hand,
             "surface": float(world.placement.surface - predicates.EDGE),
+            "grips": grips(world),
         }
 
     def take_start(self, worlds: Numbers) -> None:
@@ -139,6 +138,11 @@ class SimState:
         """Whether both fingers touch the object."""
         return bool(_held(self.states.snapshot, self._number, self._numbers[name]))
 
+    def holding(self, name: str) -> tuple[bool, ...]:
+        """Whether both fingers of an arm touch the object, the left one of two arms first."""
+        fingers = self.states.snapshot.pinched[self._number, :, predicates.OWNERS + self._numbers[name]]
+        return tuple(fingers.reshape(-1, 2).all(axis=1).tolist())
+
     def inside(self, name: str, container: str) -> bool:
         """Whether an object lies in the cavity of another."""
         return self._stands(name, container, "in")
@@ -178,4 +182,4 @@ class SimState:
     @property
     def hand_rotation(self) -> NDArray[Any]:
         """Rotation of the grip site, shape (3, 3)."""
-        return self.states.site_xmat[self._number, self.states.hand].reshape(3, 3)
+        return self.states.snapshot.site_xmat[self._number, self.states.hand].reshape(3, 3)

@@ -47,6 +47,7 @@ from pat3d.plan.audit.words import (
     SILENT,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.arrangements import crossing
 from pat3d.scene.relations import carriers_of
 
 _OF_SEVERAL = ARTICLES | HEADLESS | FORMED | {"from", "in", "of", "line", "tower", "column"}
@@ -100,6 +101,7 @@ def _shapes(it: Compared) -> frozenset[str]:
     heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
     return (
         frozenset({"pyramid"} if heaped else ())
+        | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
     )

@@ -15,6 +15,7 @@ from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.shapes import grid_rows
 from pat3d.plan.grammar.world import Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
 
@@ -261,7 +262,7 @@ class Placing:
                 if set(items) == before:
                     self._said.known[head] = list(plural.items)
             if chunk.text == "rows":
-                plural.rows = chunk.size
+                plural.rows = chunk.size or grid_rows(len(plural.items))
             else:
                 plural.height = -(-len(plural.items) // chunk.size)
         elif chunk.text in ("stack", "tower"):
