@@ -29,7 +29,7 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*tokens, tokens[-1]])
     ]
-    return _shared_landmark(_last_in_order(_verb_again(_of_which(_one_upon(_on_another(tokens, nouns))))))
+    return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(_on_another(tokens, nouns)))))))
 
 
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -178,6 +178,18 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
                  for before, token in pairwise([tokens[two], *landmark])]  # fmt: skip
         start = one + 3 + (words[one + 3] == ",")
         return [*tokens[: one + 3], *landmark, *tokens[start : two + 3], *again, *tokens[end:]]
+    return list(tokens)
+
+
+def _each_with(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "three bowls with two eggs each" as "three bowls, each with two eggs"."""
+    words = [token.text for token in tokens]
+    for each in (at for at in range(4, len(words) - 1) if words[at] == "each" and tokens[at + 1].mark):
+        had = next((n for n in range(each - 1, max(each - 6, 1), -1) if words[n] == "with"), 0)
+        counted = had and words[had + 1] in lexicon.NUMBERS and words[had - 1].endswith("s")
+        if counted and not any(link_at(tokens, n) or tokens[n].mark for n in range(had + 1, each)):
+            comma, every = replace(tokens[had], text=",", mark=True), replace(tokens[had], text="each")
+            return [*tokens[:had], comma, every, *tokens[had:each], *tokens[each + 1 :]]
     return list(tokens)
 
 
