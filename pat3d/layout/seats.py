@@ -66,10 +66,10 @@ def around(laterals: Sequence[Lateral], seats: Sequence[str]) -> dict[str, list[
 
 def seated(table: str, ways: Mapping[str, tuple[Array, float]], groups: Mapping[str, Group]) -> Formation:
     """The table and its seats, each at its side."""
-    half = groups[table].root.high[:2] - groups[table].root.low[:2]
+    top = groups[table].root.high[:2] - groups[table].root.low[:2]
     offsets: dict[str, Array] = {table: np.zeros(2)}
     for name, (way, place) in ways.items():
         own = groups[name].size[:2]
-        out = float(np.abs(way) @ (half + own)) / 2 + _AIR
+        out = float(np.abs(way) @ (top + own)) / 2 + _AIR
         offsets[name] = out * way + place * np.abs(way[::-1])
     return Formation(members=tuple(offsets), fixed=offsets)

@@ -60,3 +60,12 @@ def test_what_is_told_elsewhere_is_in_no_place_at_the_table():
     relations = tuple(Relation(child=name, kind="around", parent="table") for name in "abc")
     relations += (Relation(child="a", kind="left_of", parent="lamp"),)
     assert all(one.holds for one in check_relations(relations, assets, arrange(assets, relations, seed=0).poses))
+
+
+def test_on_a_rug_too_small_for_their_places_chairs_stand_as_they_fit():
+    chairs = dict.fromkeys("abcd", block(0.42, 0.42, 0.9, noun="chair"))
+    assets = {"rug": block(1.7, 1.5, 0.01, noun="rug"), "table": table(), **chairs}
+    relations = tuple(Relation(child=name, kind="on", parent="rug") for name in ("table", *chairs))
+    around = tuple(Relation(child=name, kind="around", parent="table") for name in chairs)
+    poses = arrange(assets, relations + around, seed=0).poses
+    assert all(one.holds for one in check_relations(around, assets, poses))
