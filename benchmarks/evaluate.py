@@ -181,8 +181,8 @@ class Benchmark:
                 wall = time.perf_counter() - begun
             kept = self._keep("overhead", {"wall": wall, "episodes": len(found.results), **clock.seconds})
         wall, setup = kept["wall"] - kept["setup"], kept["setup"]
-        strict = wall - kept["physics"] - kept["rendering"] - kept["policy"]
-        own = wall - kept["environment"] - kept["policy"]
+        strict = wall - kept["physics"] - kept["start"] - kept["rendering"] - kept["policy"]
+        own = wall - kept["physics"] - kept["environment"] - kept["policy"]
         shares = [f"{100 * seconds / wall:.1f} %" for seconds in (strict, own)]
         self.row("neither physics, rendering nor policy, share of wall time", shares[0], "< 5 %")
         self.row("neither environment nor policy", shares[1], "")
@@ -277,11 +277,11 @@ class Benchmark:
 class Clock:
     """Seconds inside physics, pictures, the policy, and making an environment.
 
-    Physics has the controllers in it, which write torques at every step. The environment has physics and pictures in
-    it, and observations and the judging of the task.
+    Physics has the controllers in it, which write torques at every step. The environment has pictures and the starts of
+    episodes in it, and observations and the judging of the task.
     """
 
-    NAMES = ("physics", "rendering", "environment", "policy", "setup")
+    NAMES = ("physics", "start", "rendering", "environment", "policy", "setup")
 
     def __init__(self) -> None:
         self.seconds = dict.fromkeys(self.NAMES, 0.0)
@@ -300,12 +300,13 @@ class Clock:
         stack = ExitStack()
         for name, owner, method in (
             ("physics", Simulation, "step"),
-            ("physics", Simulation, "reset"),
+            ("start", Simulation, "reset"),
             ("rendering", Pictures, "take"),
             ("policy", ScriptedPolicy, "reset"),
             ("policy", ScriptedPolicy, "act"),
             ("setup", RolloutSettings, "make_env"),
-            ("environment", TabletopEnv, "step"),
+            ("environment", TabletopEnv, "command"),
+            ("environment", TabletopEnv, "look"),
             ("environment", TabletopEnv, "reset"),
         ):
             stack.enter_context(patch.object(owner, method, self._timed(name, getattr(owner, method))))
