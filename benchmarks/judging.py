@@ -25,7 +25,7 @@ from pat3d.errors import TaskError
 STEPS = 200
 """Control steps of the episode whose states are drawn."""
 
-MOMENT = ("xpos", "xmat", "xipos", "qvel", "sites", "touching", "pinched")
+MOMENT = ("xpos", "xmat", "xipos", "qvel", "sites", "site_xmat", "touching", "pinched")
 """What a snapshot holds of a moment."""
 
 

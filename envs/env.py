@@ -15,6 +15,7 @@ from pat3d.envs.grasping.remembered import placed
 from pat3d.envs.grasping.standing import Placement
 from pat3d.envs.observations import Observation, ObservationSpec, Observer, pictured
 from pat3d.envs.physics.loading import DEFAULT_TASK, LoadedScene, load
+from pat3d.envs.physics.memory import give_back
 from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.variation import vary
 from pat3d.envs.physics.world import compose
@@ -282,6 +283,7 @@ class TabletopEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             self._kept[key] = (chosen, Simulation(world, self.control, self.control_freq, sleep=self.config.sleep))
             if len(self._kept) > _KEPT_WORLDS:
                 del self._kept[next(iter(self._kept))]
+                give_back()
         chosen, simulation = self._kept[key]
         observer = Observer(self._spec, simulation.world)
         self.task, self.simulation, self._observer = chosen, simulation, observer

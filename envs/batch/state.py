@@ -74,13 +74,13 @@ class BatchState(States):
             return values[self._worlds].take(numbers, axis=1)
 
         self.qpos, self.xquat = own(now.qpos, kind.positions), own(now.xquat, kind.bodies)
-        self.site_xmat = own(now.site_xmat, kind.sites)
         self.snapshot = Snapshot(
             xpos=own(now.xpos, kind.bodies),
             xmat=own(now.xmat, kind.bodies),
             xipos=own(now.xipos, kind.bodies),
             qvel=own(now.qvel, kind.dofs),
             sites=own(now.sites, kind.sites),
+            site_xmat=own(now.site_xmat, kind.sites),
             touching=np.ascontiguousarray(now.touching[self._worlds, :count, :count]),
             pinched=np.ascontiguousarray(now.pinched[self._worlds, :, :count]),
             **self._about,

@@ -33,7 +33,7 @@ class MujocoState(States):
 
         self._mujoco = mujoco
         self._data = data
-        self.qpos, self.xquat, self.site_xmat = data.qpos[None], data.xquat[None], data.site_xmat[None]
+        self.qpos, self.xquat = data.qpos[None], data.xquat[None]
         model = world.model
         self._row = world.owner + OWNERS
         self._finger = fingers(world)
@@ -49,6 +49,7 @@ class MujocoState(States):
             xipos=data.xipos[None],
             qvel=data.qvel[None],
             sites=data.site_xpos[None],
+            site_xmat=data.site_xmat[None],
             touching=np.zeros((1, count, count), dtype=np.bool_),
             pinched=np.zeros((1, 2 * len(world.arms), count), dtype=np.bool_),
             **self._about,
@@ -82,7 +83,7 @@ class MujocoState(States):
                 self._row,
                 self._finger,
                 contact.frame,
-                np.einsum("aij,aj->ai", self.site_xmat[0, self._hands].reshape(-1, 3, 3), self._closing),
+                np.einsum("aij,aj->ai", self.snapshot.site_xmat[0, self._hands].reshape(-1, 3, 3), self._closing),
                 now,
                 self.snapshot.pinched[0],
             )

@@ -46,8 +46,12 @@ _UPRIGHT_COSINE = math.cos(math.radians(UPRIGHT_DEGREES))
 ROBOT_ROW, FLOOR_ROW = OWNERS + ROBOT, OWNERS + FLOOR
 """Of the robot and the floor in a table of contacts."""
 
-NEAR_HAND, NEAR_GOAL = 0.2, 0.25
-"""Lengths over which the closeness of the hand to an object, and of an object to its goal, falls [m]."""
+NEAR_HAND, NEAR_GRASP, NEAR_GOAL = 0.2, 0.03, 0.25
+"""Lengths over which the closeness of the hand to a grasp falls, from afar and close by, and of an object to its goal
+[m]."""
+
+LEVER = 0.05
+"""What a turn of the hand by a radian counts in its distance from a grasp [m]."""
 
 
 @compiled
@@ -233,10 +237,37 @@ def _closeness(a, b, scale):
 
 
 @compiled
+def reached(s: Snapshot, world: int, obj: int) -> float:
+    """How close the hand is to the nearest grasp of the object, in [0, 1]; to its middle where no grasp is known.
+
+    Half of it is for coming near, the other for the last centimetres, where a hand is between a grasp and none.
+    """
+    grips, hand, least = s.grips, s.sites[world, s.hand], np.inf
+    frame, own = s.site_xmat[world, s.hand], s.xmat[world, s.bodies[obj]]
+    x, y, z = _in_frame(s, world, obj, hand)
+    approach, closing = np.empty(3), np.empty(3)
+    for k in range(3):
+        # Rows of the hand's frame times those of the object's: its directions in the object's frame.
+        approach[k] = own[k] * frame[2] + own[3 + k] * frame[5] + own[6 + k] * frame[8]
+        closing[k] = 0.0
+        for row in range(3):
+            closing[k] += own[3 * row + k] * _dot(frame[3 * row : 3 * row + 3], grips.axis)
+    for k in range(grips.ends[obj], grips.ends[obj + 1]):
+        at = grips.position[k]
+        away = math.sqrt((x - at[0]) ** 2 + (y - at[1]) ** 2 + (z - at[2]) ** 2)
+        for cosine in (_dot(approach, grips.approach[k]), abs(_dot(closing, grips.closing[k]))):
+            away += LEVER * math.acos(min(max(cosine, -1.0), 1.0))
+        least = min(least, away)
+    if least == np.inf:
+        return _closeness(hand, s.xipos[world, s.bodies[obj]], NEAR_HAND)
+    return 1.0 - 0.5 * (math.tanh(least / NEAR_HAND) + math.tanh(least / NEAR_GRASP))
+
+
+@compiled
 def _approach(s, world, obj, goal):
     """How far the move of an object is, in [0, 1)."""
     centre = s.xipos[world, s.bodies[obj]]
-    near = _closeness(s.sites[world, s.hand], centre, NEAR_HAND)
+    near = reached(s, world, obj)
     return 0.2 * near + 0.2 * held(s, world, obj) + 0.5 * _closeness(goal, centre, NEAR_GOAL)
 
 
@@ -254,7 +285,7 @@ def judge_lift(
         grasped[w], lifted[w] = held(s, w, target), rise >= height and in_touch
         done[w] = _lasts(timer, w, lifted[w], seconds, needed)
         goal[w, 0], goal[w, 1], goal[w, 2] = start[0], start[1], start[2] + height
-        steps = _closeness(s.sites[w, s.hand], centre, NEAR_HAND) + grasped[w]
+        steps = reached(s, w, target) + grasped[w]
         steps += min(max(rise, 0.0) / height, 1.0) * in_touch + min(timer[w] / needed, 1.0)
         progress[w] = 1.0 if done[w] else steps / 4.0
     return grasped, lifted, done, progress, goal
@@ -280,8 +311,8 @@ def judge_put(
         for k in range(3):
             goal[w, k] = origin[k] + _dot(turn[3 * k : 3 * k + 3], f.floor[0])
         goal[w, 2] += above
-        centre, hand = s.xipos[w, s.bodies[target]], s.sites[w, s.hand]
-        steps = 0.2 * (1.0 if there[w] else _closeness(hand, centre, NEAR_HAND))
+        centre = s.xipos[w, s.bodies[target]]
+        steps = 0.2 * (1.0 if there[w] else reached(s, w, target))
         steps += 0.2 * (there[w] or held(s, w, target)) + 0.2 * (there[w] and released[w])
         steps += 0.4 * (1.0 if there[w] else _closeness(goal[w], centre, NEAR_GOAL))
         progress[w] = 1.0 if done[w] else min(steps, 1.0)

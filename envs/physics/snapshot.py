@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.envs.grasping.hand import hand_pose
 from pat3d.envs.physics.world import World
+from pat3d.envs.robots.arms import measure_gripper
 from pat3d.scene.asset import Asset, Region
 
 Array = NDArray[np.float64]
@@ -21,6 +23,21 @@ REGION_MARGIN = 0.01
 
 SLACK = 1e-4
 """By which bounds are wider than what they bound [m], for states in single precision."""
+
+
+class Grips(NamedTuple):
+    """How the hand is where it grasps an object: its grip site in the object's frame, grasp by grasp."""
+
+    position: Array
+    """[m], shape (grasps, 3)."""
+    approach: Array
+    """Where the fingers point, shape (grasps, 3)."""
+    closing: Array
+    """In which direction, or its opposite, they close, shape (grasps, 3)."""
+    ends: Numbers
+    """Grasps of object k are those from ends[k] to ends[k + 1]."""
+    axis: Array
+    """The direction in which they close in the frame of the grip site, shape (3,)."""
 
 
 class Snapshot(NamedTuple):
@@ -36,6 +53,8 @@ class Snapshot(NamedTuple):
     """[m/s] and [rad/s], shape (worlds, degrees of freedom)."""
     sites: Array
     """[m], shape (worlds, sites, 3)."""
+    site_xmat: Array
+    """Of their frames, shape (worlds, sites, 9)."""
     touching: Mask
     """Who touches whom, symmetric, shape (worlds, OWNERS + objects, OWNERS + objects)."""
     pinched: Mask
@@ -52,6 +71,22 @@ class Snapshot(NamedTuple):
     """Site of the grip, of the arm that does the task where there are two."""
     surface: float
     """Height below which an object is off the work [m]."""
+    grips: Grips
+
+
+def grips(world: World) -> Grips:
+    """The grasps that the arm of a world's task knows, where the objects stand at rest."""
+    gripper, scene = measure_gripper(world.robot.name), world.scene
+    known = [world.placement.grasps.get(obj.name, ()) for obj in scene.objects]
+    position, approach, closing = np.empty((3, sum(map(len, known)), 3))
+    pairs = [(obj, grasp) for obj, found in zip(scene.objects, known, strict=True) for grasp in found]
+    for row, (obj, grasp) in enumerate(pairs):
+        at, turn = hand_pose(grasp, gripper.tip, gripper.closing_axis)
+        own = obj.pose.rotation.T
+        position[row] = own @ (at - obj.pose.position)
+        approach[row], closing[row] = own @ turn[:, 2], own @ turn @ gripper.closing_axis
+    ends = np.cumsum([0, *map(len, known)], dtype=np.int64)
+    return Grips(position, approach, closing, ends, np.array(gripper.closing_axis, dtype=np.float64))
 
 
 class Floors(NamedTuple):
@@ -101,7 +136,13 @@ def floors(world: World, pairs: Sequence[tuple[str, str]], kind: Literal["in", "
     )
 
 
-@functools.lru_cache(maxsize=1024)
+_CORNERS: WeakKeyDictionary[Asset, Array] = WeakKeyDictionary()
+"""Gone with the assets, whose meshes and textures take megabytes."""
+
+
 def corners(asset: Asset) -> Array:
     """Of the convex parts of an asset, in its frame [m], shape (n, 3)."""
-    return np.concatenate([part.vertices for part in asset.parts])
+    found = _CORNERS.get(asset)
+    if found is None:
+        found = _CORNERS[asset] = np.concatenate([part.vertices for part in asset.parts])
+    return found

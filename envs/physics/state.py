@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pat3d.envs.compiled import as_written
 from pat3d.envs.physics import predicates
-from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors
+from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot, corners, floors, grips
 from pat3d.envs.physics.world import World
 from pat3d.scene.model import Scene
 
@@ -36,8 +36,6 @@ class States:
     qpos: Array
     xquat: Array
     """Of body frames (wxyz), shape (worlds, bodies, 4)."""
-    site_xmat: NDArray[Any]
-    """Shape (worlds, sites, 9)."""
     snapshot: Snapshot
     """All that the predicates read."""
 
@@ -61,6 +59,7 @@ class States:
             "dofs": dofs,
             "hand": self.hand,
             "surface": float(world.placement.surface - predicates.EDGE),
+            "grips": grips(world),
         }
 
     def take_start(self, worlds: Numbers) -> None:
@@ -183,4 +182,4 @@ class SimState:
     @property
     def hand_rotation(self) -> NDArray[Any]:
         """Rotation of the grip site, shape (3, 3)."""
-        return self.states.site_xmat[self._number, self.states.hand].reshape(3, 3)
+        return self.states.snapshot.site_xmat[self._number, self.states.hand].reshape(3, 3)

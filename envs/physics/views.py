@@ -1,8 +1,9 @@
 """Where the fixed cameras of a world stand: as near as they can with what they show in the picture.
 
-All look from where the robot faces. The agent's camera shows everything on the table and the hands as they start: of
-the arms beside which a small object would be a few pixels it shows what comes there. The one in front is farther,
-lower, and shows the whole robot and the workbench. The close camera shows what the task moves and where it goes.
+All look from where the robot faces. The agent's camera shows what the task is about, the middle of everything else on
+the table, and the fingertips as they start: so near that a small object is more than a few pixels beside arm and table.
+The one in front is farther, lower, and shows the whole robot and the workbench. The close camera shows what the task
+moves and where it goes.
 """
 
 from __future__ import annotations
@@ -25,13 +26,13 @@ Array = NDArray[np.float64]
 ANGLES = {"agentview": (40.0, 45.0), "frontview": (20.0, 45.0), "closeview": (50.0, 45.0)}
 """Height above the horizon and opening angle of each fixed camera [degrees]."""
 
-HAND = 0.08
+HAND = 0.02
 """Around the fingertips the agent's camera shows at least so much [m]."""
 
 NEAREST = 0.15
 """Around the middle of what the task is about the close camera shows at least so much [m]."""
 
-MARGINS = {"agentview": 0.05, "frontview": 0.02, "closeview": 0.02}
+MARGINS = {"agentview": 0.03, "frontview": 0.02, "closeview": 0.02}
 """Free on every side of a square picture, as a share of it; wider ones have more at the sides. The agent's camera has
 more, for what a reset moves."""
 
@@ -69,14 +70,15 @@ def aim(
     # Of pedestals nothing is needed that is below what the robot works on.
     arm[:, 2] = np.maximum(arm[:, 2], placement.surface)
     tips = [data.site(name).xpos + HAND * _CORNERS for name in hands]
-    work = [
-        obj.pose.apply(part.vertices)
+    work = {
+        obj.name: np.concatenate([obj.pose.apply(part.vertices) for part in obj.asset.parts])
         for obj in scene.objects
         if obj.name in placement.shown
-        for part in obj.asset.parts
-    ]
-    moved = [obj for obj in scene.objects if obj.name in placement.grasps]
+    }
     visited = np.array(placement.visit, dtype=np.float64).reshape(-1, 3)
+    about = [points for name, points in work.items() if name in placement.grasps or _over(points, visited)]
+    middles = [(points.min(axis=0, keepdims=True) + points.max(axis=0, keepdims=True)) / 2 for points in work.values()]
+    moved = [obj for obj in scene.objects if obj.name in placement.grasps]
     task = [*(obj.pose.apply(part.vertices) for obj in moved for part in obj.asset.parts), visited]
     middle = np.concatenate([points.mean(axis=0, keepdims=True) for points in task if len(points)]).mean(axis=0)
     task.append(middle + NEAREST * _CORNERS)
@@ -84,7 +86,11 @@ def aim(
     if placement.bench is not None:
         (low_x, low_y), (high_x, high_y) = placement.bench
         bench.append(np.array([[x, y, 0.0] for x in (low_x, high_x) for y in (low_y, high_y)]))
-    shown = {"agentview": [*tips, *work], "frontview": [arm, *work, *bench], "closeview": task}
+    shown = {
+        "agentview": [*tips, *about, *middles, visited],
+        "frontview": [arm, *work.values(), *bench],
+        "closeview": task,
+    }
     for name, points in shown.items():
         elevation, angle = ANGLES[name]
         camera = frame(
@@ -97,6 +103,12 @@ def aim(
         )
         number = model.camera(name).id
         model.cam_pos[number], model.cam_quat[number], model.cam_fovy[number] = camera.position, _quat(camera), angle
+
+
+def _over(points: Array, visited: Array) -> bool:
+    """Whether one of the places visited is above or inside the box around an object's points."""
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    return bool(((visited[:, :2] >= low) & (visited[:, :2] <= high)).all(axis=1).any())
 
 
 def _corners(model: Any, data: Any, geoms: NDArray[np.int64]) -> Array:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.envs.grasping.standing import Placement, Stand
+from pat3d.envs.physics.memory import bound_compiler_cache
 from pat3d.envs.physics.views import ANGLES, aim
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.robots.assembly import take_options
@@ -118,6 +119,7 @@ def compose(scene: Scene, mjcf: Path, robot: Robot, placement: Placement, around
     """
     import mujoco
 
+    bound_compiler_cache()
     try:
         spec = mujoco.MjSpec.from_file(str(mjcf))
         _man(mujoco, spec, robot, placement)

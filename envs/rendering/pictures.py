@@ -28,7 +28,8 @@ TOLERANCE = 5.0
 class Pictures:
     """Takes pictures of one simulation."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Simulation, drawn_by: str | None = None) -> None:
+        """For `simulation`; drawn by one of BACKENDS, where it has to be that one."""
         self._simulation = simulation
         model = simulation.model
         self._cameras = {model.camera(number).name: number for number in range(model.ncam)}
@@ -36,7 +37,8 @@ class Pictures:
         # The last entry is for pixels without any geom.
         labels = np.where(owner >= 0, owner + 2, np.where(owner == ROBOT, 1, 0))
         self._labels = np.append(labels, 0).astype(np.uint16)
-        self._renderer: Renderer = RayTracer(model) if backend() == "cpu" else OpenGL(model, backend())
+        kind = drawn_by or backend()
+        self._renderer: Renderer = RayTracer(model) if kind == "cpu" else OpenGL(model, kind)
 
     def take(
         self,

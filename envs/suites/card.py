@@ -59,7 +59,7 @@ pretty_name: {title}
 are moved. Checksum of the scenes: `{document["checksum"]}`.
 
 {_command(request, of)}
-{_conditions(request)}{_table(["split", *kinds], rows)}
+{_conditions(request, numbers.get("seen_percent"))}{_table(["split", *kinds], rows)}
 
 ## How it was made
 
@@ -67,7 +67,8 @@ Compositions are drawn from the seed {request.seed}, said in a sentence, made of
 barrier contact to static equilibrium, and verified: no intersection ({numbers["intersections"]} in the suite), still in
 MuJoCo for 5 s (at most {drift}). The scripted
 policy's moves were gone through without physics for every task: reach, grip, and room for arm and object. Of
-{numbers["candidates"]} candidates {len(scenes)} are in the suite; `rejected/` says why the others are not.
+{numbers["candidates"]} candidates {len(scenes)} are in the suite; `rejected/` says why the others are not
+{_reasons(numbers)}.
 Made with {versions}.
 
 Held out by kind: {held_out}.
@@ -85,6 +86,11 @@ Apache-2.0: objects, textures, scenes and instructions were made by PAT3D; nothi
 """
 
 
+def _reasons(numbers: Mapping[str, Any]) -> str:
+    counted = ", ".join(f"{reason} {count}" for reason, count in numbers.get("rejected", {}).items())
+    return f"({counted or 'none was left out'})"
+
+
 def _command(request: Request, of: Reference | None) -> str:
     """How to make it again."""
     if of is not None:
@@ -100,13 +106,13 @@ def _command(request: Request, of: Reference | None) -> str:
     if request.rooms:
         line += f" --rooms {','.join(request.rooms)}"
     for option in ("alike", "visible", "vary"):
-        if value := getattr(request, option):
+        if (value := getattr(request, option)) != getattr(Request, option):
             line += f" --{option} {value:g}"
     return f"Made again by\n\n    {line}\n"
 
 
-def _conditions(request: Request) -> str:
-    """What holds of every scene beyond what holds of all suites."""
+def _conditions(request: Request, seen: Mapping[str, float] | None) -> str:
+    """What holds of every scene; `seen` is what the objects of the tasks cover [%], where somebody looked."""
     told = []
     if request.alike:
         told.append(f"- distractors by likeness in every scene, of another colour, size or kind: {request.alike}")
@@ -114,7 +120,10 @@ def _conditions(request: Request) -> str:
         told.append(
             f"- every object of a task covers {request.visible:g} % of the agent's picture at the start at least, as "
             "the scene was verified"
+            + (f" (least {seen['least']:.2f} %, median {seen['median']:.2f} %)" if seen else "")
         )
+    else:
+        told.append("- nothing says how much of the agent's picture the objects of a task cover")
     if request.rooms:
         told.append(f"- scenes are in rooms that are seen and touch nothing: {', '.join(request.rooms)}")
     if request.vary:

@@ -5,16 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from pat3d.envs.robots.arms import require_robot
 from pat3d.envs.suites.folder import MANIFEST, RECORD, SELF, checksum_of, checksum_of_document, read_document
 from pat3d.envs.suites.reference import differences
+from pat3d.envs.suites.request import Request
+from pat3d.envs.suites.sight import UnseenError, require_seen
 from pat3d.envs.suites.suite import Entry, Suite
 from pat3d.envs.tasks.registry import parse_task
-from pat3d.errors import Pat3dError, SuiteError, TaskError
+from pat3d.envs.tasks.rehearsal import workplace
+from pat3d.errors import EnvironmentSetupError, Pat3dError, SuiteError, TaskError
 from pat3d.scene.io import load_scene
 
 
@@ -25,12 +30,19 @@ def check_suite(
 
     Args:
         suite: a complete one.
-        settle: whether MuJoCo simulates every scene again (half a second each).
+        settle: whether MuJoCo simulates every scene again, and the agent's camera looks at it (a second each).
         workers: processes that do so.
         tell: told how many scenes are done, of how many.
     """
     lines = check_manifest(suite) + check_splits(suite) + differences(suite.folder, suite.request)[0]
-    job = partial(check_scene, suite.folder.path, settle=settle)
+    request = suite.request
+    if settle and request.visible:
+        try:
+            require_robot(request.robot)
+        except EnvironmentSetupError as error:
+            lines.append(f"nobody can look whether the objects of the tasks are in view: {error}")
+            request = replace(request, visible=0.0)
+    job = partial(check_scene, suite.folder.path, request, settle=settle)
     with _mapping(workers if settle else 1) as apply:
         for number, found in enumerate(apply(job, suite.entries)):
             lines += found
@@ -38,8 +50,8 @@ def check_suite(
     return lines
 
 
-def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
-    """What is wrong with one scene of the suite in the folder `path`."""
+def check_scene(path: Path, request: Request, entry: Entry, *, settle: bool) -> list[str]:
+    """What is wrong with one scene of the suite of a request in the folder `path`."""
     from pat3d.check.settle import settle_in_mujoco
 
     folder = path / "scenes" / f"{entry.place:06d}"
@@ -55,6 +67,7 @@ def check_scene(path: Path, entry: Entry, *, settle: bool) -> list[str]:
         lines = check_task(folder, entry)
         if not settle:
             return lines
+        lines += check_sight(folder, request, entry)
         report = settle_in_mujoco(folder / "mjcf" / "scene.xml")
     except Pat3dError as error:
         return [f"scene {entry.place}: {error}"]
@@ -79,6 +92,21 @@ def check_task(folder: Path, entry: Entry) -> list[str]:
             f'scene {entry.place}: "{entry.instruction}" is not the instruction of {entry.task}, which is '
             f'"{task.instruction(scene)}".'
         ]
+    return []
+
+
+def check_sight(folder: Path, request: Request, entry: Entry) -> list[str]:
+    """Whether the objects of the task are as well in view as the request asks for."""
+    if not request.visible:
+        return []
+    try:
+        scene = load_scene(folder)
+        work = workplace(scene, folder / "mjcf" / "scene.xml", parse_task(entry.task), request.robot)
+        require_seen(work, request.visible)
+    except UnseenError as error:
+        return [f"scene {entry.place}: {error}"]
+    except TaskError as error:
+        return [f"scene {entry.place}: nobody can look: {error}"]
     return []
 
 

@@ -22,7 +22,7 @@ from pat3d.generation.request import derived_seed
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.model import Scene
 
-SILHOUETTE = 0.007
+SILHOUETTE = 0.0026
 """Width times height of what covers a percent of the agent's picture, roughly [m^2]: smaller things are hardly ever
 accepted where so much has to be visible, so they are not tried."""
 

@@ -17,7 +17,7 @@ from pat3d.envs.suites.request import Request
 from pat3d.envs.suites.worker_pool import Answer, Unit, WorkerPool, worker_count
 from pat3d.errors import SuiteError
 
-CANDIDATES = 30
+CANDIDATES = 60
 """Tried for a place before the run gives up."""
 
 DEATHS = 2
@@ -151,10 +151,10 @@ def _check_same(folder: SuiteFolder, request: Request) -> None:
     where = str(folder.path / MANIFEST)
     document = read_document(folder.path / MANIFEST)
     earlier = Request.from_dict(document.get("request"), where)
-    asked = {**request.as_dict(), "scenes": earlier.scenes}
-    differ = {name: value for name, value in earlier.as_dict().items() if value != asked[name]}
+    asked, held = {**request.as_dict(), "scenes": earlier.scenes}, earlier.as_dict()
+    differ = [name for name in dict.fromkeys((*held, *asked)) if held.get(name) != asked.get(name)]
     if differ:
-        said = ", ".join(f"{name} {json.dumps(value)}" for name, value in differ.items())
+        said = ", ".join(f"{name} {json.dumps(held[name])}" if name in held else f"no {name}" for name in differ)
         raise SuiteError(f"{folder.path} holds a suite with {said}; ask for the same, or give a new folder.")
     if request.scenes < earlier.scenes:
         raise SuiteError(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from statistics import median
 from typing import Any
 
 from pat3d.envs.suites.composition import structure_names
@@ -96,8 +97,15 @@ def numbers(scenes: Sequence[dict[str, Any]], rejected: Sequence[dict[str, Any]]
         "intersections": sum(verification["intersections"] for verification in verifications),
         "largest_drift_mm": max(drift, default=None),
         "largest_turn_degrees": max(turned, default=None),
+        "seen_percent": _seen(scenes),
         "by_task": dict(sorted(Counter(scene["kind"] for scene in scenes).items())),
     }
+
+
+def _seen(scenes: Sequence[dict[str, Any]]) -> dict[str, float] | None:
+    """Least and median of what the objects of the tasks cover [%]; None where nobody looked."""
+    shares = [share for scene in scenes for share in scene.get("seen", {}).values()]
+    return {"least": min(shares), "median": median(shares)} if shares else None
 
 
 def _head(request: Request) -> dict[str, Any]:

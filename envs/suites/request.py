@@ -14,6 +14,7 @@ from typing import Any
 from pat3d.envs.physics.variation import LARGEST
 from pat3d.envs.robots.arms import default_robot
 from pat3d.envs.robots.pairs import pair_of
+from pat3d.envs.suites.sight import LEAST
 from pat3d.envs.surroundings.room import BENCH, KINDS, drawn
 from pat3d.errors import SpecError, SuiteError
 from pat3d.generation.request import derived_seed
@@ -69,9 +70,9 @@ class Request:
     alike: int = 0
     """Among them, distractors by likeness: of the noun of something that is moved in another colour or size, or of its
     kind where it has the colour that it has."""
-    visible: float = 0.0
+    visible: float = LEAST
     """Share of the agent's picture at the start [%] that every object of the task covers at least; what hides behind
-    others or the robot does not."""
+    others or the robot does not. 0 for suites in which nobody looked."""
     vary: float = 0.0
     """By how much every reset moves the objects along x and y [m], see `pat3d.envs.physics.variation`."""
     rooms: tuple[str, ...] = ()

@@ -19,6 +19,13 @@ AGENT = "agentview"
 """The camera in whose picture objects have to be seen."""
 
 
+LEAST = 0.5
+"""Share of that picture [%] that every object of a task covers in a suite, unless it asks for another."""
+
+DIGITS = 3
+"""After the point, of shares that are written down [%]."""
+
+
 class UnseenError(Exception):
     """An object of the task covers too little of the picture."""
 
@@ -35,15 +42,24 @@ def about(task: Task, scene: Scene) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*task.needs(scene).grasp, *task.names)))
 
 
-def require_seen(work: Workplace, percent: float) -> None:
-    """Raise UnseenError unless every object of the task covers `percent` of the agent's picture."""
+def require_seen(work: Workplace, percent: float) -> dict[str, float]:
+    """How much of the agent's picture every object of the task covers [%], which is `percent` at least.
+
+    Rays decide, as they are the same wherever a suite is made; what is behind something else, or the robot, counts not.
+
+    Raises:
+        UnseenError: one of them covers less; says which and how much.
+    """
     from pat3d.envs.rendering.pictures import Pictures
 
-    pictures = Pictures(work.simulation)
+    pictures = Pictures(work.simulation, "cpu")
     try:
         seen = shares(pictures, work.scene, AGENT, about(work.task, work.scene))
     finally:
         pictures.close()
+    if not seen:
+        return {}
     name = min(seen, key=lambda one: seen[one])
     if 100.0 * seen[name] < percent:
         raise UnseenError(f'"{name}" covers {100.0 * seen[name]:.2f} % of the picture at the start, not {percent:g} %.')
+    return {one: round(100.0 * share, DIGITS) for one, share in seen.items()}

@@ -107,12 +107,18 @@ def _stack_from(kind: str) -> Callable[[Composer], str]:
     return build
 
 
+SORTED = 1.7
+"""Between the areas that the agent's camera shows where things are sorted, which is two homes and more, and where one
+thing is moved, roughly."""
+
+
 def _sort(first: int, second: int) -> Callable[[Composer], str]:
     def build(c: Composer) -> str:
         colours = [COLOURS[place] for place in c.rng.permutation(6)[:2]]
         c.avoid, c.coloured_only = (*colours, "white"), True
         # A bystander of a container's colour would have a home there: containers are white, and nothing else is.
         c.container_colours = ("white",)
+        c.least_silhouette *= SORTED
         for colour, count in zip(colours, (first, second), strict=True):
             c.home(colour)
             for _ in range(count):

@@ -96,7 +96,8 @@ class Making:
     def _judged(self, attempt: Attempt) -> tuple[str, str]:
         """Kind of fault and what is wrong; empty for a scene that is now in the suite."""
         request, place, candidate, made = self._request, self._place, self._candidate, self._draft
-        reason, message, placement = _fault(attempt), "; ".join(attempt.failures), ""
+        reason, message = _fault(attempt), "; ".join(attempt.failures)
+        done: dict[str, Any] = {}
         rolls = _rolling(attempt) if request.stable and not reason else ()
         if rolls:
             reason, message = "rolling", f"on the round side, from where it may roll: {', '.join(rolls)}"
@@ -105,7 +106,7 @@ class Making:
                 for number in range(DRAWS.get(request.task_of(place), 1)):
                     try:
                         made = pointed(self._draft, attempt.checked.scene, number)
-                        placement = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request)
+                        done = _doable(attempt.checked.scene, attempt.checked.mjcf, made.task, request)
                         reason = ""
                         break
                     except TaskError as error:
@@ -117,7 +118,7 @@ class Making:
             rejection = {**record, "reason": reason, "message": message}
             write_document(self._folder.rejection(place, candidate), rejection)
         else:
-            record["robot"] = placement
+            record |= done
             with self.clock("files"):
                 _write(self._folder, request, place, attempt, record, self._scratch, self.clock)
         return reason, message
@@ -147,8 +148,8 @@ def _rolling(attempt: Attempt) -> tuple[str, ...]:
     return tuple(name for name, rolls in support.rolling.items() if rolls != "stable") if support else ()
 
 
-def _doable(scene: Scene, mjcf: Path, task: str, request: Request) -> str:
-    """Where the robot stands for the task, in words.
+def _doable(scene: Scene, mjcf: Path, task: str, request: Request) -> dict[str, Any]:
+    """What a record says of the robot at the task: where it stands, in words, and what is seen [%] where that matters.
 
     Raises:
         TaskError: it cannot do it.
@@ -164,9 +165,9 @@ def _doable(scene: Scene, mjcf: Path, task: str, request: Request) -> str:
         if called(scene, name) is None:
             raise TaskError(f'no words tell "{name}" from what is like it.')
     work = workplace(scene, mjcf / "scene.xml", parsed, request.robot)
-    if request.visible:
-        require_seen(work, request.visible)
-    return rehearsed(work).describe()
+    # Rehearsing moves the objects.
+    seen = {"seen": require_seen(work, request.visible)} if request.visible else {}
+    return {"robot": rehearsed(work).describe(), **seen}
 
 
 def _record(request: Request, place: int, candidate: int, made: Draft, attempt: Attempt) -> dict[str, Any]:

@@ -33,7 +33,8 @@ FADES = (2.0, 12.0)
 
 
 HARMONICS = "environment"
-"""MuJoCo's custom numbers that hold the harmonics of a world's light, and how bright the lamps in their stead are."""
+"""MuJoCo's custom numbers that hold the harmonics of a world's light, and the red, green and blue of the lamps in their
+stead."""
 
 FILL = "environment_"
 """Lamps whose names begin so stand for the harmonics where a renderer has none."""
@@ -104,8 +105,8 @@ def light_up(spec: Any, rig: Rig = OUTDOORS) -> None:
             castshadow=one.casts,
         )
     if rig.harmonics:
-        fills = sum(sum(one.diffuse) for one in rig.lamps if one.name.startswith(FILL))
-        spec.add_numeric(name=HARMONICS, data=[*rig.harmonics, fills])
+        fills = sum((np.array(one.diffuse) for one in rig.lamps if one.name.startswith(FILL)), np.zeros(3))
+        spec.add_numeric(name=HARMONICS, data=[*rig.harmonics, *fills.tolist()])
     near, far = rig.fades
     spec.visual.map.fogstart, spec.visual.map.fogend = near / spec.stat.extent, far / spec.stat.extent
     spec.visual.rgba.fog = [*rig.horizon, 1.0]
@@ -201,12 +202,12 @@ class Lights:
 
 
 def _harmonics(model: Any) -> Array | None:
-    """The harmonics of a world's light, as bright as the lamps in their stead are now; None where it has none."""
+    """The harmonics of a world's light, in the colour and as bright as the lamps in their stead are now; or None."""
     for number in range(model.nnumeric):
         if model.numeric(number).name == HARMONICS:
-            *values, made = model.numeric(number).data.tolist()
+            values, made = np.split(np.array(model.numeric(number).data), [27])
             fills = [i for i in range(model.nlight) if model.light(i).name.startswith(FILL) and model.light_active[i]]
-            now = float(model.light_diffuse[fills].sum())
-            scale = now / made if made > 0.0 else 1.0
-            return np.array([scale * value for value in values], dtype=np.float32).reshape(9, 3)
+            now = model.light_diffuse[fills].sum(axis=0)
+            scale = np.divide(now, made, out=np.ones(3), where=made > 0.0)
+            return (scale * values.reshape(9, 3)).astype(np.float32)
     return None

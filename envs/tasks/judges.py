@@ -30,7 +30,7 @@ OUT = 0.15
 class LiftJudge(Judge):
     """Success when the object has been 10 cm up in the robot's hand for a second.
 
-    Progress, each a quarter: the hand's closeness, both fingers on the object, the height, the time held.
+    Progress, each a quarter: the hand's closeness to a grasp, both fingers on the object, the height, the time held.
     """
 
     def __init__(self, states: States, target: str) -> None:
@@ -54,8 +54,8 @@ class LiftJudge(Judge):
 class LiftAndBackJudge(Judge):
     """Success when the object was raised by 5 cm and then has rested where it was, untouched, for half a second.
 
-    Progress: a sixth each for the hand's closeness, the grasp and the height; once it was raised, half, three tenths
-    for its closeness to its place, a fifth for resting there.
+    Progress: a sixth each for the hand's closeness to a grasp, the grasp and the height; once it was raised, half,
+    three tenths for its closeness to its place, a fifth for resting there.
     """
 
     def __init__(self, states: States, target: str) -> None:
@@ -83,7 +83,7 @@ class LiftAndBackJudge(Judge):
         resting = back & still & ~touched
         self.timer[:] = np.where(self._raised & resting, self.timer + seconds, 0.0)
         done = np.asarray(self.timer >= REST_SECONDS - 1e-9)
-        near = 1.0 - np.tanh(np.linalg.norm(now.sites[:, now.hand] - centre, axis=1) / predicates.NEAR_HAND)
+        near = np.array([predicates.reached(now, world, target) for world in range(self.states.count)])
         before = (near + held + np.clip(rise / RAISED, 0.0, 1.0) * touched) / 6.0
         after = 0.5 + 0.3 * (1.0 - np.tanh(away / predicates.NEAR_GOAL)) + 0.19 * resting
         return Verdicts(
@@ -98,8 +98,8 @@ class LiftAndBackJudge(Judge):
 class PutJudge(Judge):
     """Success when the object has rested in or on its place, untouched, for half a second.
 
-    Progress: a fifth each for the hand's closeness and the grasp (kept once the object rests in place), two fifths for
-    the object's closeness to its place, a fifth for resting there.
+    Progress: a fifth each for the hand's closeness to a grasp and the grasp (kept once the object rests in place), two
+    fifths for the object's closeness to its place, a fifth for resting there.
     """
 
     def __init__(self, states: States, target: str, where: str, *, stacked: bool = False) -> None:

@@ -124,7 +124,7 @@ def generate(options: argparse.Namespace) -> int:
     option("--quick", "checksums and splits only", action="store_true"),
     _WORKERS,
     JSON,
-    summary="verify a suite again: files, splits, stillness in MuJoCo",
+    summary="verify a suite again: files, splits, stillness in MuJoCo, view",
 )
 def check(options: argparse.Namespace) -> int:
     """`pat3d suite check`."""
@@ -138,7 +138,9 @@ def check(options: argparse.Namespace) -> int:
         lines = check_suite(suite, settle=not options.quick, workers=worker_count(options.workers), tell=tell)
     if options.json:
         return _document(suite, lines)
-    how = "files and splits" if options.quick else "files, splits and stillness in MuJoCo"
+    how = "files and splits"
+    if not options.quick:
+        how = "files, splits, stillness in MuJoCo" + (" and view" if suite.request.visible else "")
     if not lines:
         console().print(f"pass  {len(suite.entries)} scenes: {how}", markup=False)
         if (of := reference_of(suite.request)) is not None:

@@ -44,10 +44,12 @@ class OptimizedScene:
     settled: SettledScene | None
     """How it settled, with the record and the pictures; None where nothing better was found."""
     found: Optimized
+    left_aside: tuple[Relation, ...] = ()
+    """Relations that the layout never had, which the verification counts and the optimisation does not."""
 
     def record(self, *, kept: bool) -> dict[str, Any]:
         """Plain data for report.json; `kept` tells whether the layout that was found is the scene's now."""
-        return {"kept": kept, **self.found.as_dict()}
+        return {"kept": kept, "left_aside": [str(rel) for rel in self.left_aside], **self.found.as_dict()}
 
 
 def available() -> bool:
@@ -124,21 +126,22 @@ def optimize_scene(
 
     fulfilled = _fulfilled(scene)
     wanted = replace(scene, relations=tuple(rel for rel in scene.relations if rel.supports or rel in fulfilled))
+    aside = tuple(rel for rel in scene.relations if rel not in wanted.relations)
     found = optimize_scene(
         wanted, options=options, pinned=given_poses(scene) | arranged(scene), at_rest=at_rest, progress=tell
     )
     if not found.improved:
-        return OptimizedScene(scene=scene, settled=None, found=found)
+        return OptimizedScene(scene=scene, settled=None, found=found, left_aside=aside)
     after = scene_after(scene, found.best)
     how = {"source": found.best.source, "seed": options.seed, "versions": versions()}
     after = replace(after, provenance={**after.provenance, OPTIMISATION: how})
     settled = settle_scene(after, device=options.device, progress=progress)
     after = settled.of(after)
     if _count_broken(replace(after, relations=wanted.relations)) > len(found.first.broken):
-        return OptimizedScene(scene=scene, settled=None, found=found)
+        return OptimizedScene(scene=scene, settled=None, found=found, left_aside=aside)
     progress(Event(stage="drawing the optimisation"))
     pictures = draw(found, scene_after(scene, found.first), after)
-    done = OptimizedScene(scene=after, settled=settled, found=found)
+    done = OptimizedScene(scene=after, settled=settled, found=found, left_aside=aside)
     return replace(done, settled=replace(settled, optimisation=done.record(kept=True), pictures=pictures))
 
 
@@ -177,6 +180,8 @@ def in_words(record: Mapping[str, Any]) -> str:
     else:
         text = f"{_count(before, 'relation')} broken before, {len(record.get('broken', []))} after"
         text += f"; loss {record['loss_before']:.2g} -> {record['loss_after']:.2g} m^2"
+    if record.get("left_aside"):
+        text += f"; {_count(len(record['left_aside']), 'relation')} left aside, which the layout never had"
     text += f"; {_count(len(trials), 'layout')} settled"
     if history:
         text += f", {_count(len(history), 'gradient step')}"

@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from pat3d.geometry.polygons import contains, outline, polygon_gap
+from pat3d.geometry.polygons import contains, outline, polygon_gap, polygon_margin
 from pat3d.layout.bodies import Array, Placed, distance
 from pat3d.layout.formations import FAR, pairs, reach_of_beside
 from pat3d.layout.leaning import covered
@@ -28,6 +28,8 @@ ALIKE = 15.0
 """Largest angle [degrees] between things turned alike."""
 UNEVEN = (0.01, 0.15)
 """Largest deviation of rows and circles: [m], or as a share of the distance between neighbours, whichever is more."""
+ROUND = 0.9
+"""Share of its largest reach from its middle that what is round has in every direction; 0.87 in a hexagon."""
 UNEVEN_ANGLE = 0.2
 """Largest deviation of the angles on a circle, as a share of the equal one."""
 _FOOT = 2e-3
@@ -112,22 +114,44 @@ def _row(bodies: Sequence[Placed]) -> tuple[bool, str]:
     allowed = max(UNEVEN[0], UNEVEN[1] * length / len(steps))
     uneven = min(float(np.abs(steps - steps.mean()).max()), float(np.abs(gaps - gaps.mean()).max()))
     holds = bool(steps.min() > 0.0) and astray <= allowed and uneven <= allowed
+    turns = [(_turned(a, b), _straight(b, allowed)) for a, b in zip(bodies, bodies[1:], strict=False)]
+    turned, most = max(turns, key=lambda one: one[0] - one[1])
+    holds = holds and turned <= most
     detail = (
-        f"{1e3 * astray:.0f} mm off the line, spacing uneven by {1e3 * uneven:.0f} mm (at most {1e3 * allowed:.0f})"
+        f"{1e3 * astray:.0f} mm off the line, spacing uneven by {1e3 * uneven:.0f} mm (at most {1e3 * allowed:.0f}), "
+        f"turned by {turned:.0f} degrees (at most {most:.0f})"
     )
     return holds, detail if steps.min() > 0.0 else f"{detail}, not in order"
 
 
+def _turned(first: Placed, second: Placed) -> float:
+    """How far two things are turned about the vertical from one another [degrees], however they lie."""
+    # The twist about z of the rotation from one to the other, of which a round thing has none that anybody sees.
+    away = second.rotation @ first.rotation.T
+    angle = math.degrees(math.atan2(away[1, 0] - away[0, 1], away[0, 0] + away[1, 1]))
+    return 0.0 if _is_round(first) or _is_round(second) else abs(angle)
+
+
+def _straight(body: Placed, allowed: float) -> float:
+    """How far a thing in a row may be turned [degrees]: its ends are off the line by no more than middles may be."""
+    reach = float(np.linalg.norm(_footprint(body) - _middle(body), axis=1).max())
+    return min(ALIKE, math.degrees(math.asin(min(1.0, allowed / reach))))
+
+
+def _is_round(body: Placed) -> bool:
+    around = _footprint(body) - _middle(body)
+    reach = float(np.linalg.norm(around, axis=1).max())
+    return polygon_margin(around, np.zeros(2), tolerance=0.0) >= ROUND * reach
+
+
 def _side_by_side(bodies: Sequence[Placed]) -> tuple[bool, str]:
     holds, detail = _row(bodies)
-    turns = [_angle(a.rotation[:2, 1], b.rotation[:2, 1]) for a, b in zip(bodies, bodies[1:], strict=False)]
     gaps = [polygon_gap(_footprint(a), _footprint(b)) for a, b in zip(bodies, bodies[1:], strict=False)]
     limits = [
         reach_of_beside((a.high - a.low)[:2], (b.high - b.low)[:2]) for a, b in zip(bodies, bodies[1:], strict=False)
     ]
     near = all(gap <= limit for gap, limit in zip(gaps, limits, strict=True))
-    detail = f"{detail}, at most {1e3 * max(gaps):.0f} mm apart, turned by {max(turns):.0f} degrees"
-    return holds and near and max(turns) <= ALIKE, detail
+    return holds and near, f"{detail}, at most {1e3 * max(gaps):.0f} mm apart"
 
 
 def _circle(bodies: Sequence[Placed], centre: Placed | None) -> tuple[bool, str]:

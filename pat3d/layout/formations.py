@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ from pat3d.scene.relations import SIDES
 
 CLOSE = 0.001
 """Gap between members whose offsets are given [m]."""
+CLOSE_BY = 3 * CLOSE
+"""Gap between members that nearly touch [m]."""
 ASKEW = 10.0
 """Largest angle [degrees] at which the layout has something face another."""
 FAR = 1.5
@@ -40,6 +42,12 @@ class Formation:
     ring: bool = False
     fixed: Mapping[str, Array] = field(default_factory=dict)
     """Offsets of the members' middles [m], shape (2,) each, where they are given."""
+    cells: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    """Column and row of every member, where they stand in several rows with aligned columns."""
+    close: frozenset[str] = frozenset()
+    """Members of a line that nearly touch each other, as books on a shelf do."""
+    steps: Mapping[tuple[str, str], Array] = field(default_factory=dict)
+    """From the middle of one member of a line to that of the next [m], shape (2,) each, where it is given."""
     overlapping: bool = False
     """Whether members may lie above one another."""
 
@@ -61,8 +69,22 @@ class Formation:
         if self.ring:
             return _ring(self.members, self.centre, items, gap)
         own = [lat for lat in laterals if lat.child in self.members and lat.parent in self.members]
-        lines = [_line([items[name] for name in self.members], np.array(way), gap) for way in _DIRECTIONS]
+        if self.cells:
+            lines = _lattices(self.cells, [items[name] for name in self.members], gap)
+        else:
+            lines = [self._line([items[name] for name in self.members], np.array(way), gap) for way in _DIRECTIONS]
         return next((line for line in lines if all(_agrees(lat, line) for lat in own)), lines[0])
+
+    def _line(self, items: Sequence[Item], way: Array, gap: Gap) -> dict[str, Array]:
+        """Side by side along `way`, a unit vector along an axis, with one gap between all that are not close."""
+        free = [CLOSE_BY if {a.name, b.name} <= self.close else None for a, b in pairwise(items)]
+        widest = max((gap(a, b) for (a, b), one in zip(pairwise(items), free, strict=True) if one is None), default=0.0)
+        at, found = np.zeros(2), {items[0].name: np.zeros(2)}
+        for (before, item), one in zip(pairwise(items), free, strict=True):
+            apart = _reach(before, way) + (widest if one is None else one) + _reach(item, -way)
+            at = at + self.steps.get((before.name, item.name), apart * way)
+            found[item.name] = at
+        return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,14 +147,14 @@ def reach_of_beside(first: Array, second: Array) -> float:
     return min(max(0.25, float(max(first.max(), second.max()))), 1.0)
 
 
-def _line(items: Sequence[Item], way: Array, gap: Gap) -> dict[str, Array]:
-    """Side by side along `way`, a unit vector along an axis, with one gap between all of them."""
-    free = max(gap(first, second) for first, second in zip(items, items[1:], strict=False))
-    at, found = 0.0, {items[0].name: np.zeros(2)}
-    for before, item in zip(items, items[1:], strict=False):
-        at += _reach(before, way) + free + _reach(item, -way)
-        found[item.name] = at * way
-    return found
+def _lattices(cells: Mapping[str, tuple[int, int]], items: Sequence[Item], gap: Gap) -> list[dict[str, Array]]:
+    """Members at the crossings of equally spaced lines, rows along x to the right and to the back first."""
+    free = max(gap(first, second) for first, second in combinations(items, 2))
+    pitch = np.max([item.high - item.middle for item in items], axis=0) + free
+    pitch -= np.min([item.low - item.middle for item in items], axis=0)
+    at = {name: np.array(cell, dtype=np.float64) for name, cell in cells.items()}
+    ways = [np.diag([i, j]) for i in (1.0, -1.0) for j in (1.0, -1.0)]
+    return [{name: pitch * (way @ cell) for name, cell in at.items()} for way in (*ways, *(way[::-1] for way in ways))]
 
 
 def _reach(item: Item, way: Array) -> float:
@@ -187,7 +209,12 @@ def _apart(first: Item, at: Array, second: Item, there: Array) -> float:
 
 def close_row(items: Sequence[Item]) -> dict[str, Array]:
     """Offsets from left to right [m], shape (2,) each, of `items` that nearly touch."""
-    return _line(items, np.array([1.0, 0.0]), lambda _a, _b: 3 * CLOSE)
+    names = tuple(item.name for item in items)
+    return Formation(members=names, close=frozenset(names)).offsets({item.name: item for item in items}, (), _close_by)
+
+
+def _close_by(_first: Item, _second: Item) -> float:
+    return CLOSE_BY
 
 
 def ring_of_carriers(carriers: Sequence[Item], load: Array) -> dict[str, Array]:
@@ -199,7 +226,7 @@ def ring_of_carriers(carriers: Sequence[Item], load: Array) -> dict[str, Array]:
         outer = _reach(carriers[0], np.array([-1.0, 0.0])) + _reach(carriers[1], np.array([1.0, 0.0]))
         wide = 0.96 * float(load.max()) - outer
         return {carriers[0].name: np.zeros(2), carriers[1].name: np.array([max(apart, wide), 0.0])}
-    near = _ring([item.name for item in carriers], None, items, lambda _a, _b: 3 * CLOSE)
+    near = _ring([item.name for item in carriers], None, items, _close_by)
     radius = float(np.linalg.norm(next(iter(near.values()))))
     wide = 0.5 * float(load.min()) - 0.5 * max(float(item.size.max()) for item in carriers)
     return {name: at * max(1.0, wide / radius) for name, at in near.items()}

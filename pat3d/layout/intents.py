@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,12 +18,14 @@ from pat3d.layout.flat import Lateral, natural_gap
 from pat3d.layout.formations import Formation, Sight, Wishes, close_row, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, under_offset
+from pat3d.layout.shelved import holds_books
 from pat3d.layout.tops import item_of
-from pat3d.scene.arrangements import Arrangement
+from pat3d.scene.arrangements import Arrangement, crossing
 from pat3d.scene.relations import GROUND, SIDES
 
 _AHEAD = 17.0
 """Angle [degrees] at which the ends of a row see what all of it faces."""
+_LINES = ("row", "side_by_side")
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 """Where the first, second, ... of several that face one thing have it."""
 
@@ -90,18 +93,20 @@ class Intents:
         Raises:
             LayoutError: something has no room under, or nothing to lean on.
         """
-        formations, far, places = [], set(), {}
+        lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in _LINES]
+        grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
+        formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
+        rows = [one for one in self._rows(lines, groups, gap) if not any(set(one.members) <= set(c) for c in grids)]
+        formations += rows
         for intent in self.by_surface.get(support, []):
             one, objects, of = (
                 intent.arrangement,
                 intent.moved(intent.arrangement.objects),
                 intent.moved([] if intent.arrangement.rule.on_it else intent.arrangement.of),
             )
-            if not {*objects, *of} <= set(groups):
+            if not {*objects, *of} <= set(groups) or one.kind in _LINES or _within(one.kind, objects, of, rows):
                 continue
-            if one.kind in ("row", "side_by_side"):
-                formations.append(self._row(objects, groups))
-            elif one.kind == "between" and len(of) == 2:
+            if one.kind == "between" and len(of) == 2:
                 formations.append(Formation(members=(of[0], *objects, of[1])))
             elif one.kind == "between":
                 formations.append(Formation(members=of, centre=objects[0], ring=True))
@@ -131,16 +136,41 @@ class Intents:
         )
         return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places)
 
-    def _row(self, members: tuple[str, ...], groups: Mapping[str, Group]) -> Formation:
-        """A row; close together where every two neighbours carry something, as the lowest of a pyramid do."""
+    def _rows(self, lines: Sequence[Intent], groups: Mapping[str, Group], gap: float) -> list[Formation]:
+        """Rows, each with what it is between, and with those leaning that lean on their neighbours."""
+        made = []
+        for line in lines:
+            members = line.moved(line.arrangement.objects)
+            beside = self.by_surface[line.support]
+            around = [one for one in beside if one.arrangement.kind == "between" and len(one.arrangement.of) == 2]
+            ends = next(
+                (one.moved(one.arrangement.of) for one in around if one.moved(one.arrangement.objects) == members), ()
+            )
+            members = (*ends[:1], *members, *ends[1:])
+            if set(members) <= set(groups):
+                made.append(self._row(members, line.support, groups, gap))
+        return made
+
+    def _row(self, members: tuple[str, ...], support: str, groups: Mapping[str, Group], gap: float) -> Formation:
+        """A row; close together what are books, or where two neighbours carry something, as in a pyramid."""
         carried = {frozenset(carriers) for carriers in self.spans.values()}
-        if not all(frozenset(pair) in carried for pair in zip(members, members[1:], strict=False)):
-            return Formation(members=members)
-        return Formation(members=members, fixed=close_row([item_of(groups[one], turnable=False) for one in members]))
+        if all(frozenset(pair) in carried for pair in pairwise(members)):
+            fixed = close_row([item_of(groups[one], turnable=False) for one in members])
+            return Formation(members=members, fixed=fixed)
+        steps: dict[tuple[str, str], Array] = {}
+        for intent in self.by_surface[support]:
+            one = intent.arrangement
+            if one.kind == "leaning_against":
+                (name,), (other,) = intent.moved(one.objects), intent.moved(one.of)
+                if (name, other) in pairwise(members) or (other, name) in pairwise(members):
+                    away = leaning_offset(groups[name], groups[other], self.leaning[name], gap)
+                    steps |= {(other, name): away, (name, other): -away}
+        close = frozenset(name for name in members if holds_books(groups[name]))
+        return Formation(members=members, close=close, steps=steps, overlapping=bool(steps))
 
     def _back(self, sight: Sight, support: str, groups: Mapping[str, Group]) -> float:
         """How far from its target the row of an observer stands [m], so that its ends too have it nearly ahead."""
-        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in ("row", "side_by_side")]
+        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in _LINES]
         for row in (one.moved(one.arrangement.objects) for one in rows):
             if sight.observer in row and set(row) <= set(groups):
                 sizes = [groups[name].size[:2] for name in row]
@@ -181,7 +211,7 @@ class Intents:
         one = intent.arrangement
         if one.rule.on_it:
             self.yaws.setdefault(intent.support, 0.0)
-        elif one.kind in ("row", "side_by_side"):
+        elif one.kind in _LINES:
             self.yaws |= {name: self.yaws.get(name, 0.0) for name in one.objects}
         elif one.kind == "leaning_against":
             way = self._way(intent, one.objects[0], one.of[0]) or (0.0, 1.0)
@@ -191,17 +221,20 @@ class Intents:
             targets = one.of * len(one.objects) if one.of else one.objects[::-1]
             sights = self._sights.setdefault(intent.support, [])
             line = self._line(intent) if one.of else ()
+            ahead = next((way for name in line if (way := self._way(intent, name, one.of[0]))), (0.0, 1.0))
             for number, (observer, target) in enumerate(zip(one.objects, targets, strict=True)):
                 ring = self._ring_angle(intent, observer, target)
                 if ring is not None:
                     way = (-math.cos(ring), -math.sin(ring))
                 else:
-                    way = self._way(intent, observer, target) or ((0.0, 1.0) if line else _FACING[number])
+                    way = ahead if line else self._way(intent, observer, target) or _FACING[number]
                     pair = intent.moved((observer, target))
                     # Of a row, the middle one has the target straight ahead.
                     if not line or observer == line[len(line) // 2]:
                         sights.append(Sight(observer=pair[0], target=pair[1], way=way))
-                self.targets.append((observer, target))
+                if not line:
+                    # What stands in a row stays turned alike.
+                    self.targets.append((observer, target))
                 # The front of an asset is at -y.
                 self.yaws[observer] = math.atan2(way[1], way[0]) + math.pi / 2
 
@@ -209,7 +242,7 @@ class Intents:
         """The row in which all objects of `intent` stand, if there is one."""
         for other in self.by_surface.get(intent.support, []):
             one = other.arrangement
-            if one.kind in ("row", "side_by_side") and set(intent.arrangement.objects) <= set(one.objects):
+            if one.kind in _LINES and set(intent.arrangement.objects) <= set(one.objects):
                 return tuple(name for name in one.objects if name in intent.arrangement.objects)
         return ()
 
@@ -240,6 +273,13 @@ class Intents:
         if self.path(name)[1] != support:
             return []
         return list(dict.fromkeys(path[path.index(support) - 1] for path in paths))
+
+
+def _within(kind: str, objects: Sequence[str], of: Sequence[str], rows: Sequence[Formation]) -> bool:
+    """Whether one of `rows` has it that `objects` are between, or lean on, `of`."""
+    if kind == "between" and len(of) == 2:
+        return any(row.members == (of[0], *objects, of[1]) for row in rows)
+    return kind == "leaning_against" and any((objects[0], of[0]) in row.steps for row in rows)
 
 
 def _pair(name: str, other: str, away: Array) -> Formation:

@@ -29,6 +29,7 @@ from pat3d.layout.leaning import leaning_rotation
 from pat3d.layout.loosening import loosen
 from pat3d.layout.place_settings import place_settings, turned
 from pat3d.layout.postures import posture_rotation
+from pat3d.layout.shelved import bookends
 from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.layout.tops import Top, item_of, spread
@@ -127,6 +128,7 @@ class _Arranger:
         placed = [one for one in arrangements if one.kind != "across"]
         self.intents = Intents(placed, self._path, self.kinds, self.laterals, self.spans)
         self.notes.extend(self.intents.notes)
+        self.intents.yaws |= bookends(placed, lambda name: self.bodies[name].asset.noun)
         self.turned = {name: posture_rotation(self.bodies[name], kind) for name, kind in postures.items()}
         """How objects are turned before their yaw, shape (3, 3), where they do not stand as they are made."""
         self._seated = self._seats()

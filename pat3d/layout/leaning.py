@@ -1,8 +1,9 @@
 """What stands against or below another thing of the same surface: leaning on it, or under its overhang.
 
-What leans is stood on end, its thinnest side to what it leans on, and tilted. A ladder on floor and wall of friction mu
-stands up to a tilt of atan(2 mu / (1 - mu^2)), 22 degrees at the friction that scenes settle with; it falls back where
-its centre of mass is not beyond its lower edge, which thick things only have at a large tilt.
+What leans is stood on end, its thinnest side to what it leans on, and tilted; an umbrella, which has no such side, with
+its centre of mass straight before its foot. A ladder on floor and wall of friction mu stands up to a tilt of
+atan(2 mu / (1 - mu^2)), 22 degrees at the friction that scenes settle with; it falls back where its centre of mass is
+not beyond its lower edge, which thick things only have at a large tilt.
 """
 
 from __future__ import annotations
@@ -13,16 +14,27 @@ import numpy as np
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.rotations import turn
-from pat3d.layout.bodies import Array, Body, Placed, distance
+from pat3d.layout.bodies import Array, Body, Placed, Witness, distance
 from pat3d.layout.drop import clear
 from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map
+from pat3d.layout.shelved import BOUND, STOOD
 
-LEAST_TILT, LARGEST_TILT = math.radians(12.0), math.radians(20.0)
+LEAST_TILT, LARGEST_TILT = math.radians(9.0), math.radians(20.0)
 BEYOND = math.radians(6.0)
 """Tilt [rad] beyond the one at which the centre of mass is over the lower edge."""
 AIR = 0.005
 """Room [m] above what is under something."""
+SLENDER = 0.2
+"""Width over length of what has no flat side to lean with."""
+_FOOT = 2e-3
+"""What is this near to the lowest point [m] stands on the floor."""
+HELD = 1.2
+"""Height of the support of what leans, over that of its centre of mass, which is enough: lower, and the foot slides."""
+_ASIDE = (0.0, -0.85, 0.85, -0.6, 0.6, -0.3, 0.3)
+"""Where something leans, as shares of the half width of what it leans on."""
+_HIGHER = 0.01
+"""What is higher by this [m] is worth leaving the middle for."""
 _TRIED = 15
 """Places across what something is put under."""
 _UP = np.array([0.0, 0.0, 1.0])
@@ -44,41 +56,79 @@ def leaning_rotation(body: Body, way: Array) -> Array:
     axes[:, long], axes[:, thin] = _UP, sign * way
     rest = 3 - long - thin
     axes[:, rest] = np.cross(axes[:, (rest + 1) % 3], axes[:, (rest + 2) % 3])
+    if body.asset.noun in BOUND and abs(way[0]) > abs(way[1]):
+        axes = STOOD
     tilt = max(LEAST_TILT, math.atan2(float(size[thin]), float(size[long])) + BEYOND)
     if tilt > LARGEST_TILT:
         raise LayoutError(
             f'"{body.name}" ({size[long]:.2f} m long, {size[thin]:.2f} m thick) is too thick to lean against anything: '
             "it would stand by itself or slide. Nothing was written."
         )
+    if max(size[thin], size[rest]) < SLENDER * size[long]:
+        axes, already = _rolled(body, axes, way)
+        tilt -= already
     return turn(np.cross(_UP, way), tilt) @ axes
+
+
+def _rolled(body: Body, axes: Array, way: Array) -> tuple[Array, float]:
+    """`axes`, shape (3, 3), turned about the vertical so that the centre of mass is straight before the foot.
+
+    So nothing rolls it along what it leans on. Also by how much the line from the foot to the centre of mass is tilted
+    then [rad].
+    """
+    standing = body.vertices @ axes.T
+    low = float(standing[:, 2].min())
+    foot = standing[standing[:, 2] < low + _FOOT, :2].mean(axis=0)
+    centre = axes @ body.centre_of_mass
+    beside = centre[:2] - foot
+    roll = math.atan2(way[1], way[0]) - math.atan2(beside[1], beside[0])
+    return turn(_UP, roll) @ axes, math.atan2(float(np.linalg.norm(beside)), float(centre[2]) - low)
 
 
 def leaning_offset(group: Group, wall: Group, way: Array, gap: float) -> Array:
     """Where the middle of `group`, turned already, is from that of `wall` so that it nearly touches it [m], shape (2,).
 
+    It leans on the middle, or where that is low (the seat of an armchair), on what is higher beside it (an arm).
+
     Raises:
         LayoutError: it passes by.
     """
     low_wall = wall.shifted(np.array([0.0, 0.0, gap - float(wall.low[2])]))
-    middle = (low_wall.root.low + low_wall.root.high) / 2
+    middle, half = (low_wall.root.low + low_wall.root.high) / 2, (low_wall.root.high - low_wall.root.low) / 2
     own = (group.root.low + group.root.high) / 2
     start = group.shifted(np.array([*(middle - own)[:2], gap - float(group.low[2])]))
+    enough = gap + HELD * float(start.root.centre_of_mass[2] - gap)
+    aside = np.cross(_UP, way)
+    best: tuple[float, Array] | None = None
+    for share in _ASIDE:
+        met = _met(start.shifted(share * float(half @ np.abs(aside)) * aside), low_wall, way, gap)
+        if met is not None and (best is None or met[0] > best[0] + _HIGHER):
+            best = met
+        if best is not None and best[0] >= enough:
+            break
+    if best is None:
+        raise LayoutError(f'"{group.name}" finds nothing of "{wall.name}" to lean against. Nothing was written.')
+    return (best[1] - middle)[:2]
+
+
+def _met(start: Group, wall: Group, way: Array, gap: float) -> tuple[float, Array] | None:
+    """How high `start`, moved along `way`, meets `wall` [m], and where the middle of its root is then, shape (3,)."""
     back = (
-        float((start.high - low_wall.low)[:2] @ np.abs(way[:2]))
+        float((start.high - wall.low)[:2] @ np.abs(way[:2]))
         if way[:2].sum() > 0
-        else float((low_wall.high - start.low)[:2] @ np.abs(way[:2]))
+        else float((wall.high - start.low)[:2] @ np.abs(way[:2]))
     )
     start = start.shifted(-way * (back + gap))
-    furthest = 2.0 * (back + gap) + float(np.linalg.norm(low_wall.size[:2]))
+    furthest = 2.0 * (back + gap) + float(np.linalg.norm(wall.size[:2]))
     moved = 0.0
     while moved < furthest:
         here = start.shifted(way * moved)
-        free = _distance(here, low_wall) - gap
+        nearest = _nearest(here, wall)
+        free = nearest.distance - gap
         if free < 2e-5:
-            away = (here.root.low + here.root.high) / 2 - middle
-            return away[:2]
+            return float(nearest.first[2]), (here.root.low + here.root.high) / 2
         moved += free
-    raise LayoutError(f'"{group.name}" finds nothing of "{wall.name}" to lean against. Nothing was written.')
+    return None
 
 
 def under_offset(group: Group, cover: Group, gap: float) -> Array:
@@ -109,6 +159,6 @@ def covered(body: Placed, cover: Placed, air: float) -> bool:
     return math.isfinite(above) and above >= float(body.high[2]) + air
 
 
-def _distance(group: Group, wall: Group) -> float:
+def _nearest(group: Group, wall: Group) -> Witness:
     found = [distance(one, other) for one in group.members for other in wall.members]
-    return min(one.distance for one in found if one is not None)
+    return min((one for one in found if one is not None), key=lambda one: one.distance)

@@ -14,7 +14,7 @@ from pat3d.geometry.polygons import outline
 from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
-from pat3d.layout.containers import Column, listed, lower, pack
+from pat3d.layout.containers import Column, lower, pack
 from pat3d.layout.flat import Item, Lateral, Spot
 from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
@@ -22,6 +22,7 @@ from pat3d.layout.group import Group
 from pat3d.layout.loosening import loosen
 from pat3d.layout.place_settings import Setting
 from pat3d.layout.places import pins
+from pat3d.layout.refusals import largest_formation, no_room
 from pat3d.layout.surfaces import NOTHING, arrange_flat
 
 _ROOMY = 2.0
@@ -91,7 +92,9 @@ def spread(
             if overflow:
                 notes.append(f'"{top.name}" is too small for all that is on it side by side: it is piled up.')
         elif overflow:
-            raise _refusal(top, overflow[0], [group.name for group in (*top.given, *placed)])
+            before = [group.name for group in (*top.given, *placed)]
+            most = largest_formation(top.wishes, groups, laterals, lambda *less: _fits(top, *less))
+            raise no_room(overflow[0], top.name, top.regions[0], before, most)
         else:
             notes.extend(
                 f'"{group.name}" may tip or fall off "{top.name}".'
@@ -192,11 +195,12 @@ def _as_many(
     """As many of `share`, from its beginning, as fit on one region, placed; and the rest."""
     best: list[Group] = []
     said: list[str] = []
-    fit, beyond = 0, len(share) + 1
-    tried = len(share)
+    cuts = _cuts(top, share, laterals)
+    fit, beyond = 0, len(cuts)
+    tried = len(cuts) - 1
     while fit < tried:
         remarks: list[str] = []
-        found = _on_region(top, region, share[:tried], laterals, before, rng, remarks)
+        found = _on_region(top, region, share[: cuts[tried]], laterals, before, rng, remarks)
         if found is None:
             beyond = tried
         else:
@@ -204,7 +208,25 @@ def _as_many(
         # By halving: of twenty that do not fit together, five shares are tried, not twenty.
         tried = (fit + beyond) // 2
     notes.extend(said)
-    return best, list(share[fit:])
+    return best, list(share[cuts[fit] :])
+
+
+def _fits(top: Top, wishes: Wishes, groups: Sequence[Group], laterals: Sequence[Lateral]) -> bool:
+    """Whether `groups` fit one of the regions together."""
+    less, rng = replace(top, wishes=wishes), np.random.default_rng(0)
+    return any(_on_region(less, region, groups, laterals, (), rng, []) is not None for region in top.regions)
+
+
+def _cuts(top: Top, share: Sequence[Group], laterals: Sequence[Lateral]) -> list[int]:
+    """Where `share` may be parted among tiers: no row is, nor what stands beside another thing."""
+    if len(top.regions) == 1:
+        return list(range(len(share) + 1))
+    ties = [{lat.child, lat.parent} for lat in laterals] + [set(one.names) for one in top.wishes.formations]
+    names = [group.name for group in share]
+    return [
+        at for at in range(len(share) + 1)
+        if all(tie.isdisjoint(names[:at]) or tie.isdisjoint(names[at:]) for tie in ties)
+    ]  # fmt: skip
 
 
 def _on_region(
@@ -364,15 +386,3 @@ def _base_centre(group: Group) -> Array:
     vertices = group.root.vertices
     foot = vertices[vertices[:, 2] < group.root.low[2] + 0.002, :2]
     return (foot.min(axis=0) + foot.max(axis=0)) / 2
-
-
-def _refusal(top: Top, group: Group, before: list[str]) -> LayoutError:
-    region = top.regions[0]
-    width, depth = 2 * np.array(region.surface.half_size)
-    beside = f" beside {listed(before)}" if before else ""
-    tall = f", {region.height:.2f} m high" if region.enclosed else ""
-    return LayoutError(
-        f'"{group.name}" ({group.size[0]:.2f} x {group.size[1]:.2f} x {group.size[2]:.2f} m) finds no room on '
-        f'"{top.name}" ({width:.2f} x {depth:.2f} m{tall}){beside}. Fewer or smaller objects, fewer relations, or a '
-        f'larger "{top.name}", would fit. Nothing was written.'
-    )

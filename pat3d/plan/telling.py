@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
-from pat3d.scene.arrangements import ARRANGEMENTS
+from pat3d.scene.arrangements import ARRANGEMENTS, crossing
 from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation, carriers_of
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -154,9 +155,16 @@ class _Teller:
 
     def _rows(self) -> list[str]:
         rows = [each for each in self._plan.arrangements if each.kind == "row" and each.arranged]
-        return [
-            f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in rows if len(each.objects) > 1
-        ]
+        grids = crossing([each.objects for each in rows])
+        made = [self._grid(cells) for cells in grids]
+        alone = [each for each in rows if len(each.objects) > 1 and not any(set(each.objects) <= set(g) for g in grids)]
+        return made + [f"{self._all(each.objects)} are in a row {self._direction(each)}" for each in alone]
+
+    def _grid(self, cells: Mapping[str, tuple[int, int]]) -> str:
+        """Several rows with aligned columns."""
+        lengths = list(Counter(row for _, row in cells.values()).values())
+        each = f"of {_count(lengths[0])}" if len(set(lengths)) == 1 else f"of {_joined([_count(n) for n in lengths])}"
+        return f"{self._all(list(cells))} are in {_count(len(lengths))} rows {each}, one behind the other"
 
     def _direction(self, row: Arrangement) -> str:
         """Where a row runs: as a relation of its first two has it, else to the right."""
@@ -197,7 +205,13 @@ class _Teller:
         # What lies by nature and is said to stand does so on its edge.
         on_end = {one.object for one in self._plan.postures if re.search(r"upright|end|edge", one.said)}
         told |= {name: "on its edge" for name in told if name in on_end and held[name] == "on_its_side"}
-        return [f"{self._the(name)} {self._is([name])} {how}" for name, how in told.items()]
+        by_how: dict[str, list[str]] = {}
+        for name, how in told.items():
+            by_how.setdefault(how, []).append(name)
+        return [
+            f"{self._all(names)} {self._is(names)} {how if len(names) == 1 else how.replace('its', 'their')}"
+            for how, names in by_how.items()
+        ]
 
     def _is(self, names: Sequence[str]) -> str:
         return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"

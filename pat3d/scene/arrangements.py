@@ -87,7 +87,7 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
         alone="in a row",
         objects=(2, MANY),
         of=(0, 0),
-        holds="the middles are on one line, in order, and the gaps or the distances of the middles are equal",
+        holds="middles on one line, in order, gaps or distances of the middles equal, and all turned alike",
     ),
     "circle": ArrangementRule(
         words="in a circle around",
@@ -221,3 +221,36 @@ def check_arrangements(
             raise SpecError(f'"{one}": say first that "{astray[0]}" is on "{one.of[0]}".')
         if one.kind == "under" and any(rel.supports and {rel.child, rel.parent} == {*one.names} for rel in relations):
             raise SpecError(f'"{one}": one carries the other; the relation "on" alone says so.')
+
+
+def crossing(rows: Sequence[tuple[str, ...]]) -> list[dict[str, tuple[int, int]]]:
+    """Column and row of everything in rows that cross each other, for every set of these; none for a row alone.
+
+    Rows that would have a thing at two crossings, or two at one, cross nothing.
+    """
+    waiting, found = list(rows), []
+    while waiting:
+        crossed, cells = _crossed(waiting)
+        if len(crossed) > 1 and cells and len(set(cells.values())) == len(cells):
+            found.append(cells)
+        waiting = [row for row in waiting[1:] if row not in crossed]
+    return found
+
+
+def _crossed(rows: Sequence[tuple[str, ...]]) -> tuple[list[tuple[str, ...]], dict[str, tuple[int, int]]]:
+    """The first of `rows`, along x, with all that cross it and each other, and where everything in them is.
+
+    Nowhere, where two places are asked of one thing.
+    """
+    axes = {rows[0]: 0}
+    cells, sound = {name: (at, 0) for at, name in enumerate(rows[0])}, True
+    while True:
+        crossed = next(((row, name) for row in rows if row not in axes for name in row if name in cells), None)
+        if crossed is None:
+            return list(axes), cells if sound else {}
+        row, name = crossed
+        axes[row] = axis = 1 - next(axes[other] for other in axes if name in other)
+        for at, member in enumerate(row):
+            cell = list(cells[name])
+            cell[axis] += at - row.index(name)
+            sound &= cells.setdefault(member, (cell[0], cell[1])) == (cell[0], cell[1])

@@ -150,9 +150,9 @@ def decisions(repeated: float | None) -> dict[str, dict[str, int]]:
 
 
 def settings_in(suite: Suite, splits: Sequence[str]) -> tuple[Setting, ...]:
-    """Scenes and tasks of splits, those that the suite has."""
+    """Scenes, tasks and rooms of splits, those that the suite has."""
     return tuple(
-        Setting(scene=str(suite.folder.scene(entry.place)), task=entry.task)
+        Setting(scene=str(suite.folder.scene(entry.place)), task=entry.task, room=entry.room, rooms=suite.request.rooms)
         for entry in suite.entries
         if entry.split in splits
     )

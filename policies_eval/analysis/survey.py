@@ -76,7 +76,7 @@ def survey(
 
 
 def look(suite: Suite, entry: Entry) -> Surveyed:
-    """Look at one scene."""
+    """Look at one scene, in the room that it is in."""
     from pat3d.envs.env import TabletopEnv
     from pat3d.envs.suites.sight import about, shares
     from pat3d.envs.tasks.naming import called
@@ -84,7 +84,11 @@ def look(suite: Suite, entry: Entry) -> Surveyed:
 
     suite.verify(entry)
     env = TabletopEnv(
-        scene=suite.folder.scene(entry.place), task=entry.task, robot=suite.request.robot, max_objects=None
+        scene=suite.folder.scene(entry.place),
+        task=entry.task,
+        robot=suite.request.robot,
+        room=entry.room,
+        max_objects=None,
     )
     try:
         env.reset(seed=0)

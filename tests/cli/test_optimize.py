@@ -278,3 +278,13 @@ def test_lost_are_the_lateral_relations_that_the_layout_had(monkeypatch):
     assert optimize_stage.lost(overhanging_scene(), results) == (had,)
     held = tuple(SimpleNamespace(relation=one, holds=True) for one in (support, had))
     assert optimize_stage.lost(overhanging_scene(), held) == ()
+
+
+def test_what_the_layout_never_had_is_counted_apart_from_what_broke():
+    record = {"kept": False, "trials": [{"broken": 0}], "left_aside": ["plank behind block"]}
+    told = optimize_stage.in_words(record)
+    assert told == (
+        "no better layout was found (0 relations broken); 1 relation left aside, which the layout never had; "
+        "1 layout settled"
+    )
+    assert "left aside" not in optimize_stage.in_words({**record, "left_aside": []})

@@ -59,6 +59,7 @@ class Given(States):
             xipos=xipos,
             qvel=random.standard_normal((worlds, model.nv)) * random.choice([1e-3, 0.03, 1.0], size=(worlds, 1)),
             sites=random.standard_normal((worlds, model.nsite, 3)),
+            site_xmat=Rotation.random(worlds * model.nsite, random).as_matrix().reshape(worlds, model.nsite, 9),
             touching=touching | touching.transpose(0, 2, 1),
             pinched=random.random((worlds, 2, count)) < 0.5,
             **self._about,
@@ -73,7 +74,7 @@ class Given(States):
         kept = {
             name: value[own].copy()
             for name, value in self.snapshot._asdict().items()
-            if name not in ("bodies", "dofs", "hand", "surface")
+            if name not in ("bodies", "dofs", "hand", "surface", "grips")
         }
         one.snapshot = self.snapshot._replace(**kept)
         return one

@@ -10,6 +10,9 @@ import pytest
 from pat3d.envs.physics.predicates import (
     CONTACT_DEPTH,
     FLOOR_ROW,
+    LEVER,
+    NEAR_GRASP,
+    NEAR_HAND,
     OWNERS,
     ROBOT_ROW,
     judge_lift,
@@ -18,15 +21,18 @@ from pat3d.envs.physics.predicates import (
     judge_sort,
     judge_unload,
     pairs_that,
+    reached,
     upsets,
 )
-from pat3d.envs.physics.snapshot import Floors, Snapshot
+from pat3d.envs.physics.snapshot import Floors, Grips, Snapshot
 
 HAIR = 1e-9
 HAND = 1
 """Site of the hand; another one is beside it."""
 
 CHILD, PARENT, OTHER = 0, 1, 2
+
+Vector = tuple[float, float, float]
 
 
 def at_rest(worlds: int, objects: int = 3) -> Snapshot:
@@ -42,6 +48,7 @@ def at_rest(worlds: int, objects: int = 3) -> Snapshot:
         xipos=xpos.copy(),
         qvel=np.zeros((worlds, 6 * objects)),
         sites=np.full((worlds, 2, 3), 50.0),
+        site_xmat=np.tile(np.eye(3).reshape(9), (worlds, 2, 1)),
         touching=np.zeros((worlds, count, count), dtype=np.bool_),
         pinched=np.zeros((worlds, 2, count), dtype=np.bool_),
         start_centre=np.ascontiguousarray(xpos[:, bodies]),
@@ -50,7 +57,15 @@ def at_rest(worlds: int, objects: int = 3) -> Snapshot:
         dofs=np.array([*(6 * np.arange(objects - 1)), -1]),
         hand=HAND,
         surface=0.5,
+        grips=grips_of(),
     )
+
+
+def grips_of(*grasps: tuple[Vector, Vector, Vector], axis: Vector = (0.0, 1.0, 0.0), objects: int = 3) -> Grips:
+    """Grasps of the first object: where the grip site is, where the fingers point and in which direction they close."""
+    position, approach, closing = np.array(grasps, dtype=np.float64).reshape(-1, 3, 3).transpose(1, 0, 2).copy()
+    ends = np.array([0, *([len(grasps)] * objects)], dtype=np.int64)
+    return Grips(position, approach, closing, ends, np.array(axis))
 
 
 def floor_of(*pairs: tuple[int, int], half: float = 0.01, height: float = 0.1, disc: bool = False) -> Floors:
@@ -375,3 +390,57 @@ def test_something_is_unloaded_when_nothing_is_left_and_nothing_fell():
     start = s.start_centre[0]
     wanted = [begun(high, start[1]) / 2, (1 + begun(low, start[0])) / 2, 1.0, 0.5, 1.0]
     np.testing.assert_allclose(progress, wanted, atol=1e-12)
+
+
+DOWN: Vector = (0.0, 0.0, -1.0)
+
+
+def hand_at(s: Snapshot, world: int, position, frame) -> None:
+    s.sites[world, HAND], s.site_xmat[world, HAND] = position, np.asarray(frame).reshape(9)
+
+
+def closeness_to_grasp(away: float) -> float:
+    return 1.0 - 0.5 * (math.tanh(away / NEAR_HAND) + math.tanh(away / NEAR_GRASP))
+
+
+def test_a_hand_in_a_grasp_has_reached_it_wherever_the_object_has_got_to_and_whichever_finger_is_where():
+    """The object is turned about z and moved; the hand is moved with it, and once more with its fingers exchanged."""
+    grasp: tuple[Vector, Vector, Vector] = ((0.02, 0.0, 0.05), DOWN, (0.0, 1.0, 0.0))
+    s = at_rest(2)._replace(grips=grips_of(((0.3, 0.0, 0.0), DOWN, (1.0, 0.0, 0.0)), grasp))
+    c, t = math.cos(math.radians(40.0)), math.sin(math.radians(40.0))
+    about = np.array([[c, -t, 0.0], [t, c, 0.0], [0.0, 0.0, 1.0]])
+    for world, sign in enumerate((1.0, -1.0)):
+        put(s, world, 0, (0.4, 0.1, 1.3))
+        s.xmat[world, s.bodies[0]] = about.reshape(9)
+        # Columns: x, the closing direction y, and the approach z, down.
+        hand = about @ np.diag([-sign, sign, -1.0])
+        hand_at(s, world, np.array([0.4, 0.1, 1.3]) + about @ grasp[0], hand)
+        assert reached(s, world, 0) == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("axis", [(0.0, 1.0, 0.0), (1.0, 0.0, 0.0)])
+@pytest.mark.parametrize(
+    ("moved", "tilted", "turned"), [(0.07, 0.0, 0.0), (0.0, 0.5, 0.0), (0.0, 0.0, 0.4), (0.03, 0.2, -0.3)]
+)
+def test_closeness_falls_with_the_way_the_lean_and_the_turn_that_are_missing(axis, moved, tilted, turned):
+    """Of two grasps the nearer counts; a lean about the closing direction leaves that as it is."""
+    near: tuple[Vector, Vector, Vector] = ((0.0, 0.0, 0.1), DOWN, (0.0, 1.0, 0.0))
+    s = at_rest(1)._replace(grips=grips_of(((0.5, 0.5, 0.5), DOWN, (0.0, 1.0, 0.0)), near, axis=axis))
+    put(s, 0, 0, (0.0, 0.0, 1.0))
+    # The frame of the grip site in which `axis` is along the grasp's closing direction and z points down.
+    down = np.diag([-1.0, 1.0, -1.0]) if axis[1] else np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+    lean = np.array(
+        [[math.cos(tilted), 0.0, math.sin(tilted)], [0.0, 1.0, 0.0], [-math.sin(tilted), 0.0, math.cos(tilted)]]
+    )
+    spin = np.array(
+        [[math.cos(turned), -math.sin(turned), 0.0], [math.sin(turned), math.cos(turned), 0.0], [0.0, 0.0, 1.0]]
+    )
+    hand_at(s, 0, (0.0, moved, 1.1), spin @ lean @ down)
+    expected = closeness_to_grasp(moved + LEVER * (abs(tilted) + abs(turned)))
+    assert reached(s, 0, 0) == pytest.approx(expected, abs=1e-6)
+
+
+def test_without_a_known_grasp_the_middle_of_the_object_is_what_counts():
+    s = at_rest(1)
+    hand_at(s, 0, (0.0, 0.15, 1.0), np.eye(3))
+    assert reached(s, 0, 0) == pytest.approx(1.0 - math.tanh(0.15 / NEAR_HAND))

@@ -7,10 +7,17 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
+from pat3d.assets.shapes import box
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.physics.views import DRAWN_GROUPS
 from pat3d.envs.physics.world import ROBOT
+from pat3d.envs.rendering.pictures import Pictures
+from pat3d.envs.suites.sight import shares
+from pat3d.envs.tasks.registry import parse_task
+from pat3d.envs.tasks.rehearsal import workplace
+from pat3d.exporters.mjcf.writer import write_mjcf
 from tests.envs.own_arm import own_arm
+from tests.scenes import GAP, asset_of, placed, scene_of
 
 SIDE = 128
 
@@ -24,8 +31,11 @@ def arm(tmp_path_factory):
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_every_object_and_the_hands_or_the_whole_robot_are_in_a_square_picture(arm, count):
-    """No pixel of an object is on the picture's edge, nor of the front camera's whole robot but for the pedestal's."""
+def test_the_work_and_the_hands_or_everything_and_the_whole_robot_are_in_a_square_picture(arm, count):
+    """No pixel of the agent's task is on the picture's edge, nor one of any object or the robot on the front camera's.
+
+    The pedestal may be, and of what the task is not about the agent's camera shows the middle.
+    """
     env = TabletopEnv(robot=[arm] * count, task="pick:red mug")
     env.reset(seed=0)
     for camera in ("agentview", "frontview"):
@@ -38,13 +48,16 @@ def test_every_object_and_the_hands_or_the_whole_robot_are_in_a_square_picture(a
             assert not robot[:, [0, -1]].any()
         model, data = env.simulation.model, env.simulation.data
         view = model.camera(camera).id
-        for one in env.simulation.world.arms:
-            tip = data.site(one.prefix + one.robot.grip_site).xpos - data.cam_xpos[view]
-            right, up, ahead = data.cam_xmat[view].reshape(3, 3).T @ tip
+        tips = [data.site(one.prefix + one.robot.grip_site).xpos for one in env.simulation.world.arms]
+        middles = [obj.pose.apply(obj.asset.visual.bounds).mean(axis=0) for obj in env.scene.objects]
+        for point in (*tips, *middles):
+            right, up, ahead = data.cam_xmat[view].reshape(3, 3).T @ (point - data.cam_xpos[view])
             half = -ahead * np.tan(np.radians(model.cam_fovy[view] / 2))
             assert max(abs(right), abs(up)) < half
         assert set(np.unique(labels)) >= {1, *range(2, 2 + len(env.scene.objects))}
-        for number in range(len(env.scene.objects)):
+        for number, obj in enumerate(env.scene.objects):
+            if camera == "agentview" and obj.name != "red mug":
+                continue
             seen = labels == 2 + number
             assert not seen[[0, -1]].any()
             assert not seen[:, [0, -1]].any()
@@ -65,6 +78,21 @@ def test_cameras_are_no_farther_than_needed(arm):
     objects = np.flatnonzero((labels > 1).any(axis=1))
     assert objects[-1] > 0.85 * SIDE
     env.close()
+
+
+def test_what_is_beside_the_work_does_not_drive_the_agents_camera_away(tmp_path, arm):
+    """A long tray is shown whole where the task names it, from farther off; else its middle is enough."""
+
+    def share(task):
+        scene = scene_of(
+            placed("cube", asset_of(box(0.05, 0.05, 0.05)), (0.0, 0.0, GAP)),
+            placed("tray", asset_of(box(0.7, 0.04, 0.02)), (0.0, 0.12, GAP)),
+        )
+        work = workplace(scene, write_mjcf(scene, tmp_path / task.replace(":", "-")), parse_task(task), arm)
+        pictures = Pictures(work.simulation, "cpu")
+        return shares(pictures, scene, "agentview", ("cube",))["cube"]
+
+    assert share("pick:cube") > 1.5 * share("stack:cube:tray")
 
 
 def test_links_that_have_nothing_but_what_collides_are_drawn(arm):

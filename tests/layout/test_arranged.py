@@ -1,20 +1,23 @@
 """When arrangements hold: blocks at given places, moved across the border of every definition."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from pat3d.assets import shapes
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
-from pat3d.layout.bodies import Body
+from pat3d.layout.bodies import Body, distance, place, place_all
 from pat3d.layout.layout import arrange
-from pat3d.layout.leaning import leaning_rotation
+from pat3d.layout.leaning import BEYOND, leaning_rotation
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.predicates import check_arranged, check_relations
+from pat3d.layout.spans import crossing
 from pat3d.scene.arrangements import Arrangement, Posture
 from pat3d.scene.model import Relation
-from tests.layout.things import ball, block, mug, pen, table, vessel
+from tests.layout.things import asset, ball, block, mug, pen, shelf, table, vessel
 
 SIDE = 0.06
 
@@ -63,6 +66,30 @@ def test_a_row_is_straight_in_order_and_evenly_spaced():
     assert not holds("row", {"a": (0, 0), "b": (0.4, 0), "c": (0.2, 0)}, "abc"), "not in order"
     assert not holds("row", {"a": (0, 0), "b": (0.1, 0), "c": (0.4, 0)}, "abc"), "uneven"
     assert not holds("row", {"a": (0, 0), "b": (0.2, 0.05), "c": (0.4, 0)}, "abc"), "not straight"
+
+
+def test_the_ends_of_what_is_in_a_row_are_off_the_line_by_no_more_than_its_middles_may_be():
+    """Boards of 0.2 m that stand 25 cm apart: 37.5 mm allowed at an end 0.1 m away, 22 degrees, of which 15 at most.
+
+    Of boards 0.4 m long, 5 cm apart, end to end at 0.4012 m: 10 mm at 0.2 m are 2.9 degrees.
+    """
+    board = dict.fromkeys("abc", block(x=0.2, y=0.02))
+    for yaw, expected in ((14, True), (16, False), (90, False)):
+        places = {"a": (0, 0), "b": (0.25, 0, yaw), "c": (0.5, 0)}
+        assert holds("row", places, "abc", assets=board) is expected, yaw
+    long = dict.fromkeys("abc", block(x=0.02, y=0.4))
+    limit = math.degrees(math.asin(0.01 / math.hypot(0.2, 0.01)))
+    for share, expected in ((0.95, True), (1.05, False)):
+        places = {"a": (0, 0), "b": (0.05, 0, share * limit), "c": (0.1, 0)}
+        assert holds("row", places, "abc", assets=long) is expected, share
+
+
+def test_a_round_thing_in_a_row_is_turned_anyhow_and_a_turned_row_is_one():
+    assert holds("row", {"a": (0, 0), "b": (0.2, 0, 77), "c": (0.4, 0)}, "abc", assets=dict.fromkeys("abc", ball()))
+    slanted = {name: (0.2 * k * math.cos(0.5), 0.2 * k * math.sin(0.5), 28.6) for k, name in enumerate("abc")}
+    assert holds("row", slanted, "abc")
+    tipped = Pose(position=(0.2, SIDE / 2, 0.0), quat_wxyz=(0.5**0.5, 0.5**0.5, 0.0, 0.0))
+    assert holds("row", {"a": (0, 0), "b": tipped, "c": (0.4, 0)}, "abc"), "on its side and turned by nothing"
 
 
 def test_a_row_of_unequal_things_may_have_equal_gaps_or_equal_distances():
@@ -146,15 +173,56 @@ def test_what_leans_would_fall_without():
 
 
 def test_leaning_things_are_tilted_enough_to_fall_to_the_wall_and_little_enough_not_to_slide():
-    """A board 1 cm thick, 25 cm long: 12 degrees. One 10 cm thick and 30 long needs 24; ladders slide from 22.6 on."""
+    """A board 1 cm thick, 25 cm long: 9 degrees. One 10 cm thick and 30 long needs 24; ladders slide from 22.6 on."""
     tilt = leaning_rotation(Body("board", block(0.1, 0.01, 0.25)), np.array([1.0, 0.0, 0.0]))
-    assert math.degrees(math.acos(tilt[2, 2])) == pytest.approx(12.0)
+    assert math.degrees(math.acos(tilt[2, 2])) == pytest.approx(9.0)
     lying = leaning_rotation(Body("pen", block(0.3, 0.1, 0.02)), np.array([0.0, 1.0, 0.0]))
-    assert lying[2, 0] == pytest.approx(math.cos(math.radians(12.0))), "its length is up"
+    assert lying[2, 0] == pytest.approx(math.cos(math.atan2(0.02, 0.3) + BEYOND)), "its length is up"
     assert lying[1, 2] < -0.9, "its top is turned away"
     assert np.linalg.det(lying) == pytest.approx(1.0)
     with pytest.raises(LayoutError, match="too thick to lean"):
         leaning_rotation(Body("chest", block(0.3, 0.1, 0.25)), np.array([0.0, 1.0, 0.0]))
+
+
+def bent(*points: tuple[float, float], heavy: float = 0.0):
+    """A bar 1 cm wide and 2 mm thick whose underside goes through (x, z); with a box on it that starts at `heavy`."""
+    bars = [
+        shapes.convex([(x, y, z + up) for x, z in pair for y in (-0.005, 0.005) for up in (0.0, 0.002)])
+        for pair in zip(points, points[1:], strict=False)
+    ]
+    if heavy:
+        bars.append(shapes.box(0.02, 0.01, 0.02).moved(heavy, 0.0, points[0][1] + 0.001))
+    return asset("bar", shapes.join(*bars))
+
+
+def crossing_of(bar, carrier=None):
+    return crossing(place("a", bar, Pose()), place("b", carrier or vessel(0.05, 0.05), Pose()))
+
+
+def test_what_lies_across_has_its_centre_of_mass_between_its_supports_and_not_its_middle():
+    """The box on the left moves the centre of mass 5 cm from the middle of a bar of 20 cm, beyond a rim of 10 cm."""
+    bar = bent((-0.1, 0.0), (0.1, 0.0), heavy=-0.085)
+    found = crossing_of(bar)
+    centre = bar.mass_properties.centre_of_mass[0] + found.position[0]
+    assert bar.mass_properties.centre_of_mass[0] < -0.04
+    assert abs(centre) < 0.042
+    assert crossing_of(bent((-0.1, 0.0), (0.1, 0.0))).position == pytest.approx([0.0, 0.0], abs=1e-3)
+
+
+def test_what_lies_across_is_tilted_until_both_supports_are_level():
+    """The underside steps up by 1 cm: over 10 cm between the supports that is 5.7 degrees."""
+    bar = bent((-0.1, 0.0), (-0.005, 0.0), (0.005, 0.01), (0.1, 0.01))
+    found = crossing_of(bar)
+    pitch = math.degrees(math.asin(found.rotation[2, 0]))
+    assert pitch == pytest.approx(-math.degrees(math.atan2(0.01, 0.096)), abs=0.3)
+
+
+@pytest.mark.parametrize(("slope", "stays"), [(2.0, True), (5.0, True), (8.0, False), (15.0, False)])
+def test_what_slides_down_its_own_slope_does_not_lie_across(slope, stays):
+    """Two halves that both slope down to the right by `slope`, a step between; friction may have to hold 6 degrees."""
+    rise = 0.0525 * math.tan(math.radians(slope))
+    saw = bent((-0.11, rise), (-0.005, -rise), (0.005, rise), (0.11, -rise))
+    assert (crossing_of(saw, vessel(0.062, 0.05)) is not None) == stays
 
 
 def test_postures_put_a_flat_face_down():
@@ -165,6 +233,9 @@ def test_postures_put_a_flat_face_down():
     assert abs((side.T @ [0, 0, -1])[0]) == pytest.approx(1.0), "on one of its wider sides, 6 x 20 cm"
     assert check_arranged((), (Posture(object="a", kind="on_its_side"),), {"a": block()},
                           {"a": Pose.from_matrix(side, np.zeros(3))})[0].holds  # fmt: skip
+    domino = posture_rotation(Body("domino", block(0.05, 0.025, 0.009, noun="domino")), "on_its_side")
+    np.testing.assert_allclose(domino @ [1, 0, 0], [0, 0, 1], atol=1e-9, err_msg="on its end")
+    np.testing.assert_allclose(np.abs(domino @ [0, 0, 1]), [1, 0, 0], atol=1e-9, err_msg="its face to the next")
     with pytest.raises(LayoutError, match='"pin" cannot stay upside down'):
         posture_rotation(Body("pin", block(0.004, 0.004, 0.2)), "upside_down")
 
@@ -215,3 +286,72 @@ def test_what_is_laid_across_a_bowl_bridges_it_and_what_is_too_short_is_refused(
     assert check_arranged((across,), (), things, layout.poses)[0].holds
     with pytest.raises(LayoutError, match=r'"a" \(0.10 m long\) does not reach across "b"'):
         arrange({**things, "a": pen(0.1)}, relations, seed=0, arrangements=(across,))
+
+
+def book(thick: float = 0.03):
+    return block(x=0.16, y=0.22, z=thick, noun="book")
+
+
+def on_shelf(names):
+    return tuple(Relation(child=name, kind="on", parent="shelf") for name in names)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_books_in_a_row_stand_on_one_tier_close_together_between_bookends_that_turn_their_plates_to_them(seed):
+    books = {name: book(0.02 + 0.005 * k) for k, name in enumerate("abcd")}
+    ends = {
+        "left": block(x=0.12, y=0.12, z=0.15, noun="bookend"),
+        "right": block(x=0.12, y=0.12, z=0.15, noun="bookend"),
+    }
+    assets = {"shelf": shelf(), **books, **ends}
+    asked = (
+        Arrangement(kind="row", objects=tuple(books)),
+        Arrangement(kind="between", objects=tuple(books), of=("left", "right")),
+    )
+    stood = dict.fromkeys(books, "on_its_side")
+    poses = arrange(assets, on_shelf([*books, *ends]), seed=seed, arrangements=asked, postures=stood).poses
+    found = check_arranged(asked, tuple(Posture(object=name, kind="on_its_side") for name in books), assets, poses)
+    assert [result for result in found if not result.holds] == []
+    placed = place_all(assets, poses)
+    order = ["left", *books, "right"]
+    gaps = [placed[b].low[0] - placed[a].high[0] for a, b in pairwise(order)]
+    assert gaps == pytest.approx([0.003] * 5, abs=1e-6)
+    for name in books:
+        assert placed[name].rotation @ [-1, 0, 0] == pytest.approx([0, -1, 0], abs=1e-9), "its spine is in front"
+        assert placed[name].rotation @ [0, -1, 0] == pytest.approx([0, 0, -1], abs=1e-9), "on its lower edge"
+    # The plate of a bookend is at -x of its own.
+    assert placed["left"].rotation[0, 0] == pytest.approx(-1.0)
+    assert placed["right"].rotation[0, 0] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("count", [4, 9])
+def test_what_stands_beside_another_is_never_on_another_tier(count):
+    """Boxes of 20 cm, each left of the next: four fit a tier of 0.78 m, and nine are refused, not parted."""
+    names = [f"box {k}" for k in range(count)]
+    assets = {"shelf": shelf(), **dict.fromkeys(names, block(0.18, 0.1, 0.1, noun="box"))}
+    beside = tuple(Relation(child=a, kind="left_of", parent=b) for a, b in pairwise(names))
+    if count > 4:
+        with pytest.raises(LayoutError, match='finds no room on "shelf"'):
+            arrange(assets, on_shelf(names) + beside, seed=0)
+        return
+    poses = arrange(assets, on_shelf(names) + beside, seed=0).poses
+    assert len({round(poses[name].position[2], 3) for name in names}) == 1
+    assert [found for found in check_relations(beside, assets, poses) if not found.holds] == []
+
+
+def test_of_books_side_by_side_the_second_leans_on_the_first_and_the_third_stands_by_it():
+    assets = {"shelf": shelf(), **{name: book() for name in "abc"}}
+    asked = (
+        Arrangement(kind="side_by_side", objects=tuple("abc")),
+        Arrangement(kind="leaning_against", objects=("b",), of=("a",)),
+    )
+    beside = (Relation(child="a", kind="left_of", parent="b"), Relation(child="b", kind="left_of", parent="c"))
+    postures = dict.fromkeys("ac", "on_its_side")
+    poses = arrange(assets, on_shelf("abc") + beside, seed=0, arrangements=asked, postures=postures).poses
+    placed = place_all(assets, poses)
+    row, _ = check_arranged(asked, (), assets, poses)
+    assert row.holds, row.detail
+    upper = placed["b"].rotation @ [0, 1, 0]
+    assert upper[0] < -0.2, "to the left"
+    assert distance(placed["a"], placed["b"]).distance < 0.003
+    assert placed["c"].low[0] > placed["b"].high[0]

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from pat3d.layout.bodies import Body
-from pat3d.layout.flat import Item
+from pat3d.layout.flat import Item, Lateral
 from pat3d.layout.formations import Formation, pairs
 from pat3d.layout.group import Group
 from pat3d.layout.layout import arrange
 from pat3d.layout.places import _joined
 from pat3d.layout.tops import item_of
+from pat3d.scene.arrangements import crossing
 from pat3d.scene.model import Relation
 from tests.layout.things import ball, block, shelf
 
@@ -61,6 +62,36 @@ def test_a_ring_is_even_keeps_all_gaps_and_is_hardly_larger_than_it_has_to_be(co
     # Rings grow by steps of 2 %.
     assert least_excess(offsets) >= -1e-12
     assert least_excess({name: at / 1.02 for name, at in offsets.items()}) < 0.0
+
+
+def test_rows_that_cross_are_a_lattice_of_equal_steps_whatever_the_sizes():
+    """Two rows of three with their columns, of boxes of 2 to 30 cm: the least equal steps that keep gaps."""
+    things = items(6, seed=4)
+    rows = [("a", "b", "c"), ("d", "e", "f")]
+    columns = [("a", "d"), ("b", "e"), ("c", "f")]
+    (cells,) = crossing([*rows, *columns])
+    assert cells == {"a": (0, 0), "b": (1, 0), "c": (2, 0), "d": (0, 1), "e": (1, 1), "f": (2, 1)}
+    for order in (rows + columns, columns + rows, [columns[2], *rows, *columns[:2]]):
+        (found,) = crossing(order)
+        at = {name: np.array(cell) for name, cell in found.items()}
+        steps = {tuple(at[b] - at[a]) for row in rows for a, b in zip(row, row[1:], strict=False)}
+        assert len(steps) == 1, "the rows run one way, wherever the reading of them begins"
+    behind = (Lateral(child="d", kind="behind", parent="a"), Lateral(child="a", kind="right_of", parent="b"))
+    offsets = Formation(members=tuple(cells), cells=cells).offsets(things, behind, lambda _a, _b: 0.01)
+    across, back = offsets["b"] - offsets["a"], offsets["d"] - offsets["a"]
+    for name, (column, row) in cells.items():
+        np.testing.assert_allclose(offsets[name] - offsets["a"], column * across + row * back, atol=1e-12)
+    assert across[0] < 0.0, "the relation has the first on the right"
+    assert back[1] > 0.0
+    largest = np.max([item.size for item in things.values()], axis=0)
+    np.testing.assert_allclose(np.abs(across + back), largest + 0.01)
+
+
+def test_rows_that_cannot_cross_stay_rows():
+    assert crossing([("a", "b", "c")]) == []
+    assert crossing([("a", "b"), ("c", "d")]) == []
+    assert crossing([("a", "b", "c"), ("a", "b", "c")]) == [], "one row said twice"
+    assert crossing([("a", "b"), ("b", "c"), ("c", "a")]) == [], "a triangle"
 
 
 def test_the_outline_of_a_formation_is_that_of_all_its_members_where_they_stand():

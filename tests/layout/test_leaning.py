@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from pat3d.assets.catalogue import make
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.arranged import arrangement_holds
@@ -56,6 +57,37 @@ def test_a_wall_that_is_only_beside_the_board_is_nothing_to_lean_against():
     above = Group((far.root.shifted(np.array([0.0, 0.0, 1.0])), far.members[1]))
     with pytest.raises(LayoutError, match="finds nothing of"):
         leaning_offset(board, above, np.array([1.0, 0.0, 0.0]), GAP)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_it_leans_on_an_arm_where_the_seat_is_lower_than_its_centre_of_mass(way):
+    """The centre of mass of a board 25 cm long is 12.5 cm up; the seat is 10 cm high, its arms are 22."""
+    towards = np.array([*map(float, way), 0.0])
+    body = Body("board", block(0.03, 0.01, LONG))
+    board = Group((body.at(leaning_rotation(body, towards), np.zeros(3)),))
+    seat = place("seat", block(0.3, 0.3, 0.1), Pose())
+    arms = [place(f"arm {k}", block(0.05, 0.05, 0.22), Pose(position=(x, y, 0.0)))
+            for k, (x, y) in enumerate((x, y) for x in (-0.125, 0.125) for y in (-0.125, 0.125))]  # fmt: skip
+    offset = leaning_offset(board, Group((seat, *arms)), towards, GAP)
+    aside = abs(float(offset @ np.array([-way[1], way[0]])))
+    assert 0.1 < aside < 0.15
+    middle = leaning_offset(board, Group((seat,)), towards, GAP)
+    assert float(middle @ np.array([-way[1], way[0]])) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_an_umbrella_leans_tip_down_with_its_centre_of_mass_straight_before_its_tip(way):
+    umbrella = make("umbrella")
+    towards = np.array([*map(float, way), 0.0])
+    turned = umbrella.visual.vertices @ leaning_rotation(Body("umbrella", umbrella), towards).T
+    centre = leaning_rotation(Body("umbrella", umbrella), towards) @ umbrella.mass_properties.centre_of_mass
+    tip = turned[turned[:, 2] < turned[:, 2].min() + 2e-3].mean(axis=0)
+    before = centre - tip
+    assert np.degrees(np.arctan2(float(before @ towards), before[2])) == pytest.approx(9.0, abs=2.0), (
+        "the foot has an edge"
+    )
+    assert float(before @ np.cross(towards, [0.0, 0.0, 1.0])) == pytest.approx(0.0, abs=3e-3)
+    assert np.ptp(turned[turned[:, 2] > turned[:, 2].max() - 0.06, :2], axis=0).max() > 0.07, "the crook is up"
 
 
 @pytest.mark.parametrize("floor", [0.0, 3.0])

@@ -151,3 +151,82 @@ def test_what_leans_and_what_is_under_is_told_once():
     assert tell(PLANNER.plan("A book leaning against a box.")) == (
         "A book and a box stand on the ground. The book is leaning against the box."
     )
+
+
+@pytest.mark.parametrize(
+    ("sentence", "rows", "columns"),
+    [
+        ("Six dominoes in two rows on a table.", ["123", "456"], ["14", "25", "36"]),
+        ("Two rows of three cans.", ["123", "456"], ["14", "25", "36"]),
+        ("A 2x3 grid of cups.", ["123", "456"], ["14", "25", "36"]),
+        ("A grid of six cups on a tray.", ["123", "456"], ["14", "25", "36"]),
+        ("Seven mugs in a grid.", ["1234", "567"], ["15", "26", "37"]),
+        ("Five cups in two rows.", ["123", "45"], ["14", "25"]),
+        ("A row of four cups.", ["1234"], []),
+        ("Two stacks of three plates in a row.", ["14"], []),
+    ],
+)
+def test_every_row_and_every_column_is_a_row_of_the_scene(sentence: str, rows: list[str], columns: list[str]):
+    plan = PLANNER.plan(sentence)
+    assert not plan.notes
+    held = [one for one in plan.held() if one.kind == "row"]
+    assert ["".join(name.split()[-1] for name in one.objects) for one in held] == [*rows, *columns]
+
+
+def test_rows_behind_each_other_are_told_as_one_and_what_lies_in_a_vessel_stands_in_no_row():
+    from pat3d.plan.telling import tell
+
+    told = tell(PLANNER.plan("Eleven cups in three rows."))
+    assert told.endswith("The eleven cups are in three rows of four, four and three, one behind the other.")
+    boxed = PLANNER.plan("Two rows of three eggs in a carton.")
+    assert not boxed.held()
+    assert any(note.startswith("not arranged") for note in boxed.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "standing"),
+    [
+        ("A row of three books on a shelf.", ["book 1", "book 2", "book 3"]),
+        ("Three books side by side on a bookshelf.", ["book 1", "book 2", "book 3"]),
+        ("Three books side by side on a shelf, the middle one leaning on the left one.", ["book 1", "book 3"]),
+        ("Three books in a row on a table.", []),
+        ("A row of three mugs on a shelf.", []),
+        ("Two stacks of two books in a row on a shelf.", []),
+        ("Two books on a shelf.", []),
+        ("A bookshelf with three books and a vase.", ["book 1", "book 2", "book 3"]),
+        ("Three books lying on a shelf.", []),
+        ("A stack of three books on a shelf.", []),
+        ("Three mugs on a shelf.", []),
+        ("Three dominoes standing upright in a row on a table.", ["domino 1", "domino 2", "domino 3"]),
+    ],
+)
+def test_books_in_a_row_on_a_shelf_stand(sentence: str, standing: list[str]):
+    plan = PLANNER.plan(sentence)
+    assert [one.object for one in plan.turned() if one.kind == "on_its_side"] == standing
+    assert not plan.notes
+
+
+@pytest.mark.parametrize(
+    ("sentence", "wanted"),
+    [
+        ("A lamp in the corner of the desk, a laptop in the middle, and a pen at the edge.",
+         {"lamp in_corner desk", "laptop in_middle desk", "pen at_edge desk"}),
+        ("A desk with a lamp in the corner and a pen at the edge.", {"lamp in_corner desk", "pen at_edge desk"}),
+        ("A coffee table with a vase in the corner.", {"vase in_corner coffee table"}),
+        ("A bowl in the middle of the table and a mug at the edge.", {"bowl in_middle table", "mug at_edge table"}),
+        # A corner is the room's where furniture stands in it, and a middle a row's.
+        ("A desk with a lamp, and a chair in the corner.", set()),
+        ("A desk and a table with a lamp in the corner.", set()),
+    ],
+)  # fmt: skip
+def test_places_are_on_the_surface_that_is_spoken_of(sentence: str, wanted: set[str]):
+    plan = PLANNER.plan(sentence)
+    assert held(plan) == wanted
+    for arranged in plan.held():
+        assert all(plan.parent(name) == arranged.of[0] for name in arranged.objects)
+
+
+def test_many_books_stand_in_rows_of_a_dozen_at_most():
+    rows = [one.objects for one in PLANNER.plan("Thirty books on a bookshelf.").held() if one.kind == "row"]
+    assert [len(row) for row in rows] == [10, 10, 10]
+    assert len({name for row in rows for name in row}) == 30

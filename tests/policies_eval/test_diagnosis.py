@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from pat3d.envs.physics.loading import default_scene
+from pat3d.envs.suites import sight
 from pat3d.errors import EvaluationError
-from pat3d.policies_eval.analysis.diagnosis import Diagnosis, Extent, decisions
+from pat3d.policies_eval.analysis.diagnosis import Diagnosis, Extent, decisions, settings_in
 from pat3d.policies_eval.analysis.findings import Shares, judged, verdicts
 from pat3d.policies_eval.analysis.statistics import Loss, episodes_for
-from pat3d.policies_eval.analysis.survey import Surveyed, coverage, spread
+from pat3d.policies_eval.analysis.survey import VIEWS, Surveyed, coverage, look, spread
+from tests.envs.own_arm import own_arm
 
 
 def scene(place: int = 0, **changes) -> Surveyed:
@@ -135,6 +140,31 @@ def test_coverage_counts_what_is_moved_and_scenes_are_spread_over_the_suite():
     assert counted["distance"] == {"0.3 m": 2, "0.5 m": 1}
     assert spread(range(100), 4) == (0, 25, 50, 75)  # type: ignore[arg-type]
     assert spread(range(3), 4) == (0, 1, 2)  # type: ignore[arg-type]
+
+
+def test_a_scene_is_looked_at_and_tried_in_its_own_room(tmp_path, monkeypatch):
+    """Pictures are drawn of a world with that room, and episodes of the networks are in it."""
+    mujoco = pytest.importorskip("mujoco")
+    pytest.importorskip("gymnasium")
+    arm = tmp_path / "arm.xml"
+    arm.write_text(own_arm())
+    entry = SimpleNamespace(place=4, split="train", kind="pick", task="pick:red mug", room="kitchen:3")
+    request = SimpleNamespace(robot=str(arm), rooms=("kitchen", "office"))
+    folder = SimpleNamespace(scene=lambda place: default_scene())
+    suite: Any = SimpleNamespace(entries=(entry,), request=request, folder=folder, verify=lambda entry: None)
+    asked, plain = [], sight.shares
+
+    def shares(pictures, *about):
+        model = pictures._simulation.model
+        asked.append(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_MATERIAL, "room/walls") >= 0)
+        return plain(pictures, *about)
+
+    monkeypatch.setattr(sight, "shares", shares)
+    found = look(suite, entry)  # type: ignore
+    assert asked == [True] * len(VIEWS)
+    assert found.least_seen("agentview") > 0.0
+    (setting,) = settings_in(suite, ("train",))
+    assert (setting.room, setting.rooms) == ("kitchen:3", ("kitchen", "office"))
 
 
 @pytest.mark.parametrize(

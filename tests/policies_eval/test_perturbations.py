@@ -1,4 +1,4 @@
-"""Light and poses that perturbations draw: within their strength, up to it, and taken back."""
+"""Poses that perturbations draw: within their strength, up to it, and taken back."""
 
 from __future__ import annotations
 
@@ -12,44 +12,6 @@ mujoco = pytest.importorskip("mujoco")
 
 from pat3d.policies_eval.run import perturb  # noqa: E402
 from pat3d.policies_eval.run.perturb import Perturbation, Perturber  # noqa: E402
-
-LIGHTS = """
-<mujoco>
-  <worldbody>
-    <light pos="0 0 3" diffuse="0.8 0.7 0.6" ambient="0.1 0.2 0.3"/>
-    <light pos="1 -1 2" diffuse="0.4 0.4 0.5" ambient="0.3 0.1 0.1"/>
-    <body><freejoint/><geom size="0.1"/></body>
-  </worldbody>
-</mujoco>
-"""
-
-
-def lit():
-    model = mujoco.MjModel.from_xml_string(LIGHTS)
-    return SimpleNamespace(simulation=SimpleNamespace(model=model), restart=lambda: None)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_a_light_is_brighter_or_darker_as_a_whole_and_comes_back(seed):
-    """One factor a light, drawn between 1 - s and 1 + s, for what it throws and for what it leaves everywhere."""
-    env, strength = lit(), 0.5
-    model = env.simulation.model
-    names = ("light_diffuse", "light_ambient", "light_pos")
-    before = {name: getattr(model, name).copy() for name in names}
-    perturber = Perturber(env)
-    factors = np.array(perturber.apply(Perturbation(light=strength), seed)["light"])
-    assert factors.shape == (2,)
-    assert (np.abs(factors - 1.0) <= strength).all()
-    assert (np.abs(factors - 1.0) > 1e-3).all()
-    for name in ("light_diffuse", "light_ambient"):
-        # The model's colours are of single precision.
-        np.testing.assert_allclose(getattr(model, name), factors[:, None] * before[name], rtol=1e-6)
-    moved = np.abs(model.light_pos - before["light_pos"])
-    assert (moved <= strength).all()
-    assert (moved > 0.0).all()
-    perturber.undo()
-    for name in names:
-        np.testing.assert_array_equal(getattr(model, name), before[name])
 
 
 @pytest.mark.parametrize(("strength", "half_turns"), [(0.02, 0.2), (0.1, 1.0), (0.3, 1.0)])

@@ -1,14 +1,17 @@
-"""Bags, presents and small accessories."""
+"""Bags, presents, an umbrella and small accessories."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
+from scipy.optimize import root_scalar
 
 from pat3d.assets.catalogue.creature import finish, limb, pair
+from pat3d.assets.catalogue.joinery import together
 from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
-from pat3d.assets.shapes import box, convex, cylinder, ellipsoid, join, soft_box, turned_solid
+from pat3d.assets.rounded import tube
+from pat3d.assets.shapes import Shape, box, convex, cylinder, ellipsoid, join, soft_box, turned_solid
 
 
 @entry(
@@ -144,3 +147,49 @@ def bow_tie(style: Style) -> Build:
     )
     knot = turned_solid([(0.010, 0.0), (0.012, 0.008), (0.009, 0.016)], 8)
     return finish(style, [(pair(wing), colour), (knot, style.shade(colour, 0.75))], mass=0.02)
+
+
+@entry(
+    "umbrella",
+    family="wear",
+    synonyms=("closed umbrella", "folded umbrella", "furled umbrella", "rolled umbrella", "walking umbrella",
+              "rain umbrella", "brolly"),
+    material="fabric",
+    colours=("navy", "red", "green", "black"),
+    accents=("brown", "silver"),
+)  # fmt: skip
+def umbrella(style: Style) -> Build:
+    """A furled umbrella, 0.82 m long, lying on its cloth and the end of its crook, which is to the right."""
+    cloth, wood, steel = (style.colour(k) for k in range(3))
+    size = style.vary(1.0, 0.04)
+    wide, sides, bend = 0.033, 16, 0.042
+    canopy = turned_solid([(0.009, 0.06), (0.025, 0.30), (wide, 0.56), (0.012, 0.60)], sides).turned("z", 180.0 / sides)
+    tip = turned_solid([(0.004, 0.0), (0.007, 0.07)], 8)
+    turns = np.radians(np.linspace(0.0, 180.0, 13))
+    crook = [(0.0, 0.0, 0.585), (0.0, 0.0, 0.78)]
+    crook += [(0.0, bend * (1.0 - math.cos(turn)), 0.78 + bend * math.sin(turn)) for turn in turns]
+    crook += [(0.0, 2.0 * bend, 0.765)]
+    thick = [0.007 if point[2] < 0.6 else 0.0105 for point in crook]
+    handle = tube(crook, thick, 5, up=(1.0, 0.0, 0.0))
+    # The cloth lies on the side of its wider cone.
+    slope = math.degrees(math.atan2(wide - 0.025, 0.56 - 0.30))
+
+    def laid(shape: Shape, roll: float = 0.0) -> Shape:
+        return shape.turned("z", -roll).turned("y", 90.0 - slope)
+
+    def lowest(shape: Shape) -> float:
+        return float(shape.solid.bounding_box()[2])
+
+    ground = lowest(laid(canopy))
+    roll = float(root_scalar(lambda angle: lowest(laid(handle, angle)) - ground, bracket=(0.0, 90.0), xtol=1e-13).root)
+    pleats = [box(0.0016, 1.0, 1.0).moved(y=0.5).turned("z", 45.0 * k + 12.0) for k in range(8)]
+    strap = cylinder(0.1, 0.022).moved(z=0.41)
+    parts = ((laid(canopy), cloth), (laid(tip), steel), (laid(handle, roll), wood))
+    paint = ((laid(together(pleats)), style.shade(cloth, 0.6)), (laid(strap), style.shade(cloth, 0.75)))
+    # A little is cut off below, so that what touches the floor is flat.
+    down = ground + 0.0004
+    return Build(
+        parts=tuple((shape.moved(z=-down).cut_below(0.0).scaled(size), colour) for shape, colour in parts),
+        paint=tuple((shape.moved(z=-down).scaled(size), colour) for shape, colour in paint),
+        mass=0.45 * size**3,
+    )

@@ -256,14 +256,14 @@ def _sector(radius: float, start: float) -> Shape:
 
 
 @entry(
-    "umbrella",
+    "parasol",
     family="outdoor",
-    synonyms=("parasol", "beach umbrella"),
+    synonyms=("beach umbrella", "open umbrella", "patio umbrella", "garden umbrella", "sun umbrella"),
     material="fabric",
     colours=("red", "blue", "yellow"),
 )
-def umbrella(style: Style) -> Build:
-    """An open garden parasol with light panels on a heavy round foot, 2.1 m tall."""
+def parasol(style: Style) -> Build:
+    """An open parasol with light panels on a heavy round foot, 2.1 m tall."""
     colour = style.colour()
     high, wide = style.vary(2.0, 0.04), style.vary(0.95, 0.05)
     canopy = frustum(wide, 0.03, 0.34, sides=8).moved(z=high - 0.36)

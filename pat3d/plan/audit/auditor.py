@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, numbers, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
     carried,
     for_each,
@@ -34,6 +34,7 @@ from pat3d.plan.audit.words import (
     DEEDS,
     EACH,
     ENDS,
+    FORMED,
     HEADLESS,
     NUMBERS,
     ON_DISHES,
@@ -45,8 +46,14 @@ from pat3d.plan.audit.words import (
     SILENT,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.arrangements import crossing
 from pat3d.scene.relations import carriers_of
 
+_OF_SEVERAL = ARTICLES | HEADLESS | FORMED | {"from", "in", "of", "line", "tower", "column"}
+"""Words from "the third book" to what it is one of."""
+_REPEATING = REPEATS | ORDINALS | NUMBERS.keys() - {"a", "an"}
+_REMARK = re.compile(r'not modelled: "([^"]*)"')
+_REMARK_WORDS = 3
 _REACH = 5
 """Words from "a stack" to what it is of."""
 
@@ -54,6 +61,21 @@ _REACH = 5
 def _leads(words: Sequence[str]) -> bool:
     """Whether what stands before a name and `words` is said of the name: "two slices of" bread."""
     return all(word == "of" or (word[0].isalnum() and word not in BREAKING) for word in words)
+
+
+def _without_remarks(plan: ScenePlan) -> str:
+    """The prompt without what a note names as a remark that nothing is made of: so it was read."""
+    prompt = plan.prompt
+    for note in plan.notes:
+        found = _REMARK.fullmatch(note)
+        if found is None or found[1].count(" ") < _REMARK_WORDS - 1:
+            continue
+        said = re.escape(found[1])
+        prompt = re.sub(rf",\s*{said}\s*,", "", prompt, count=1, flags=re.IGNORECASE)
+        before = re.search(rf"(\w+)\s+{said}", prompt, flags=re.IGNORECASE)
+        if before is not None and before[1].lower() not in BREAKING:
+            prompt = re.sub(rf"\s{said}(?=\W|$)", "", prompt, count=1, flags=re.IGNORECASE)
+    return prompt
 
 
 def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> ScenePlan:
@@ -64,7 +86,7 @@ def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> Sce
         find: the catalogue noun that a name means, or None.
         furniture: nouns of what stands on the floor by nature, of which nobody says where it is.
     """
-    auditor = _Auditor(plan, read(plan.prompt, find), furniture)
+    auditor = _Auditor(plan, read(_without_remarks(plan), find), furniture)
     return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *auditor.differences()))))
 
 
@@ -76,6 +98,7 @@ def _shapes(it: Compared) -> frozenset[str]:
     heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
     return (
         frozenset({"pyramid"} if heaped else ())
+        | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
     )
@@ -88,7 +111,8 @@ class _Auditor(Compared):
         for mention in self.said.mentions:
             if find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects):
                 continue
-            if not mention.owned and not self.of(mention) and not self.named(mention.text):
+            place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
+            if (place or not mention.owned) and not self.of(mention) and not self.named(mention.text):
                 made.append((mention.start, f'not in the scene: "{mention.text}"'))
         made += self._miscounted()
         for mention in self.said.mentions:
@@ -112,7 +136,7 @@ class _Auditor(Compared):
             *the_one(self),
             *without(self),
         ]
-        made += [*confused(self), *numbers(self), *choices(self), *sizes(self), *storeys(self)]
+        made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *insides(self), *carried(self)]
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
@@ -153,12 +177,25 @@ class _Auditor(Compared):
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before]  # fmt: skip
+            bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
+            listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
+            least = max(least, listed if listed > 1 else 0)
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
-            most = max(least, sum(mention.number or 1 for mention in known))
+            members = [mention for mention in known if self._member(mention, mentions)]
+            most = max(least, sum(mention.number or 1 for mention in known if mention not in members))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _member(self, mention: Mention, mentions: Sequence[Mention]) -> bool:
+        """Whether `mention` is one of those that stand behind it: "the third book in a row of five books"."""
+        words = self.said.words
+        behind = next((other for other in mentions if other.start >= mention.end and (other.number or 1) > 1), None)
+        if behind is None or mention.number is not None or not mention.lead & (HEADLESS | ORDINALS):
+            return False
+        between = words[mention.end : behind.first]
+        return "of" in between and set(between) <= _OF_SEVERAL
 
     def _repeated(self, mentions: Sequence[Mention]) -> bool:
         """Whether a word stands there by which there are more of what `mentions` name than their numbers say."""
@@ -166,11 +203,17 @@ class _Auditor(Compared):
         leading = {at for mention in self.said.mentions for at in range(mention.first, mention.start)}
         for at, word in enumerate(words):
             after = words[at + 1] if at + 1 < len(words) else "."
-            if word not in REPEATS | ORDINALS | NUMBERS.keys() or (after in ENDS and word not in EACH):
+            if word not in _REPEATING or (after in ENDS and word not in EACH):
                 continue
             near = any(
-                at < mention.start <= at + _REACH and _leads(words[at + 1 : mention.first]) for mention in mentions
+                at < mention.start <= at + _REACH
+                and _leads(words[at + 1 : mention.first])
+                and not (mention.number and word in FORMED and words[at - 1] in ("a", "an", "the"))
+                for mention in mentions
             )
+            if word in FORMED and not near:
+                # "The book on the stack of four books": a stack of which the number is said.
+                continue
             # "three of each" is said of what is named before it, "each has a lid" of what is behind it.
             each = word in EACH | {"both"} and not (words[at - 1] == "of" and not after[0].isalnum())
             if each or (at not in leading and (near or any(mention.start <= at for mention in mentions))):

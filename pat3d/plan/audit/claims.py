@@ -17,6 +17,9 @@ def broken(it: Compared, claim: Claim) -> str | None:
     asked = claim.of is None and (it.tasks.strip() or it.undone)
     if it.excused(claim) or claim.said in it.undone or asked or any(name in it.tasks for name in of):
         return None
+    if claim.place == "far" and it.tasks.strip() and any(b in of and kind in ("on", "in") for _, kind, b in it.edges):
+        # "Take the cup away from the table": before the task it is there.
+        return None
     turned = any(each.kind == "upside_down" for each in it.plan.postures)
     if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Claim, Mention, singulars
 from pat3d.plan.audit.words import (
     BREAKING,
     EACH,
+    HEADLESS,
     NUMBERS,
     PACKETS,
     PIECES,
@@ -21,9 +23,11 @@ from pat3d.plan.audit.words import (
     POURED,
     REPEATS,
     REQUESTS,
+    SIDES,
     SILENT,
     SINGLE,
     TOGETHER,
+    UNCOUNTED,
 )
 from pat3d.scene.relations import OPPOSITE, RELATION_WORDS
 
@@ -42,6 +46,8 @@ def confused(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _multiplied(it)
     yield from ((0, note) for note in _numbered(it))
     yield from _beheaded(it)
+    yield from _elided(it)
+    yield from _parts_as_things(it)
     yield from _unpacked(it)
     yield from _unasked(it)
     yield from _loose(it)
@@ -58,6 +64,10 @@ def _contradictory(it: Compared) -> Iterator[str]:
 
 def _merged(it: Compared) -> Iterator[tuple[int, str]]:
     """Two definite names with different places behind them, and one object for both."""
+    for one, other in pairwise([mention for mention in it.said.mentions if _side(it, mention)]):
+        sides = _side(it, one), _side(it, other)
+        if one.noun == other.noun and one.colours == other.colours and sides[0] != sides[1] and len(it.which(one)) == 1:
+            yield other.start, f'"{one.text} {sides[0]}" and "{other.text} {sides[1]}" are read as one'
     landmarks = [claim.of for claim in it.said.claims]
     told = [(mention, claim) for mention in it.said.mentions for claim in it.said.claims
             if claim.at == mention.end and it.said.words[mention.first] == "the" and not mention.plural]  # fmt: skip
@@ -68,6 +78,14 @@ def _merged(it: Compared) -> Iterator[tuple[int, str]]:
                 continue
             if its.said != place.said and its.place != "between" and not _stays(its, place):
                 yield other.start, f'"{one.text} {its.said}" and "{other.text} {place.said}" are read as one'
+
+
+def _side(it: Compared, mention: Mention) -> str:
+    """The side behind a definite name that tells it from its like: "the bowl on the left"."""
+    said = it.said.words[mention.end : mention.end + 3]
+    definite = it.said.words[mention.first] == "the" and not mention.plural
+    led = said[:2] in (["on", "the"], ["to", "the"], ["at", "the"]) and said[2:] and said[2] in SIDES
+    return " ".join(said) if definite and led and it.said.words[mention.end + 3 : mention.end + 4] != ["of"] else ""
 
 
 def _stays(one: Claim, other: Claim) -> bool:
@@ -129,6 +147,32 @@ def _beheaded(it: Compared) -> Iterator[tuple[int, str]]:
                 yield mention.start, f'"{mention.text} {head}" is made as a "{obj.noun}"'
 
 
+def _elided(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is made as something named before though a noun stands behind it: the chopsticks of "on a small stand"."""
+    words = it.said.words
+    for obj in it.plan.objects:
+        phrase = obj.phrase.lower().split()
+        if len(phrase) != 2 or phrase[0] not in ("a", "an") or phrase[1] in HEADLESS | {"one"} or phrase[1] in obj.noun:
+            continue
+        for at in (at + len(phrase) for at in range(len(words)) if words[at : at + len(phrase)] == phrase):
+            named = any(mention.end == at for mention in it.said.mentions)
+            noun = not named and words[at : at + 1] in (["stand"], ["rest"], ["lie"], ["hang"])
+            if noun and words[at] not in it.told:
+                yield at, f'"{" ".join(words[at - len(phrase) : at + 1])}" is made as "{obj.noun}"'
+
+
+def _parts_as_things(it: Compared) -> Iterator[tuple[int, str]]:
+    """A part that is called like a thing: "a spoon with its bowl in the cup"."""
+    words = it.said.words
+    for claim in it.said.claims:
+        part = claim.of
+        if claim.place != "with" or part is None or words[part.first] != "its" or part.text in it.told:
+            continue
+        own = [obj for obj in it.which(part) if obj.phrase.lower() == " ".join(words[part.first : part.end])]
+        if own and own[0].noun not in ("lid", "saucer") and any(behind.at == part.end for behind in it.said.claims):
+            yield part.start, f'"its {part.text}" is made as a thing of its own'
+
+
 def _unpacked(it: Compared) -> Iterator[tuple[int, str]]:
     """What comes in a bottle or is a slice, and is made without it, or whole."""
     words = it.said.words
@@ -138,6 +182,8 @@ def _unpacked(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         inside = next((mention for mention in it.said.mentions if mention.first <= at + 2 < mention.end), None)
         own = it.which(inside) if inside is not None else []
+        if word in ("piece", "pieces") and words[at + 2] in UNCOUNTED:
+            continue
         packed = any(packet & set(f"{obj.name} {obj.noun}".split()) for obj in it.plan.objects)
         if own and not packed and all(obj.noun == inside.noun and obj.noun not in POURED for obj in own if inside):
             yield at, f'"{word} of {words[at + 2]}" is made as "{own[0].noun}"'

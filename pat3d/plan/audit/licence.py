@@ -10,14 +10,22 @@ from pat3d.plan.audit.claims import whose_of
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import HEADLESS, REACHING, REPEATS
+from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
 from pat3d.scene.relations import OPPOSITE, Relation
 
 _SIDES = {"left": "left_of", "right": "right_of", "front": "in_front_of"}
 _ORDERS = frozenset({"row", "rows", "line", "lined", "order", "side"})
 _FLANKING = frozenset({"flank", "flanks", "flanked", "flanking"})
 _ADDING = frozenset({"too", "likewise"})
-_STACKING = REPEATS | HEADLESS | frozenset({"stacked", "tower", "top", "piled", "pyramid", "nested", "its", "others"})
+_STACKING = FORMED | frozenset(
+    {"stacked", "stack", "towers", "tower", "column", "piled", "pyramid", "nested", "heaped"}
+)
+"""Words by which likes stand on one another."""
+_UPON = frozenset({"on", "onto", "upon", "atop", "top", "carries", "holds", "supports", "bears", "carrying", "holding",
+                   "supporting", "below", "beneath", "under", "in", "inside", "contains", "containing"})  # fmt: skip
+_ANOTHER = (REPEATS | HEADLESS | PRONOUNS | frozenset({"others", "itself"})) - {"left", "right"}
+_WITHIN = 4
+"""Words from a relation word to the like without a noun that it leads to."""
 _FEATURING = frozenset({"decorated", "including", "includes", "features", "featuring"})
 """Words by which what is first named has all that follows."""
 _SO = frozenset({"is", "are", "does", "do", "was", "were"})
@@ -39,7 +47,7 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
         nested = _HEADLESS_INSIDE.search(" ".join(it.said.words)) or any(_nests(it, c, rel) for c in it.said.claims)
         if alike and rel.kind == "in" and not nested:
             yield f'assumed: "{rel.child}" in "{rel.parent}"'
-        told = not alike or _STACKING & set(it.said.words) or _licensed(it, rel.child, rel.kind, rel.parent)
+        told = not alike or _stacked(it.said.words) or _licensed(it, rel.child, rel.kind, rel.parent)
         if rel.kind == "on" and not told:
             yield f'assumed: "{objects[rel.child].phrase}" on "{objects[rel.parent].phrase}"'
         if rel.parent in objects and not alike:
@@ -56,6 +64,14 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
             yield f'assumed: "{child}" {relations[0].kind.replace("_", " ")} "{parent}"'
 
 
+def _stacked(words: Sequence[str]) -> bool:
+    """Whether a word says that likes stand on one another, or something on one of which the noun is not said."""
+    upon = (at for at, word in enumerate(words) if word in _UPON)
+    return bool(_STACKING & set(words)) or any(
+        _ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon
+    )
+
+
 def _told_of(it: Compared, claim: Claim) -> set[str]:
     """The objects of which `claim` says where they are."""
     if claim.of is not None and claim.place in ("holding", "with"):
@@ -69,6 +85,8 @@ def _nests(it: Compared, claim: Claim, rel: Relation) -> bool:
     if claim.of is not None:
         return claim.place in ("in", "holding") and bool({rel.child, rel.parent} & _names(it, [claim.of]))
     near = [mention for mention in it.said.mentions if mention.end == claim.at]
+    if not near and it.said.words[claim.at - 1] == "nothing":
+        return False
     return claim.place == "in" and all(rel.child in _names(it, [mention]) for mention in near)
 
 
@@ -125,7 +143,8 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
             return True
-        kinds = ("on", "in") if claim.place == "with" else KINDS.get(claim.place, ())
+        taken = claim.place == "far" and bool(it.tasks.strip())
+        kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
         if kind in kinds and parent in below and child in above:
             return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
@@ -144,6 +163,11 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         after = it.said.words[mention.end : mention.end + 1]
         at_it = after == [":"] or "at" in it.said.words[max(mention.start - _NEAR, 0) : mention.start]
         if _full_of(it, mention, child, parent) or (at_it and parent in _names(it, [mention])):
+            return True
+    for mention in it.said.mentions:
+        led = it.said.words[max(mention.first - 1, 0) : mention.first] == ["to"]
+        if led and DEEDS & set(it.said.words[: mention.first]) and parent in _names(it, [mention]):
+            # "Put a spoon to the counter"
             return True
     # What stands by something on a table stands there too.
     beside = {b for a, k, b in it.edges if a == child and k not in ("on", "in", "under")}
@@ -200,7 +224,11 @@ def _joined(it: Compared, first: Mention) -> list[Mention]:
 
 def _landmarks(it: Compared, claim: Claim) -> set[str]:
     """What `claim` may lead to: what is named behind it and is joined to that, or all that a pronoun may mean."""
-    return {obj.name for obj in it.plan.objects} if claim.of is None else _names(it, _joined(it, claim.of))
+    if claim.of is not None:
+        return _names(it, _joined(it, claim.of))
+    one_of_several = it.said.words[claim.end - 1] in ("other", "others") and "one" in it.said.words[: claim.at]
+    nouns = [obj.noun for obj in it.plan.objects]
+    return {obj.name for obj in it.plan.objects if not one_of_several or nouns.count(obj.noun) > 1}
 
 
 def _said_of(it: Compared, claim: Claim) -> set[str]:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
+from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.words import ADJECTIVES, NUMBERS, POSED
+from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, NUMBERS, POSED
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
 _SMALL = frozenset({"small", "little", "tiny", "mini"})
@@ -23,6 +24,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _all_but(it)
     yield from _dozens(it)
     yield from _as_many(it)
+    yield from _of_one(it)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -106,6 +108,27 @@ def _as_many(it: Compared) -> Iterator[tuple[int, str]]:
             yield 0, f'counted otherwise: "{found[0]}"; there are {counts[0]} and {counts[1]}'
 
 
+def rows(it: Compared) -> Iterator[tuple[int, str]]:
+    """A row, or an order from left to right, that no two things of the plan stand in."""
+    stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
+    stands = stands or any(not rel.supports for rel in it.plan.relations)
+    words = it.said.words
+    for said in ("in a row", "in a line", "from left to right", "side by side", "in a circle", "in a ring"):
+        size = len(said.split())
+        at = next((at for at in range(len(words)) if " ".join(words[at : at + size]) == said), None)
+        if at is not None and not stands and len(it.plan.objects) > 1 and said not in it.quoted:
+            yield at, f'not as said: "{said}"'
+
+
+def _of_one(it: Compared) -> Iterator[tuple[int, str]]:
+    """Some of what is one object in the plan: "flowers, one of which lies beside the vase"."""
+    words = it.said.words
+    for at in (at for at in range(1, len(words) - 2) if words[at + 1 : at + 3] == ["of", "which"]):
+        before = [mention for mention in it.said.mentions if mention.end <= at][-1:]
+        if words[at] in NUMBERS and before and before[0].plural and len(it.which(before[0])) == 1:
+            yield at, f'not as said: "{words[at]} of which"; "{before[0].text}" are one object'
+
+
 def choices(it: Compared) -> Iterator[tuple[int, str]]:
     """An "or" that the plan takes for "and"."""
     words = it.said.words
@@ -130,13 +153,15 @@ def sizes(it: Compared) -> Iterator[tuple[int, str]]:
 
 
 def shared_colours(it: Compared) -> Iterator[tuple[int, str]]:
-    """A colour before two plurals that only the first of them has: "red mugs and bowls"."""
+    """What is said before two plurals and only the first of them has: "red mugs and bowls", "small cups and jars"."""
     for one, other in pairwise(it.said.mentions):
         joined = it.said.words[one.end : other.start] == ["and"] and one.plural and other.plural
-        for colour in one.colours if joined and one.number is None else ():
-            has = [[obj for obj in it.which(mention) if it.has(obj, colour)] for mention in (one, other)]
-            if has[0] and not has[1] and it.which(other):
-                yield one.start, f'"{colour}" is read as said of "{one.text}" and not of "{other.text}"'
+        lead = [word for word in it.said.words[one.first : one.start] if word not in ARTICLES]
+        for word in lead if joined and one.number is None else ():
+            described = find_colour(word) or find_material(word) or word in ADJECTIVES
+            has = [[obj for obj in it.which(mention) if it.has(obj, word)] for mention in (one, other)]
+            if described and has[0] and not has[1] and it.which(other):
+                yield one.start, f'"{word}" is read as said of "{one.text}" and not of "{other.text}"'
 
 
 def storeys(it: Compared) -> Iterator[tuple[int, str]]:

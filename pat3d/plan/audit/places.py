@@ -35,6 +35,8 @@ _LYING = frozenset({"rug", "mat", "carpet", "doormat", "bath mat", "blanket"})
 """On the floor is what is on these too."""
 _LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
 """How many there are at least of what a word without a noun is one of."""
+_ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
+"""Words that say on which side of each something is."""
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -138,6 +140,13 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         least = _LEAST.get(word, 0)
         follower = words[at + 1] if at + 1 < len(words) else "."
         if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
+            continue
+        if (
+            word == "other"
+            and {"side", "end"} & set(words[:at])
+            and words[at - 2 : at] in (["on", "the"], ["at", "the"])
+        ):
+            # "A lamp on one side of the bed and a clock on the other"
             continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
         ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
@@ -278,6 +287,10 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         else:
             plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
             owners, things = (it.which(plural[-1]) if plural else []), _listed(it, behind)
+            for mention, last in reversed(list(pairwise(plural))):
+                if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
+                    break
+                owners = [*owners, *it.which(mention)]
         yield from _fewer(it, at, things, len(owners), word)
 
 
@@ -306,7 +319,7 @@ def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
     """The first of `behind`, and what "and" joins to it."""
     made = list(behind[:1])
     for mention in behind[1:]:
-        between = set(it.said.words[made[-1].end : mention.start])
+        between = set(it.said.words[made[-1].end : mention.start]) - _ASIDE
         if "and" not in between or len(between) > 2 + len(mention.lead) or not mention.new:
             break
         made.append(mention)

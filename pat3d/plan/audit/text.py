@@ -225,7 +225,10 @@ def _size(words: Sequence[str], at: int) -> int:
         place = RELATIONS.get(tuple(words[at : at + size]))
         after = words[at + size] if at + size < len(words) else ""
         leads_on = after[:1].isalnum() and (after == "of" or after not in BREAKING | ARTICLES | OPENING)
-        if place is not None and not (place == "side" and leads_on):
+        if words[at] == "opposite" and words[at - 1] in ARTICLES:
+            continue
+        upon = words[at : at + size] == ["on", "the", "other"] and words[at - 1] == "one" and "side" not in words[:at]
+        if place is not None and not (place == "side" and (leads_on or upon)):
             return size
     return 0
 
@@ -262,7 +265,8 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             end = of.end
         after = words[at + size] if at + size < len(words) else ""
         if of is None:
-            end = at + size + (after in PRONOUNS)
+            counts = after == "one" and not _breaks(words, at + size + 1) if at + size + 1 < len(words) else False
+            end = at + size + (after in PRONOUNS and not counts)
             behind = "".join(words[end + 2 : end + 3])
             headless = after == "the" and place != "between" and set(words[end + 1 : end + 2]) & HEADLESS
             if headless and (not behind[:1].isalpha() or behind in ENDING | NUMBERS.keys()):

@@ -82,8 +82,11 @@ REPEATS = frozenset({
     "without",
 })  # fmt: skip
 """Words by which there are more of a thing than its name's number says."""
+FORMED = frozenset({"row", "rows", "stack", "stacks", "pile", "piles", "heap"})
+"""Those of them behind which the number of one such form may stand: "a stack of four books"."""
 SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
 """Words by which likes are told from one another."""
+SIDES = frozenset({"left", "right", "front", "back"})
 EACH = frozenset({"each", "every", "either"})
 ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
@@ -131,7 +134,9 @@ POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce"
 ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
                        "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
 """What of something poured is meant to be on, or in."""
-PIECES = frozenset({"slice"})
+PIECES = frozenset({"slice", "piece", "wedge", "chunk"})
+UNCOUNTED = frozenset({"luggage", "furniture", "jewelry", "paper", "cloth", "fruit", "equipment", "chalk", "art"})
+"""What there are pieces of that are whole."""
 PACKETS = frozenset({"bottle", "jar", "can", "box", "carton", "packet", "tube", "shaker", "container", "jug"})
 
 
@@ -142,8 +147,10 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "on": ("on", "onto", "upon"),
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
         "in": ("in", "inside", "within", "into", "inside of", "share", "shares", "fill", "fills"),
-        "beside": ("on each side of", "on either side of", "on both sides of", "beside", "next to", "near", "by",
-                   "close to", "alongside", "adjacent to", "along"),
+        "beside": ("on one side of", "on the other side of", "at one end of", "on each side of", "on either side of",
+                   "on both sides of", "beside", "next to", "near to", "near", "by",
+                   "close to", "closest to", "nearest to", "opposite", "among", "outside", "alongside",
+                   "adjacent to", "along"),
         "against": ("against",),
         "its left": ("to its left", "on its left"),
         "its right": ("to its right", "on its right"),
@@ -175,7 +182,9 @@ RELATIONS = _relations()
 LONGEST = max(map(len, RELATIONS))
 PLACING = frozenset(phrase[-1] for phrase in RELATIONS)
 """Words behind which a landmark stands."""
-_WITHIN = frozenset({"left", "right", "front", "top", "full", "side", "row", "middle", "other", "back"}) | ARTICLES
+_WITHIN = (
+    frozenset({"left", "right", "front", "top", "full", "side", "end", "row", "middle", "other", "back"}) | ARTICLES
+)
 """Words of relation phrases that stand in noun phrases too."""
 BREAKING = (
     LEADING | PRONOUNS | frozenset(word for phrase in RELATIONS for word in phrase) | {
@@ -202,6 +211,7 @@ _POSTURES = """
 hidden else
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
+served scattered spread kept stored wedged tucked
 stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced
 flank flanks share shares fill fills
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between

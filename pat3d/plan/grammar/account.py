@@ -7,7 +7,7 @@ numerals against the objects that are there, relation words against what the sce
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import prod
 
 from pat3d.assets.colours import find_colour
@@ -17,6 +17,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.modifiers import Modifiers, is_colour_word, is_marked
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.shapes import grid_size
 from pat3d.plan.grammar.world import Item, World
 
 _FUNCTION = frozenset({
@@ -36,7 +37,7 @@ def words_left(chunk: Chunk) -> list[str]:
     phrase = chunk.phrase
     if phrase is None or phrase.kind in ("background", "pronoun", "part"):
         return []
-    known = _names(phrase)
+    known = _names(phrase) | {word for word, head in pairwise(chunk.words) if grid_size([word, head])}
     said = (phrase.modifiers, phrase.superlative)
     return [word for word in chunk.words if not (_plain(word) or known & {word, *singulars(word)} or _told(word, said))]
 

@@ -18,7 +18,7 @@ class Asides(RelationWords):
     def _unsaid(self, word: str, follower: str) -> bool:
         """Name what no scene has and go on behind it: purposes, directions, the viewer."""
         number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
-        if word == "at" and follower in ("least", "most") and number:
+        if word == "at" and follower in ("least", "most") and (number or self._word(2) in ("a", "an")):
             return self._leave(2)
         if word in ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
             self._at += 1
@@ -90,14 +90,25 @@ class Asides(RelationWords):
 
     def _absence(self) -> None:
         """Read "without a lid", "no people": set aside with the phrase."""
-        read = self._phrases.read(self._at + 1) if self._word(0) != "nothing" else None
+        read = (
+            self._phrases.read(self._at + 1)
+            if self._word(0) != "nothing" and self._word(1) not in lexicon.VERBS
+            else None
+        )
         end = read[1] if read else self._at + 1
+        while self._tokens[end].text in ("or", "nor") and (more := self._phrases.read(end + 1)) is not None:
+            # "no roses or tulips"
+            end = more[1]
         told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
         pronoun = False
         while not told and not pronoun and (size := link_at(self._tokens, end)):
             more = self._phrases.read(end + size)
             pronoun = self._tokens[end + size].text in lexicon.PRONOUNS
-            if more is None and not pronoun:
+            if pronoun and self._word(0) == "without" and self._tokens[end].text not in ("on", "in", "inside", "with"):
+                # "A glass without juice next to it": the glass is.
+                break
+            if (more is None or self._word(0) == "without") and not pronoun:
+                # "A mug without a handle on a plate": the mug is on the plate.
                 break
             end = more[1] if more is not None else end + size + 1
         if self._last is not None and self._last.kind in ("have", "there"):

@@ -78,3 +78,21 @@ class Contrast(Pronouns):
         items[0].place = position(phrase)
         line_up(self._world, items[0])
         return items
+
+    def _all_of(self, at: int, phrase: Phrase) -> bool:
+        """Whether `phrase`, at chunk `at`, names all there are of its noun: "the mugs", or "mugs" by itself."""
+        plain = phrase.modifiers == NO_MODIFIERS == phrase.superlative and not phrase.cycle
+        return plain and phrase.plural and phrase.count is None and not phrase.part and self._place_of(at) is None
+
+    def _plural_before(self, at: int) -> list[Group]:
+        refs = [self.known[before] for before in sorted(self.known, reverse=True) if before < at and self.known[before]]
+        groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
+        return list(dict.fromkeys(groups))
+
+    def _before(self, at: int) -> list[Item]:
+        """What the clause that chunk `at` belongs to begins with."""
+        plural = self._plural_before(at)
+        listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
+        if len(listed) > 1:
+            return [item for head in listed for item in self.known[head]]
+        return list(plural[0].items) if plural else list(self._world.subject)

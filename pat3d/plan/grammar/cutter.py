@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
@@ -185,7 +186,8 @@ class Cutter(Asides):
         for ahead in range(2, 8):
             word = self._word(ahead)
             if word == "and":
-                return self._word(ahead + 1) in (*lexicon.DETERMINERS, *lexicon.NUMBERS)
+                follower = self._word(ahead + 1)
+                return follower in (*lexicon.DETERMINERS, *lexicon.NUMBERS) or self._nouns.match([follower]) is not None
             if self._tokens[self._at + ahead].mark or link_at(self._tokens, self._at + ahead):
                 return False
         return False
@@ -197,7 +199,9 @@ class Cutter(Asides):
         if not bare or meanings is None:
             return phrase
         senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]
-        noun = sense(phrase.noun, self._company, senses)
+        # "A mouse next to a computer mouse": the other is called so to tell it from this one.
+        others = {one.text for one, head in pairwise(self._tokens) if head.text == phrase.head}
+        noun = sense(phrase.noun, set(self._company) - others, senses)
         said = phrase.head if noun == "sunglasses" else noun if noun != phrase.noun else phrase.said
         return replace(
             phrase, noun=noun, said=said, count=1 if noun == "sunglasses" and phrase.count is None else phrase.count

@@ -11,11 +11,24 @@ from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import EACH_OTHER
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _FINITE = lexicon.COPULAS | lexicon.VERBS
+
+
+def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the other", "of which", orders and shared landmarks where what they are said of stands.
+
+    What is nearest to something is next to it; that it is the nearest is not heard.
+    """
+    tokens = [
+        replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
+        for token, follower in pairwise([*tokens, tokens[-1]])
+    ]
+    return _shared_landmark(_last_in_order(_of_which(_one_upon(_on_another(tokens, nouns)))))
 
 
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -46,6 +59,74 @@ def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
+def _one_upon(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "two cubes, one on the other" as "one on top of the other": no side of anything."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4):
+        upon = words[at : at + 4] == ["one", "on", "the", "other"] and tokens[at + 4].mark
+        if upon and "side" not in words[:at] and words[max(at - 1, 0)] != "on":
+            on = tokens[at + 1]
+            return [*tokens[: at + 2], replace(on, text="top"), replace(on, text="of"), *tokens[at + 2 :]]
+    return list(tokens)
+
+
+def _on_another(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a hat on one chair and a bag on the other" as "a hat on one chair and a bag on another"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 5):
+        named = words[at] in ("on", "in") and words[at + 1] == "one" and nouns.match([words[at + 2]])
+        if named and any(words[at + 2] in singulars(word) for word in words[:at]):
+            # "Two chairs: a cat on one chair and a dog on the other"
+            continue
+        other = [words[at], "the", "other"]
+        told = next((n for n in range(at + 3, len(words) - 3) if words[n : n + 3] == other and tokens[n + 3].mark), 0)
+        if named and told:
+            another = replace(tokens[told + 1], text="another", end=tokens[told + 2].end)
+            return [*tokens[: told + 1], another, *tokens[told + 3 :]]
+    return list(tokens)
+
+
+def _of_which(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "three apples, of which one is green" as "three apples, one of which is green"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        if words[at : at + 2] != ["of", "which"]:
+            continue
+        the = words[at + 2] == "the"
+        verb = at + 3 + the
+        some = words[verb - 1] in (lexicon.SUPERLATIVES if the else lexicon.NUMBERS)
+        if some and words[verb] in _FINITE:
+            turned = [*tokens[at + 2 : verb], *tokens[at : at + 2]]
+            start, end = tokens[at].start, tokens[verb - 1].end
+            return [*tokens[:at], *(replace(token, start=start, end=end) for token in turned), *tokens[verb:]]
+    return list(tokens)
+
+
+def _last_in_order(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "on it stand, in a row, a clock and a lamp" as "on it stand a clock and a lamp in a row"."""
+    words = [token.text for token in tokens]
+    size = next((n for n in range(2, 6) if tuple(words[:n]) in EACH_OTHER and link_at(tokens, n)), 0)
+    if size and ":" in words:
+        # "From left to right on a shelf: a clock and a vase"
+        stop = next(n for n in range(size, len(words)) if tokens[n].mark and words[n] not in (",", ":"))
+        return [*tokens[size:stop], *tokens[:size], *tokens[stop:]]
+    for at in range(1, len(words) - 3):
+        told = words[at - 1] in ("it", "them", "with") or words[at - 1] in _FINITE
+        close = next((n for n in range(at + 2, min(at + 7, len(words) - 1)) if words[n] in (",", ":")), 0)
+        if words[at] != "," or not told or not close or tuple(words[at + 1 : close]) not in EACH_OTHER:
+            continue
+        stop = next(n for n in range(close, len(words)) if tokens[n].mark and words[n] not in (",", ":"))
+        owned = words[stop - 2 : stop] in (["on", "it"], ["in", "it"])
+        end = stop - 2 if owned and words[at - 1] == "with" else stop
+        verb = (
+            []
+            if words[close + 1] in _FINITE or words[at - 1] not in ("it", "them")
+            else [replace(tokens[at], text="are", mark=False)]
+        )
+        return [*tokens[:at], *verb, *tokens[close + 1 : end], *tokens[at + 1 : close], *tokens[stop:]]
+    return list(tokens)
+
+
 def asked(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "could you set up a desk" as "create a desk"."""
     at = next((n for n, token in enumerate(tokens) if token.text not in _ASKING), 0)
@@ -69,11 +150,12 @@ def stateless(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
-def shared_landmark(tokens: Sequence[Token]) -> list[Token]:
+def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a fork to the left, and a knife to the right, of a plate" as "to the left of a plate and ...
 
     a knife to the right of the plate".
     """
+    tokens = _full_sides(tokens)
     words = [token.text for token in tokens]
     sides = [at for at in range(len(words) - 3) if words[at] in ("to", "on") and words[at + 1] == "the"
              and words[at + 2] in ("left", "right", "front", "back")]  # fmt: skip
@@ -96,6 +178,20 @@ def shared_landmark(tokens: Sequence[Token]) -> list[Token]:
         start = one + 3 + (words[one + 3] == ",")
         return [*tokens[: one + 3], *landmark, *tokens[start : two + 3], *again, *tokens[end:]]
     return list(tokens)
+
+
+def _full_sides(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a fork left and a knife right of a plate" as "to the left and ... to the right of a plate"."""
+    words = [token.text for token in tokens]
+    sides = [at for at in range(1, len(words) - 1) if words[at] in ("left", "right")]
+    bare = [at for at in sides if words[at - 1] not in ("the", "its") and words[at + 1] in ("and", "of")]
+    if [words[at + 1] for at in bare] != ["and", "of"]:
+        return list(tokens)
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        made += [replace(token, text=text) for text in ("to", "the")] if at in bare else []
+        made.append(token)
+    return made
 
 
 def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

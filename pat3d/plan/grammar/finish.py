@@ -45,7 +45,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     _widen_bowls(world, nouns)
     _pair_sides(world)
     _share_supports(world)
-    arranging.settle(world)
+    arranging.settle(world, prompt)
     objects = _objects(world, nouns)
     names = {item: obj.name for item, obj in objects.items()}
     relations = [*_supports(world, names), *arranging.further_carriers(world, names), *_laterals(world, names)]
@@ -251,7 +251,10 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
     made: list[Posture] = []
     for item, name in names.items():
         group = item.group
-        for said in dict.fromkeys((*group.modifiers.postures, *item.told.postures)):
+        told = (*group.modifiers.postures, *item.told.postures)
+        if not told and arranging.shelved(world, item):
+            made.append(Posture(object=name, kind="on_its_side", said="upright", arranged=True))
+        for said in dict.fromkeys(told):
             kind, held = kind_of(said), is_held(said, lies=world.is_a(item, lexicon.LYING))
             if kind in ("upright", "on_its_side") and stands_on_edge(said) and world.is_a(item, lexicon.ON_EDGE):
                 kind, held = "on_its_side", True
@@ -301,9 +304,7 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
             relations += [Relation(child=names[b], kind="next_to", parent=names[a]) for a, b in beside]
             world.note(f'"{group.words}": its objects lie side by side, since as a stack they would not stay.')
         if group.rows:
-            own = world.bases(group.items)
-            length = -(-len(own) // group.rows)
-            lines = [own[at : at + length] for at in range(0, len(own), length)]
+            lines = arranging.rows_of(world, group)
             for line in lines:
                 pairs = zip(line, line[1:], strict=False)
                 relations += [Relation(child=names[a], kind="left_of", parent=names[b]) for a, b in pairs]

@@ -92,7 +92,7 @@ class Interpreter(Placing):
                 self._aimed(fact[1], fact[2], fact[3])
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
-        told = {at for fact in facts if fact[0] in ("have", "list", "include") for at in fact[3]}
+        told = {at for fact in facts if fact[0] in ("list", "include") for at in fact[3]}
         for at, chunk in enumerate(self._chunks):
             kind = chunk.phrase.kind if chunk.phrase is not None else ""
             if kind in ("items", "pieces") and at not in self._said.bound and at not in self._handled | told:
@@ -174,18 +174,6 @@ class Interpreter(Placing):
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
                 self._world.note(f'not understood: "{word}" of "{chunk.text}"')
 
-    def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
-        """Phrases of which a bare plural means many, and the generics that list others."""
-        fillings: set[int] = set()
-        kinds: dict[int, int] = {}
-        for fact in facts:
-            link = self._chunks[fact[1]].link if fact[0] == "have" else None
-            if link is not None and link.filling and len(fact[3]) == 1:
-                fillings |= set(fact[3])
-            if fact[0] == "include":
-                kinds |= dict.fromkeys(fact[3], fact[2][0])
-        return fillings, kinds
-
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
         link = self._chunks[at].relation
@@ -257,6 +245,9 @@ class Interpreter(Placing):
 
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
+        if not items and [self._chunks[head].text.lower() for head in heads] in (["it"], ["they"]):
+            # "A mug is on a table. It is red."
+            items = list(self._world.subject)
         if not items and told != NO_MODIFIERS:
             said = " ".join(self._chunks[head].text for head in heads)
             self._world.note(f'not understood: how "{said}" is described')
@@ -284,6 +275,9 @@ class Interpreter(Placing):
             said = " ".join(f'"{self._chunks[head].text}"' for head in parent_heads)
             self._world.note(f'not understood: "to" {said}')
             return
+        if link.manner == "far" and self._clause.manner is not None:
+            # "Take the cup away from the table": before that it is there.
+            link = Link(manner="source")
         if self._clause.manner is None:
             link = self._resting(at, link, children, parents)
         places = [self._chunks[head].phrase for head in parent_heads]

@@ -45,11 +45,15 @@ DEMONSTRATIVES = frozenset({"that", "this"})
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
+RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
+"""Words that open a clause about the noun before them."""
+
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({"sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean",
     "perches", "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats",
     "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays", "belong", "sleep", "float",
-    "perch", "crouch", "stay", "remain", "remains"})  # fmt: skip
+    "perch", "crouch", "stay", "remain", "remains", "hides", "hide", "lurks", "lurk", "slumps", "lounges", "reclines",
+    "sprawls", "dozes", "nestles", "nestle", "huddles", "huddle", "rises", "looms"})  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
@@ -97,6 +101,10 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains", "lounge", "study", "den", "loft",
     "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom", "apartment", "courtyard", "porch", "veranda",
     "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery", "yard", "backyard", "patio", "terrace", "balcony",
+    "campsite", "campground", "camp", "alley", "plaza", "farm", "barn", "stable", "harbour", "harbor", "shore",
+    "riverside", "warehouse", "factory", "store", "supermarket", "market", "school", "hospital", "hotel", "lab",
+    "laboratory", "cellar", "driveway", "playground", "roadside", "cafeteria", "pantry", "entryway", "foyer",
+    "lakeside", "countryside",
     "pair view", "total", "sight", "time", "place", "contrast", "focus",
     "motion", "condition", "orientation", "direction", "manner", "way", "fashion", "use", "close up",
     "grain patterns"})  # fmt: skip
@@ -191,7 +199,7 @@ FLOOR = ("bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee tabl
     "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
     "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
     "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet",
-    "yoga mat")  # fmt: skip
+    "yoga mat", "parasol")  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
     "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
@@ -249,10 +257,13 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "tray", "cutting board", "board", "plank", "pen", "pencil", "fork", "knife", "spoon", "ruler", "scissors", "hammer",
     "screwdriver", "wrench", "pillow", "cushion", "towel", "rug", "mat", "placemat", "napkin", "cardboard sheet",
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
-    "envelope")  # fmt: skip
+    "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
-ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
+ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank", "domino")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
+BOUND = ("book", "notebook", "spell book", "binder")
+SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
+"""What people have standing, where it is in a row: on what."""
 NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "teapot", "bottle", "pot", "basket",
     "radio", "laptop", "clock", "kettle", "plant", "potted plant", "jar", "box", "candle", "pitcher",
     "tray")  # fmt: skip
@@ -278,7 +289,10 @@ CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "di
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
           "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
-HOLDERS = ("wine rack", "test tube rack", "egg carton", "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
+DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
+"""What other things are with that stand beside it: "a laptop with a mouse"."""
+RACKS = ("wine rack", "test tube rack", "egg carton")
+HOLDERS = (*RACKS, "wallet", "bag", "tote bag", "paper tray", "glove", "sock")
 """What has an inside and is no vessel."""
 SHUT = ("cabinet", "dresser", "wardrobe")
 """What things are in behind a door or in a drawer, and can stand on too."""

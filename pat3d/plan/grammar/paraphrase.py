@@ -14,7 +14,15 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.displaced import absolute, asked, by_which, fronted, shared_landmark, stateless
+from pat3d.plan.grammar.commands import allowed
+from pat3d.plan.grammar.displaced import (
+    absolute,
+    asked,
+    by_which,
+    fronted,
+    in_place,
+    stateless,
+)
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
@@ -22,6 +30,8 @@ from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
+from pat3d.plan.grammar.stated import stated
+from pat3d.plan.grammar.surface_places import on_the_surface
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _MIDDLES = ("centre", "center", "middle")
@@ -34,7 +44,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _SILENT = tuple(tuple(said.split()) for said in (
-    "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about",
+    "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
     "so that it is", "so that it stands", "so that they are", "so that they stand",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
@@ -50,10 +60,11 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = covering(opened(_without(bare(tokens, nouns), _SILENT), nouns), nouns)
+    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
+    tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(shared_landmark(tokens), nouns)
+    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
@@ -88,6 +99,17 @@ def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> lis
             kept.append(tokens[at])
         at += size or 1
     return kept
+
+
+def _without_warning(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` without "and be careful around the hot soup": nothing there is asked for, and the audit names it."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 2):
+        if words[at : at + 2] in (["be", "careful"], ["being", "careful"]) and words[at - 1] in ("and", ",", "but"):
+            start = at - 1 - (words[at - 2] == ",")
+            stop = next(n for n in range(at, len(words)) if tokens[n].mark and words[n] != ",")
+            return [*tokens[:start], *tokens[stop:]]
+    return list(tokens)
 
 
 def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

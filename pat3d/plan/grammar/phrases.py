@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.assets.materials import find_material
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import lexicon, shapes
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, ORDINALS, Modifiers, is_modifier, read_modifiers, telling
@@ -318,6 +318,9 @@ class PhraseReader:
         if head == PYRAMID and count in (None, 1) and can_be_pyramid(self._nouns, inner.noun, amount):
             own = inner.modifiers.under(read_modifiers(words[:-1]))
             return replace(inner, count=amount, vague=inner.count is None, pyramid=True, modifiers=own), after
+        if head == shapes.GRID and count in (None, 1) and inner.kind == "object" and (inner.count or 0) > 1:
+            own = inner.modifiers.under(read_modifiers(words[:-1]))
+            return replace(inner, rows=shapes.grid_rows(inner.count or 0), modifiers=own), after
         if shape_said(head) and inner.kind in ("object", "unknown") and (inner.plural or (inner.count or 1) > 1):
             raise refuse(head, run[-1].number)
         if head in lexicon.PICTURES:

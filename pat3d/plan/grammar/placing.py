@@ -15,6 +15,7 @@ from pat3d.plan.grammar.plausible import LARGE
 from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.shapes import grid_rows
 from pat3d.plan.grammar.world import Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
 
@@ -261,7 +262,7 @@ class Placing:
                 if set(items) == before:
                     self._said.known[head] = list(plural.items)
             if chunk.text == "rows":
-                plural.rows = chunk.size
+                plural.rows = chunk.size or grid_rows(len(plural.items))
             else:
                 plural.height = -(-len(plural.items) // chunk.size)
         elif chunk.text in ("stack", "tower"):
@@ -318,3 +319,15 @@ class Placing:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)
+
+    def _fillings(self, facts: Sequence[tuple]) -> tuple[set[int], dict[int, int]]:
+        """Phrases of which a bare plural means many, and the generics that list others."""
+        fillings: set[int] = set()
+        kinds: dict[int, int] = {}
+        for fact in facts:
+            link = self._chunks[fact[1]].link if fact[0] == "have" else None
+            if link is not None and link.filling and len(fact[3]) == 1:
+                fillings |= set(fact[3])
+            if fact[0] == "include":
+                kinds |= dict.fromkeys(fact[3], fact[2][0])
+        return fillings, kinds

@@ -148,7 +148,7 @@ class Plausible:
         return cost if link.manner == "hold" else min(cost, 0.7 if not self.hollow(parent) else cost)
 
     def _vessel(self, noun: str) -> bool:
-        return self.hollow(noun)
+        return self.hollow(noun) and not noun.endswith(("spoon", "ladle"))
 
     def _fits_dish(self, child: str) -> bool:
         return not self.is_a(child, lexicon.NOT_ON_DISH) and not self.hollow(child)

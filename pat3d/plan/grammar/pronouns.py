@@ -98,6 +98,13 @@ class Pronouns:
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             candidates.append((-0.6 if which else -0.1, meant[-1]))
+        steps = self._world.steps
+        if child and not plural and steps and steps[-1].manner == "pick":
+            # "Pick the bowl on the box and place it on the plate"
+            candidates.append((-1.2, list(steps[-1].items)))
+        if child and plural and steps and steps[-1].manner == "stack":
+            # "Stack the bowl on the plate and place them in the tray"
+            candidates.append((-1.2, [*steps[-1].items, *steps[-1].goal]))
         if world_front:
             # "Behind the sofa: a lamp. In front of it: a rug."
             candidates.append((-0.4, world_front))

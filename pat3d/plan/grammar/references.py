@@ -11,6 +11,7 @@ from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
@@ -88,9 +89,20 @@ class References(Contrast):
         again = again or [
             group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
         ]
+        again = again or [
+            # "Sort the coins: coins in the jar"
+            group for group in world.groups
+            if self._all_of(at, phrase) and group.phrase.definite and group.phrase.plural and not group.counted
+            and group.modifiers == NO_MODIFIERS and all(world.support(item) is None for item in group.items)
+        ]  # fmt: skip
         if not phrase.definite and not any(group.noun == phrase.noun for group in again):
             return None
         besides = self._besides(at)
+        likes = [group for group in world.groups if group.noun == phrase.noun and not group.replaced]
+        if len(likes) > 1 and self._all_of(at, phrase) and not any(
+            group in besides or group.cycle or self._elsewhere(at, group) for group in likes
+        ):  # fmt: skip
+            return [item for group in likes for item in group.items]
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
@@ -109,12 +121,10 @@ class References(Contrast):
             # "Both burners" of which one was named after the other.
             return alike
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
-            storage = [
-                item for item in world.items() if world.is_a(item, lexicon.STORAGE) and item.group not in besides
-            ]
-            storage = [
-                item for item in storage if phrase.head not in ("shelf", "shelves") or not world.is_a(item, ("desk",))
-            ]
+            others = ("desk",) if phrase.head in ("shelf", "shelves") else ("shelf", "bookshelf", "bookcase")
+            storage = [item for item in world.items() if world.is_a(item, lexicon.STORAGE)]
+            storage = [item for item in storage if item.group not in besides and not world.is_a(item, others)]
+            storage = [item for item in storage if item.group.said not in lexicon.DRAWERS]
             return storage[-1:] or None
         return None
 
@@ -204,6 +214,10 @@ class References(Contrast):
         if phrase.head == "each":
             self.each.add(at)
             plural = self._plural_before(at)
+            listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
+            if len(listed) > 1 and all(len(self.known[head]) > 1 for head in listed):
+                # "Two mugs and two bowls, each with a spoon"
+                return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
         if rest and world.telling:
@@ -280,6 +294,13 @@ class References(Contrast):
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
+        told = words.size_word if words.size_word in _LARGER | _SMALLER else ""
+        if told and not phrase.definite and phrase.words.lower().split()[-1] == "one" and not words.colours:
+            named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
+            first = named[0] if named else self._world.subject
+            if len(first) == 1 == len(first[0].group.items):
+                # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
+                return self._one_like(first, phrase)
         if words.size_word and not words.colours:
             for item in self._world.items():
                 size = item.told.size_word or item.group.modifiers.size_word
@@ -324,19 +345,6 @@ class References(Contrast):
             tell(item, words)
         self._world.telling = [item for item in free if item not in picked]
         return picked or list(whole.items[:count])
-
-    def _plural_before(self, at: int) -> list[Group]:
-        refs = [self.known[before] for before in sorted(self.known, reverse=True) if before < at and self.known[before]]
-        groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
-        return list(dict.fromkeys(groups))
-
-    def _before(self, at: int) -> list[Item]:
-        """What the clause that chunk `at` belongs to begins with."""
-        plural = self._plural_before(at)
-        listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
-        if len(listed) > 1:
-            return [item for head in listed for item in self.known[head]]
-        return list(plural[0].items) if plural else list(self._world.subject)
 
     def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
         """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""

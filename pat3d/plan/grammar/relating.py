@@ -100,6 +100,10 @@ class Relating:
             world.beside(children, "around", owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
+        elif weak and world.is_a(owner, lexicon.DEVICES):
+            world.beside(children, "next_to", owners, weak=True)
+        elif world.is_a(owner, lexicon.RACKS):
+            world.place(children, "in", owners, weak=weak)
         elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
             world.place(children, "on", owners, weak=weak)
         elif (
@@ -120,8 +124,20 @@ class Relating:
         ):
             kind = world.containment(owner)
             world.place(children, kind, owners, weak=weak)
+            self._not_inside(owner, children[0], "on", weak=weak)
         else:
             world.beside(children, "next_to", owners, weak=True)
+            self._not_inside(owner, children[0], "next to")
+
+    def _not_inside(self, owner: Item, child: Item, where: str, *, weak: bool = True) -> None:
+        """Say that what a closed thing or a holder is said to have does not stand inside."""
+        world = self.world
+        shut = lexicon.SHUT if weak else ()
+        closed = world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and not world.is_a(owner, ("stove",))
+        closed = closed and not world.on_floor(child) and not world.is_a(child, lexicon.BY_A_SEAT)
+        if closed and world.containment(owner) != "in":
+            said = f'"{child.group.words}" inside "{owner.group.words}"'
+            world.note(f"not arranged: {said}; it is placed {where} it")
 
     def _settle(self, children: list[Item], parents: list[Item]) -> None:
         """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""

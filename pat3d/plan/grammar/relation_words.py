@@ -7,7 +7,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import Cursor
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.grammar.shapes import PLACES, RINGS, refuse, shape_said
+from pat3d.plan.grammar.shapes import GRID, PLACES, RINGS, refuse, shape_said
 from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
@@ -107,7 +107,7 @@ class RelationWords(Cursor):
         return True
 
     def _shape(self) -> bool:
-        """Read "in a circle".
+        """Read "in a circle", "in a grid".
 
         Raises:
             PromptError: objects stand in a shape that no plan expresses.
@@ -122,6 +122,9 @@ class RelationWords(Cursor):
         after = self._at + 3
         if self._bounds.goes_on(after) and not self._tokens[after].mark:
             return False
+        if words[-1] == GRID:
+            self._add("form", 3, text="rows")
+            return True
         if words[-1] not in RINGS:
             raise refuse(words[-1], self._tokens[after - 1].number)
         if self._tokens[after].text in ("around", "surrounding"):

@@ -6,6 +6,7 @@ an arch or a wall it has not.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -21,6 +22,7 @@ UNPLANNED = frozenset({
 })  # fmt: skip
 """What objects may be said to form and no plan expresses; some are objects themselves ("a star")."""
 PYRAMID = "pyramid"
+GRID = "grid"
 COURSES = {3: 2, 6: 3, 10: 4, 15: 5}
 """Objects in a flat pyramid, and how many of them are in its lowest row."""
 USUAL_PYRAMID = 6
@@ -55,6 +57,12 @@ def grid_size(words: Sequence[str]) -> tuple[int, int] | None:
     """Rows and columns of words that end in "2x3 grid", or None."""
     found = re.fullmatch(r"(\d{1,2})x(\d{1,2})", words[-2]) if len(words) > 1 and words[-1] == "grid" else None
     return (int(found[1]), int(found[2])) if found else None
+
+
+def grid_rows(count: int) -> int:
+    """Rows of a grid of `count` things of which nobody says how many: as many as columns, or fewer, all full if so."""
+    most = math.isqrt(count)
+    return next((rows for rows in range(most, 1, -1) if count % rows == 0), most)
 
 
 def refuse(said: str, number: int) -> PromptError:

@@ -323,7 +323,8 @@ class World:
         hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
         if kind == "in" and not weak and not self._has_inside(parent):
             self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
-        if hollow and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:
+        larger = parent.group.modifiers.scale > child.group.modifiers.scale
+        if hollow and not larger and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:
             self.note(f'"{child.group.words}" in "{parent.group.words}": it hardly fits there.')
         if not weak:
             self.laterals = [edge for edge in self.laterals if not (edge.weak and edge.child is child)]

@@ -1,0 +1,63 @@
+"""Places on a surface that is named once: "a lamp in the corner of the desk, and a pen at the edge"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_NEAR = frozenset({"in", "at", "on", "near"})
+_MIDDLES = frozenset({"middle", "center", "centre"})
+_RIMS = frozenset({"edge", "corner", "rim"})
+_BEHIND = frozenset({"and", "with", "while"})
+"""What may follow a place that nothing is said of, beside marks."""
+
+
+def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a pen at the edge" as "a pen at the edge of the desk", where that is the surface spoken of.
+
+    It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
+    the floor stands in the corner of a room.
+    """
+    words = [token.text for token in tokens]
+    told = _told(words, nouns)
+    level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
+    level -= {said for said in level if any(other.endswith(f" {said}") for other in level)}
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        made.append(token)
+        bare = words[at - 2 : at - 1] and words[at - 2] in _NEAR and words[at - 1] in ("the", "a", "one")
+        ends = at + 1 == len(tokens) or tokens[at + 1].mark or words[at + 1] in _BEHIND
+        if at < 3 or not (bare and ends and _small(words[: at - 2], nouns)):
+            continue
+        owner = told if token.text in _MIDDLES | _RIMS else ""
+        if not owner and token.text in _RIMS and len(level) == 1:
+            owner = next(iter(level))
+        if owner:
+            made += [replace(token, text=word) for word in ("of", "the", *owner.split())]
+    return made
+
+
+def _told(words: Sequence[str], nouns: Nouns) -> str:
+    """The surface of which the sentence names the edge, a corner or the middle, where it is one; empty otherwise."""
+    found = set()
+    for at, word in enumerate(words[:-2]):
+        if word in _MIDDLES | _RIMS and words[at + 1] == "of":
+            start = at + 2 + (words[at + 2] in ("the", "a", "an"))
+            found.add(_surface(words[start : start + 3], nouns))
+    return found.pop() if len(found) == 1 else ""
+
+
+def _surface(words: Sequence[str], nouns: Nouns) -> str:
+    """The level thing that `words` begin with; empty where they do not."""
+    match = next((one for size in (3, 2, 1) if (one := nouns.match(words[:size]))), None)
+    return match.said if match is not None and nouns.of_class(match.noun, lexicon.LEVEL) else ""
+
+
+def _small(before: Sequence[str], nouns: Nouns) -> bool:
+    """Whether `before` ends in what stands on furniture, and speaks of all of it."""
+    match = next((one for size in (3, 2, 1) if (one := nouns.match(list(before[-size:])))), None)
+    return match is not None and not nouns.of_class(match.noun, lexicon.FLOOR)

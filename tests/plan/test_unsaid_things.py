@@ -1,0 +1,121 @@
+"""What a sentence denies is not made, what a word stands for is not lost, and a task moves what its verb named."""
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import ScenePlan
+
+PLANNER = GrammarPlanner()
+
+
+def nouns(plan: ScenePlan) -> list[str]:
+    return [obj.noun for obj in plan.objects]
+
+
+def edges(plan: ScenePlan) -> set[tuple[str, str, str]]:
+    return {(rel.child, rel.kind, rel.parent) for rel in plan.relations}
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["A basket with no plums or limes.", "There is a basket but no plum or lime.", "A basket without limes or plums."],
+)
+def test_all_that_is_denied_is_left_out(prompt):
+    assert nouns(PLANNER.plan(prompt)) == ["basket"]
+
+
+def test_what_is_without_something_stands_where_it_is_said():
+    assert ("mug", "on", "shelf") in edges(PLANNER.plan("A mug without a spoon on a shelf."))
+
+
+def test_things_without_a_name_are_noted():
+    assert any("five things" in note for note in PLANNER.plan("A crate with five things.").notes)
+
+
+@pytest.mark.parametrize("carrier", ["cracker box", "tray", "stack of plates"])
+def test_it_is_what_was_picked(carrier):
+    plan = PLANNER.plan(f"Pick up the yellow bowl on the {carrier} and put it on the stove.")
+    assert plan.task == "place:yellow bowl:stove"
+
+
+def test_what_is_taken_away_from_a_table_is_on_it_before():
+    plan = PLANNER.plan("Take the jar away from the table.")
+    assert edges(plan) == {("jar", "on", "table")}
+    assert plan.task == "pick:jar"
+
+
+def test_a_drawer_is_no_shelf():
+    plan = PLANNER.plan("Put forks in the drawer and cups on the shelf.")
+    assert [obj.name for obj in plan.objects if "fork" not in obj.name and "cup" not in obj.name] == ["drawer", "shelf"]
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "A tray. On it, from left to right: a cup, a jar and a spoon.",
+        "There is a tray. On it stand, in a row, a cup, a jar and a spoon.",
+        "A tray with, from left to right, a cup, a jar and a spoon on it.",
+    ],
+)
+def test_an_order_that_is_set_off_is_of_what_is_listed(prompt):
+    plan = PLANNER.plan(prompt)
+    assert [one.objects for one in plan.arrangements if one.kind == "row"] == [("cup", "jar", "spoon")]
+    assert {(name, "on", "tray") for name in ("cup", "jar", "spoon")} <= edges(plan)
+
+
+def test_a_smaller_one_is_another():
+    plan = PLANNER.plan("A suitcase stands next to the sofa, and a smaller one lies on the wardrobe.")
+    assert nouns(plan).count("suitcase") == 2
+    assert not any(child == "sofa" and kind == "on" for child, kind, _ in edges(plan))
+
+
+@pytest.mark.parametrize("some", ["one", "the smallest"])
+def test_of_which_some_are_told_apart(some):
+    plan = PLANNER.plan(f"Three plums, of which {some} is green, lie on a board.")
+    assert [obj.colours for obj in plan.objects if obj.noun == "plum"] == [("green",), (), ()]
+
+
+def test_it_is_coloured_and_the_next_one_is_another():
+    plan = PLANNER.plan("The jar is on the shelf. It is red. Next to it is a blue one.")
+    assert [(obj.noun, obj.colours) for obj in plan.objects if obj.noun == "jar"] == [
+        ("jar", ("red",)),
+        ("jar", ("blue",)),
+    ]
+
+
+def test_both_sides_of_one_landmark():
+    plan = PLANNER.plan("A cup left and a jar right of a plate.")
+    assert {("cup", "left_of", "plate"), ("jar", "right_of", "plate")} <= edges(plan)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"), [("A fridge with two bottles.", "inside"), ("A piece of pizza on a plate.", "pizza")]
+)
+def test_what_is_made_otherwise_is_noted(prompt, said):
+    assert any(said in note for note in PLANNER.plan(prompt).notes)
+
+
+@pytest.mark.parametrize("holder", ["egg carton", "test tube rack"])
+def test_what_a_rack_has_is_in_it(holder):
+    plan = PLANNER.plan(f"A {holder} with two test tubes.")
+    assert [rel.kind for rel in plan.relations] == ["in", "in"]
+
+
+def test_one_upon_the_other():
+    assert [rel.kind for rel in PLANNER.plan("Two cubes, one on the other.").relations] == ["on"]
+
+
+def test_one_and_the_other_carrier():
+    plan = PLANNER.plan("A hat lies on one chair and a bag on the other.")
+    assert nouns(plan).count("chair") == 2
+    assert len({rel.parent for rel in plan.relations if rel.supports}) == 2
+
+
+def test_the_mugs_are_all_mugs():
+    plan = PLANNER.plan("Three red mugs and two blue mugs; the mugs are on a tray.")
+    assert sum(rel.parent == "tray" for rel in plan.relations) == 5
+
+
+def test_each_of_two_kinds():
+    plan = PLANNER.plan("Two mugs and two bowls, each with a spoon in it.")
+    assert nouns(plan).count("spoon") == 4
