@@ -234,6 +234,9 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     if going and (link_at(tokens, at + 1) or (tokens[at + 1].mark and not opening)) and (at or not tokens[at + 1].mark):
         # "Navigate to the table, ...", "reach into the box", "... and stir"
         return at if not opening or tokens[at].number == 1 or actor else None
+    if going and follower in _PARTICLES and tokens[min(at + 2, len(tokens) - 1)].text in ("and", ",") and not at:
+        # "Reach up and remove the cup"
+        return at
     bare = base in ("stack", "open", "close", "sort", "pack", "push", "pull", "drop", "empty", "plate", "align", "add")
     goal = any(token.text in ("into", "in", "on", "onto", "to") for token in tokens[at + 2 : at + 6])
     if bare and (known or (goal and base not in ("open", "close"))) and opening and tokens[at].number == 1:

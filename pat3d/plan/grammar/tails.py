@@ -104,6 +104,7 @@ class Tails(Remarks):
         if word == ",":
             return [] if follower in FINITE or self._placing(at + 1) else marks
         if word in lexicon.RELATIVES:
+            behind = behind or self._words[at - 1] in lexicon.BACKGROUND
             # "that the robot has to avoid", "that is too old"
             return [*finite[follower not in FINITE :], *marks] if behind else []
         if word in _SUBORDINATING or (word in ("by", "for") and follower.endswith("ing")):
