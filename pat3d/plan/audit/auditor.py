@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
@@ -141,7 +141,7 @@ class _Auditor(Compared):
             *without(self),
         ]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
-        made += [*shared_colours(self), *insides(self), *carried(self)]
+        made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self)]
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
                 made.append((claim.at, note))
