@@ -62,7 +62,7 @@ def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -
         raise TaskError(f'"{name}" weighs {mass:.1f} kg, two arms carry {payload:.1f} kg.')
     found_by = {arm: find_grasps(scene, name, measure_gripper(arm), count=TRIED) for arm in set(arms)}
     lefts, rights = (found_by[arm] for arm in arms)
-    centre = scene[name].pose.apply(np.array([scene[name].asset.mass_properties.centre_of_mass]))[0]
+    centre = scene[name].pose.apply(np.array([scene[name].asset.mass_properties.centre_of_mass]))[0].tolist()
     if not wide:
         lefts = _firm(arms[0], lefts, name, mass, centre, STEADY)
         rights = _firm(arms[1], rights, name, mass, centre, HANGING)
@@ -83,7 +83,9 @@ def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -
     return [(left, right) for _, left, right in found[:PAIRS_KEPT]]
 
 
-def _firm(arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: np.ndarray, most: float) -> list[Grasp]:
+def _firm(
+    arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: Sequence[float], most: float
+) -> list[Grasp]:
     """Those by which one hand holds it alone, without it turning far in the fingers or slipping out of them."""
     most = most * make_robot(arm).payload
     firm = [one for one in grasps if torque(one, mass, centre) <= most and one.facing >= FIRM]
