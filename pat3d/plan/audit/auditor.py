@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
@@ -20,6 +20,7 @@ from pat3d.plan.audit.places import (
     grounded,
     insides,
     middles,
+    on_the_other,
     others,
     parts,
     shared_out,
@@ -141,7 +142,7 @@ class _Auditor(Compared):
             *without(self),
         ]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
-        made += [*shared_colours(self), *insides(self), *carried(self)]
+        made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
                 made.append((claim.at, note))
@@ -187,6 +188,9 @@ class _Auditor(Compared):
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
             members = [mention for mention in known if self._member(mention, mentions)]
+            # "An apple in one and a pear in the other": one of each.
+            endless = endless and not any(self.said.words[m.end : m.end + 2] in (["in", "one"], ["on", "one"]) and
+                                          m.number == 1 for m in mentions)  # fmt: skip
             most = max(least, sum(mention.number or 1 for mention in known if mention not in members))
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
@@ -224,6 +228,19 @@ class _Auditor(Compared):
             each = word in EACH | {"both"} and not (words[at - 1] == "of" and not after[0].isalnum())
             if each or (at not in leading and (near or any(mention.start <= at for mention in mentions))):
                 return True
+        return False
+
+    def _halved(self) -> bool:
+        """Whether half of some likes are told from the others by their colour, their posture or what they are on."""
+        turned = {one.object for one in self.plan.postures}
+        for mention in self.said.mentions:
+            names = [obj.name for obj in self.of(mention)]
+            for one in ((obj.colours, obj.name in turned, self.above(obj.name)[:1]) for obj in self.of(mention)):
+                same = sum(
+                    (obj.colours, obj.name in turned, self.above(obj.name)[:1]) == one for obj in self.of(mention)
+                )
+                if 0 < same * 2 == len(names):
+                    return True
         return False
 
     def _shares(self, at: int) -> bool:
@@ -278,7 +295,7 @@ class _Auditor(Compared):
                 or not word[0].isalpha()
             ):
                 continue
-            if find_colour(word) or find_material(word) in materials:
+            if find_colour(word) or find_material(word) in materials or (word == "half" and self._halved()):
                 continue
             if not re.search(rf"\b{re.escape(word)}\b", self.quoted) and not (asked and word in DEEDS):
                 made.append((at, f'not heard: "{word}"'))

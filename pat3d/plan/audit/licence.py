@@ -143,6 +143,9 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
             return True
+        owner = [mention for mention in it.said.mentions if mention.end == claim.at]
+        if claim.place == "with" and owner and not claim.whose:
+            above = _names(it, owner)
         taken = claim.place == "far" and bool(it.tasks.strip())
         kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
         if kind in kinds and parent in below and child in above:

@@ -164,6 +164,19 @@ def shared_colours(it: Compared) -> Iterator[tuple[int, str]]:
                 yield one.start, f'"{word}" is read as said of "{one.text}" and not of "{other.text}"'
 
 
+def listed_colours(it: Compared) -> Iterator[tuple[int, str]]:
+    """Colours in brackets behind a name of which the plan lacks one: "four boxes (red, blue, green, yellow)"."""
+    words = it.said.words
+    for mention in it.said.mentions:
+        close = words.index(")", mention.end) if words[mention.end : mention.end + 1] == ["("] and ")" in words else 0
+        inside = [word for word in words[mention.end + 1 : max(close, mention.end + 1)] if word not in (",", "and")]
+        if not inside or not all(find_colour(word) for word in inside) or not it.which(mention):
+            continue
+        for colour in inside:
+            if not any(it.has(obj, colour) for obj in it.of(mention)):
+                yield mention.start, f'not as said: "{colour}" of "{mention.text}"'
+
+
 def storeys(it: Compared) -> Iterator[tuple[int, str]]:
     """The colour of the middle, the top or the lowest one of a stack."""
     words = it.said.words

@@ -124,7 +124,8 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
     """Parts of things that something is said to be at, and that the plan takes the whole for."""
     words, kinds = it.said.words, {rel.kind for rel in it.plan.relations} | {one.kind for one in it.plan.arrangements}
     for at, word in enumerate(words[:-1]):
-        if word not in PARTS or words[at + 1] != "of" or kinds & PARTS[word]:
+        away = word == "side" and words[at - 1] in ("other", "far", "opposite", "near") and not kinds - {"on", "in"}
+        if words[at + 1] != "of" or not (away or (word in PARTS and not kinds & PARTS[word])):
             continue
         whole = next((mention for mention in it.said.mentions if at < mention.start <= at + 5), None)
         inside = word == "bottom" and "on" not in words[max(at - 2, 0) : at] and "in" in kinds
@@ -155,6 +156,20 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         likes = [[obj for obj in it.plan.objects if obj.noun in nouns] for nouns in kinds]
         if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
             yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
+
+
+def on_the_other(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is on the other of two and stands where what is on the one does."""
+    words = it.said.words
+    for at in range(3, len(words) - 2):
+        one = next((n for n in range(at) if words[n : n + 3] == [words[at], "one", "of"]), 0)
+        if words[at] not in ("on", "in") or words[at + 1 : at + 3] != ["the", "other"] or not one:
+            continue
+        before = [[mention for mention in it.said.mentions if mention.end <= n][-1:] for n in (one, at)]
+        names = [{obj.name for mention in each for obj in it.which(mention)} for each in before]
+        carriers = [{name for child in each for name in it.above(child)[:1]} for each in names]
+        if names[0] != names[1] and carriers[0] and carriers[0] == carriers[1]:
+            yield at, f'not as said: "{words[at]} the other"'
 
 
 def insides(it: Compared) -> Iterator[tuple[int, str]]:
@@ -287,7 +302,10 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         if place in ENDS or place in CORNERS:
             # "A bench with a plant at either end", but not "two lamps, one at either side"
             wanted = 4 if place in CORNERS else 2
-            told = before[-1:] if before and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
+            pair = it.said.words[before[-2].end : before[-1].first] == ["and"] if len(before) > 1 else False
+            told = (
+                before[-1:] if before and not pair and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
+            )
             yield from _fewer(it, at, told, wanted, f"{word} {place}")
             continue
         if word == "either" or place == "other" or (it.said.words[at - 1] == "of" and not place[:1].isalnum()):
