@@ -77,6 +77,8 @@ class Grasp:
     """Higher is better."""
     width: float = 0.0
     """Of what is between the fingers, along the closing direction [m]."""
+    facing: float = 1.0
+    """Least cosine between the closing direction and the surfaces that the pads meet."""
     lean: float = 0.0
     """Angle of the approach from straight down [rad]."""
     heading: float = 0.0
@@ -276,6 +278,7 @@ def _held(grasps: list[Grasp], target: SceneObject, gripper: Gripper) -> list[Gr
             one,
             position=(float(middles[k, 0]), float(middles[k, 1]), float(middles[k, 2])),
             width=float(thick[k]),
+            facing=float(worse[k]),
             score=one.score + 1.5 * float(worse[k]) + 0.5 * float(touched[k]),
         )
         for k, one in enumerate(grasps)

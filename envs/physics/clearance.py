@@ -19,6 +19,9 @@ DEPTH = 0.002
 OTHER = -4
 """Owner of the geoms of an arm that has nothing to do for the task: in the way like anything else."""
 
+BETWEEN_ARMS = 0.005
+"""Two arms keep this from one another [m]: they come by other ways than through the postures that are looked at."""
+
 NOTICED = 0.008
 """Things further apart than this [m] are clear of one another."""
 
@@ -82,11 +85,10 @@ class Clearance:
                 data.qpos[[int(model.joint(arm.prefix + name).qposadr[0]) for name in names]] = values
         self._mujoco.mj_kinematics(model, data)
         self._mujoco.mj_collision(model, data)
+        if self._nearest(self._owner == OTHER, BETWEEN_ARMS) < BETWEEN_ARMS:
+            return "the other arm"
         owners = self._owner[data.contact.geom[data.contact.dist < -DEPTH]]
         arms = (owners == ROBOT) | (owners == OTHER)
-        meeting = owners[arms.all(axis=1) & (owners[:, 0] != owners[:, 1])]
-        if len(meeting):
-            return "the other arm"
         number = self._numbers[carried]
         met = owners[arms.any(axis=1) & ~arms.all(axis=1) & (owners != number).all(axis=1)]
         return "" if not len(met) else self._names[int(next(one for one in met[0] if one not in (ROBOT, OTHER)))]
@@ -99,16 +101,18 @@ class Clearance:
     def distance(self, joints: Array, fingers: Array, carried: str = "") -> float:
         """How far the robot would be from all objects but `carried` [m], at most NOTICED; see `obstacle`."""
         self._overlaps(carried, None, joints, fingers)
-        model, data, owner = self._model, self._data, self._owner
+        others = (self._owner >= 0) | (self._owner == OTHER)
+        return self._nearest(others & (self._owner != self._numbers.get(carried, ROBOT)), NOTICED)
+
+    def _nearest(self, others: NDArray[np.bool_], nearest: float) -> float:
+        """How far the robot is from other geoms [m], at most `nearest`; the poses are computed already."""
+        model, data = self._model, self._data
         collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-        others = np.flatnonzero(
-            collides & ((owner >= 0) | (owner == OTHER)) & (owner != self._numbers.get(carried, ROBOT))
-        )
-        nearest = NOTICED
-        for geom in np.flatnonzero(collides & (owner == ROBOT)).tolist():
-            reach = model.geom_rbound[geom] + model.geom_rbound[others] + nearest
-            near = np.linalg.norm(data.geom_xpos[others] - data.geom_xpos[geom], axis=1) < reach
-            for other in others[near].tolist():
+        about = np.flatnonzero(collides & others)
+        for geom in np.flatnonzero(collides & (self._owner == ROBOT)).tolist():
+            reach = model.geom_rbound[geom] + model.geom_rbound[about] + nearest
+            near = np.linalg.norm(data.geom_xpos[about] - data.geom_xpos[geom], axis=1) < reach
+            for other in about[near].tolist():
                 nearest = min(nearest, self._mujoco.mj_geomDistance(model, data, geom, other, nearest, None))
         return nearest
 

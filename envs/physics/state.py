@@ -138,6 +138,11 @@ class SimState:
         """Whether both fingers touch the object."""
         return bool(_held(self.states.snapshot, self._number, self._numbers[name]))
 
+    def holding(self, name: str) -> tuple[bool, ...]:
+        """Whether both fingers of an arm touch the object, the left one of two arms first."""
+        fingers = self.states.snapshot.pinched[self._number, :, predicates.OWNERS + self._numbers[name]]
+        return tuple(bool(one and other) for one, other in fingers.reshape(-1, 2))
+
     def inside(self, name: str, container: str) -> bool:
         """Whether an object lies in the cavity of another."""
         return self._stands(name, container, "in")

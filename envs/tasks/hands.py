@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -24,61 +25,89 @@ LIFT = 0.16
 
 
 class TakingHand:
-    """One of two arms, with its grasp of the object.
+    """One of two arms, with a grasp of the object.
 
     Args:
         env: a TabletopEnv, or a workplace, with two arms.
         side: "left" or "right".
+        number: of the pair of grasps, of those that both arms get to.
+        half: by which its hand is turned about the approach [rad]: 0, or pi with its fingers exchanged.
     """
 
-    def __init__(self, env: Any, side: str) -> None:
+    def __init__(self, env: Any, side: str, number: int, half: float) -> None:
         placement, name = env.placement, env.task.names[0]
         own = placement if placement.side == side else placement.other
         arm = env.simulation.world.arm(side)
-        self._gripper, self._home = measure_gripper(arm.robot.name), np.array(arm.start)
+        gripper, self._home = measure_gripper(arm.robot.name), np.array(arm.start)
         self._arm = PlacedArm(arm_kinematics(arm.robot.name), own.base_position, own.yaw)
-        self.grasp: Grasp = own.grasps[name][0]
-        self.tip = self._gripper.tip
+        self.tip = gripper.tip
         """How far the fingers reach beyond the grip site [m]."""
-        self.fingers = np.array(self._gripper.open_joints)
+        self.fingers = np.array(gripper.open_joints)
         """Joint positions of the open gripper."""
-        self.pose: Hand = min((self._turned(half) for half in (0.0, math.pi)), key=self._motion)
-        """Of the hand in its grasp, turned the way round in which the joints move least."""
+        grasp: Grasp = own.grasps[name][number]
+        self.pose: Hand = hand_pose(grasp, gripper.tip, gripper.closing_axis, half=half)
+        """Of the hand in its grasp."""
 
     def joints(self, up: float) -> Array | None:
         """Joint positions of the arm with its hand `up` [m] above its grasp; None out of reach."""
         position, rotation = self.pose
         return self._arm.solve(position + [0.0, 0.0, up], rotation, self._home, self._home)
 
-    def _turned(self, half: float) -> Hand:
-        return hand_pose(self.grasp, self._gripper.tip, self._gripper.closing_axis, half=half)
-
-    def _motion(self, pose: Hand) -> float:
-        joints = self._arm.solve(*pose, self._home, self._home)
+    @property
+    def motion(self) -> float:
+        """By how much a joint turns at most from the start to the grasp [rad]."""
+        joints = self.joints(0.0)
         return math.inf if joints is None else float(np.abs(joints - self._home).max())
 
 
-def rehearse_together(work: Any, *, at_once: bool) -> None:
-    """Raise TaskError unless both hands get to the object and up with it, in nothing else and not in one another.
+def hands_of(work: Any, *, at_once: bool) -> tuple[dict[str, TakingHand], str]:
+    """Both hands, and what speaks against them: nothing where they get to the object and up with it, in nothing else.
+
+    Each hand can be turned either way round. Of the pairs of grasps, best first, the first is taken with which neither
+    hand is in the other one, in that way in which the joints move least; where there is none, the best pair is.
 
     Args:
-        work: a workplace with two arms.
+        work: a TabletopEnv, or a workplace, with two arms.
         at_once: whether both take it where it stands; otherwise the right hand takes it out of the raised left one.
     """
-    hands, clearance = {side: TakingHand(work, side) for side in SIDES}, Clearance(work)
+    clearance, name = Clearance(work), work.task.names[0]
+    first: tuple[dict[str, TakingHand], str] | None = None
+    for number in range(len(work.placement.grasps[name])):
+        both = ([TakingHand(work, side, number, half) for half in (0.0, math.pi)] for side in SIDES)
+        ways: list[dict[str, TakingHand]] = [dict(zip(SIDES, way, strict=True)) for way in product(*both)]
+        for hands in sorted(ways, key=lambda hands: sum(hand.motion for hand in hands.values())):
+            fault = _fault(hands, clearance, name, at_once=at_once)
+            if not fault:
+                return hands, ""
+            first = first or (hands, fault)
+    if first is None:
+        raise TaskError(f'no pair of grasps of "{name}" is known.')
+    return first
+
+
+def rehearse_together(work: Any, *, at_once: bool) -> None:
+    """Raise TaskError where something speaks against both hands; see `hands_of`."""
+    _, fault = hands_of(work, at_once=at_once)
+    if fault:
+        raise TaskError(fault)
+
+
+def _fault(hands: dict[str, TakingHand], clearance: Clearance, name: str, *, at_once: bool) -> str:
+    """Why two hands do not get to an object and up with it; nothing where they do."""
     left, right = SIDES
     if at_once:
         heights = [dict.fromkeys(SIDES, up) for up in (HOVER, 0.0, LIFT)]
     else:
-        heights = [{left: HOVER}, {left: 0.0}, {left: LIFT, right: LIFT + HOVER}, {left: LIFT, right: LIFT}]
-    name = work.task.names[0]
+        alone = [{left: up} for up in (HOVER, 0.0, LIFT)]
+        heights = [*alone, {left: LIFT, right: LIFT + HOVER}, {left: LIFT, right: LIFT}]
     for one in heights:
         postures = {}
         for side, up in one.items():
             joints = hands[side].joints(up)
             if joints is None:
-                raise TaskError(f'the {side} arm does not get to "{name}".')
+                return f'the {side} arm does not get to "{name}".'
             postures[side] = joints, hands[side].fingers
         met = clearance.met(postures, name)
         if met:
-            raise TaskError(f'two hands find no way to "{name}" on which neither is in {met}.')
+            return f'two hands find no way to "{name}" on which neither is in {met}.'
+    return ""

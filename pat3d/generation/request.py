@@ -118,7 +118,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     """An asset for every planned object; equal objects of a set share one."""
     from pat3d.assets import catalogue, sources
     from pat3d.assets.variant import Variant
-    from pat3d.generation.sizing import enlarged_trays
+    from pat3d.generation.sizing import crossings, enlarged_trays
 
     together = built_together([obj.name for obj in plan.objects], plan.relations)
     planned = {obj.name: obj for obj in plan.objects}
@@ -154,6 +154,9 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     for name, (larger, factor) in enlarged_trays(plan, assets, make).items():
         assets[name] = larger
         notes[name] = f'"{name}" is {factor:g} times its usual size, for all that is on it to stand side by side.'
+    for name, (other, factor) in crossings(plan, assets, make).items():
+        assets[name] = other
+        notes[name] = f'"{name}" is {factor:g} times its usual size, for one thing to lie across another.'
     turned: dict[str, PostureKind] = {one.object: one.kind for one in plan.turned()}
     return tuple(
         UnplacedObject(

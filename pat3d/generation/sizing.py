@@ -1,8 +1,14 @@
-"""Trays as large as what they carry asks for: nobody who says "a tray with a teapot and two cups" means a heap."""
+"""Things of the size that their company asks for.
+
+Trays as large as what they carry: nobody who says "a tray with a teapot and two cups" means a heap. And a spoon that is
+long enough for the bowl across which it lies, or a bowl small enough for it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -14,6 +20,7 @@ from pat3d.layout.frames import flat_regions
 from pat3d.layout.group import Group
 from pat3d.layout.intents import Intents
 from pat3d.layout.places import pins
+from pat3d.layout.spans import crossing
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.layout.tops import item_of
 from pat3d.plan.scene_plan import ScenePlan
@@ -27,6 +34,9 @@ FACTORS = (1.15, 1.3, 1.5, 1.7)
 """Sizes that are tried, the smallest first, against the usual one."""
 GAP = 0.002
 """What things keep from what carries them [m]."""
+
+LONGER, SMALLER = (1.0, 1.1, 1.2, 1.3), (1.0, 0.9, 0.8, 0.7, 0.6)
+"""Sizes of what lies across something, and of that, that are tried against the usual ones, the nearest first."""
 
 
 def enlarged_trays(
@@ -56,6 +66,38 @@ def enlarged_trays(
             if any(set(one.names) & set(_on(plan, obj.name)) for one in plan.held()):
                 # The refusal, if there is one, then tells how many would fit the largest.
                 found[obj.name] = remake(obj.name, FACTORS[-1]), FACTORS[-1]
+    return found
+
+
+def crossings(
+    plan: ScenePlan, assets: Mapping[str, Asset], remake: Callable[[str, float], Asset]
+) -> dict[str, tuple[Asset, float]]:
+    """Assets of other sizes, with their factors, for what lies across one thing of `plan` and is too short to rest so.
+
+    What the prompt gives a size, and a carrier that carries something else too, stay as they are. Arguments as for
+    `enlarged_trays`.
+    """
+    planned = {obj.name: obj for obj in plan.objects}
+    found: dict[str, tuple[Asset, float]] = {}
+
+    def factors(name: str, tried: Sequence[float]) -> Sequence[float]:
+        obj = planned[name]
+        return tried if obj.scale == 1.0 and obj.extent is None and name not in found else (1.0,)
+
+    for one in plan.held():
+        if one.kind != "across" or len(one.of) != 1:
+            continue
+        name, carrier = one.objects[0], one.of[0]
+        alone = [rel.child for rel in plan.relations if rel.supports and rel.parent == carrier] == [name]
+        pairs = itertools.product(factors(name, LONGER), factors(carrier, SMALLER) if alone else (1.0,))
+        for longer, smaller in sorted(pairs, key=lambda pair: math.log(pair[0]) - math.log(pair[1])):
+            made = {
+                each: (assets[each] if factor == 1.0 else remake(each, factor), factor)
+                for each, factor in ((name, longer), (carrier, smaller))
+            }
+            if crossing(*(place(each, asset, Pose()) for each, (asset, _) in made.items())) is not None:
+                found |= {each: sized for each, sized in made.items() if sized[1] != 1.0}
+                break
     return found
 
 

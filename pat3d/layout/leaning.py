@@ -1,9 +1,9 @@
 """What stands against or below another thing of the same surface: leaning on it, or under its overhang.
 
 What leans is stood on end, its thinnest side to what it leans on, and tilted; an umbrella, which has no such side, with
-its centre of mass before its foot. A ladder on floor and wall of friction mu
-stands up to a tilt of atan(2 mu / (1 - mu^2)), 22 degrees at the friction that scenes settle with; it falls back where
-its centre of mass is not beyond its lower edge, which thick things only have at a large tilt.
+its centre of mass straight before its foot. A ladder on floor and wall of friction mu stands up to a tilt of
+atan(2 mu / (1 - mu^2)), 22 degrees at the friction that scenes settle with; it falls back where its centre of mass is
+not beyond its lower edge, which thick things only have at a large tilt.
 """
 
 from __future__ import annotations

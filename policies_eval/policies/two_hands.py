@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.grasping.scripted import Servo
 from pat3d.envs.robots.pairs import SIDES
-from pat3d.envs.tasks.hands import LIFT, TakingHand
+from pat3d.envs.tasks.hands import LIFT, TakingHand, hands_of
 from pat3d.envs.tasks.together import Carry, HandOver
 
 Array = NDArray[np.float64]
@@ -32,6 +32,9 @@ OPEN, CLOSED = -1.0, 1.0
 CLOSE_STEPS, OPEN_STEPS = 18, 12
 NEAR, EXACT = 0.02, 0.006
 """Errors at which a hand is there on the way, and where it takes something [m]."""
+
+DEEPER = (0.0, 0.006)
+"""How much further down than its grasp the second hand takes what slipped out of its fingers [m]."""
 
 PASSING = 0.03
 """Between the fingers and what they pass above [m]."""
@@ -58,7 +61,7 @@ class TwoHands:
         """Aims of hands that have nothing to do."""
         pose = env.scene[self._name].pose
         self._rest = pose.rotation, np.array(pose.position)
-        hands = {side: TakingHand(env, side) for side in SIDES}
+        hands, _ = hands_of(env, at_once=env.task.kind == Carry.kind)
         self._grasps = {side: hand.pose for side, hand in hands.items()}
         self._high = {side: self._passing(hand) for side, hand in hands.items()}
         """How far above its grasp each hand comes from the side [m]."""
@@ -76,20 +79,46 @@ class TwoHands:
         yield from self._raise(SIDES)
 
     def _hand_over(self) -> Iterator[NDArray[np.float32]]:
+        """From the left hand to the right one, again from the start where it falls."""
         left, right = SIDES
-        yield from self._go({left: self._over(left, self._high[left])}, NEAR)
-        yield from self._go({left: self._over(left, HOVER)}, NEAR)
-        yield from self._go({left: self._over(left, 0.0)}, EXACT)
-        yield from self._grip({left: self._now(left)}, CLOSED)
-        yield from self._raise((left,), LIFT)
-        yield from self._go({right: self._over(right, HOVER)}, NEAR)
-        yield from self._go({right: self._over(right, 0.0)}, EXACT)
-        yield from self._grip({right: self._now(right)}, CLOSED)
-        yield from self._grip({left: self._now(left)}, OPEN, OPEN_STEPS)
-        position, rotation = self._now(left)()
-        yield from self._go({left: lambda: (position + [0.0, 0.0, HOVER], rotation)}, NEAR)
+        while True:
+            yield from self._go({left: self._over(left, self._high[left])}, NEAR)
+            yield from self._take(left, 0.0)
+            if self._holding(left):
+                yield from self._raise((left,), LIFT)
+                yield from self._give(left, right)
+            if self._holding(right) and not self._holding(left):
+                break
+            yield from self._grip({side: self._now(side) for side in SIDES}, OPEN, OPEN_STEPS)
+            yield from self._withdraw(right)
+            yield from self._withdraw(left)
         yield from self._hold_up(right)
         yield from self._wait()
+
+    def _give(self, left: str, right: str) -> Iterator[NDArray[np.float32]]:
+        """The right hand takes what the left one holds, deeper each time, and the left one lets go once it has it."""
+        for deeper in DEEPER:
+            yield from self._take(right, -deeper)
+            if self._holding(right):
+                yield from self._grip({left: self._now(left)}, OPEN, OPEN_STEPS)
+                yield from self._withdraw(left)
+                return
+            if not self._holding(left):
+                return
+            yield from self._grip({right: self._now(right)}, OPEN, OPEN_STEPS)
+
+    def _take(self, side: str, back: float) -> Iterator[NDArray[np.float32]]:
+        """One hand to its grasp, or `back` above it [m], and its fingers closed there."""
+        yield from self._go({side: self._over(side, HOVER)}, NEAR)
+        yield from self._go({side: self._over(side, back)}, EXACT)
+        yield from self._grip({side: self._now(side)}, CLOSED)
+
+    def _withdraw(self, side: str) -> Iterator[NDArray[np.float32]]:
+        position, rotation = self._now(side)()
+        yield from self._go({side: self._fixed((position + [0.0, 0.0, HOVER], rotation))}, NEAR)
+
+    def _holding(self, side: str) -> bool:
+        return self._env.simulation.state.holding(self._name)[SIDES.index(side)]
 
     def _go(self, aims: dict[str, Aim], tolerance: float) -> Iterator[NDArray[np.float32]]:
         """Hands to where they should be; the others stay."""

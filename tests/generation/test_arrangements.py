@@ -97,6 +97,11 @@ SCENES = {
         on("book", "box"),
         "  - {kind: leaning_against, objects: [book], of: [box]}\n",
     ),
+    "umbrella": spec(
+        objects("armchair:armchair", "umbrella:umbrella"),
+        "",
+        "  - {kind: leaning_against, objects: [umbrella], of: [armchair]}\n",
+    ),
     "across": spec(
         TABLE + objects("bowl:bowl", "ruler:ruler"),
         on("bowl") + on("ruler", carrier="bowl"),
@@ -191,6 +196,17 @@ def test_what_is_moved_away_fails_the_verification(name, made):
             moved = tuple(replace(obj, pose=near) if obj.name == target else obj for obj in scene.objects)
             found = {str(result.relation): result for result in relations_at_rest(replace(scene, objects=moved))}
         assert not found[str(one)].holds, found[str(one)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_a_spoon_stays_across_a_bowl(seed, tmp_path):
+    pat3d.generate("A spoon across a bowl on a placemat.", out=tmp_path / "scene", seed=seed)
+    report = read_json(tmp_path / "scene" / "report.json")
+    assert report["passed"], report["failures"]
+    assert "spoon across bowl" in [
+        one["relation"] for one in report["verification"]["relations"]["list"] if one["holds"]
+    ]
 
 
 @pytest.mark.slow

@@ -3,13 +3,14 @@ from dataclasses import replace
 
 import pytest
 
+from pat3d.assets import catalogue
 from pat3d.errors import LayoutError
 from pat3d.generation import sizing
 from pat3d.generation.request import objects_of_plan
 from pat3d.layout.layout import arrange
 from pat3d.layout.predicates import check_arranged
 from pat3d.plan.grammar.planner import GrammarPlanner
-from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
 from pat3d.progress import silent
 from pat3d.scene.model import Relation
 
@@ -89,3 +90,48 @@ def test_where_no_tray_is_large_enough_the_refusal_says_how_many_fit():
     fewer = GrammarPlanner().plan(f"{said[1]} mugs in a circle around a teapot on a tray.")
     assets = {one.name: one.asset for one in objects_of_plan(fewer, 0, silent)}
     arrange(assets, fewer.relations, seed=0, arrangements=fewer.held())
+
+
+def across(scale=1.0):
+    objects = (PlannedObject(name="spoon", noun="spoon"), PlannedObject(name="bowl", noun="bowl", scale=scale))
+    return ScenePlan(
+        prompt="",
+        objects=objects,
+        relations=(Relation(child="spoon", kind="on", parent="bowl"),),
+        arrangements=(Arrangement(kind="across", objects=("spoon",), of=("bowl",), arranged=True),),
+    )
+
+
+@pytest.mark.parametrize(
+    ("span", "scale", "expected"),
+    [
+        (1.0, 1.0, {}),
+        (1.1, 1.0, {"spoon": 1.1}),
+        (1.25, 1.0, {"bowl": 0.8}),
+        (1.5, 1.0, {"spoon": 1.2, "bowl": 0.8}),
+        (2.3, 1.0, {}),
+        (1.25, 1.2, {"spoon": 1.3}),
+        (1.5, 1.2, {}),
+    ],
+)
+def test_what_lies_across_a_carrier_that_is_too_wide_and_this_carrier_change_as_little_as_will_do(
+    monkeypatch, span, scale, expected
+):
+    """With assets that are mere factors: the spoon has to be `span` times as large as the bowl."""
+    monkeypatch.setattr(sizing, "place", lambda name, asset, pose: asset)
+    monkeypatch.setattr(sizing, "crossing", lambda spoon, bowl: spoon / bowl >= span - 1e-9 or None)
+    found = sizing.crossings(across(scale), {"spoon": 1.0, "bowl": 1.0}, lambda name, factor: factor)
+    assert {name: factor for name, (_, factor) in found.items()} == expected
+
+
+def test_a_bowl_across_which_a_spoon_lies_keeps_its_size_where_it_holds_apples():
+    held = (PlannedObject(name="apple", noun="apple"),)
+    holding = Relation(child="apple", kind="in", parent="bowl")
+    plan = across()
+    plan = replace(plan, objects=(*plan.objects, *held), relations=(*plan.relations, holding))
+    bowl = catalogue.make("bowl")
+    made = {"bowl": bowl, "spoon": catalogue.make("spoon", scale=0.8)}
+    assert sizing.crossings(plan, made, lambda name, factor: catalogue.make(name, scale=0.8 * factor)) == {}
+    found = sizing.crossings(across(), made, lambda name, factor: catalogue.make(name, scale=factor))
+    assert set(found) == {"spoon"}
+    assert found["spoon"][0].size[0] > bowl.size[0]

@@ -6,16 +6,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from pat3d.assets import shapes
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
-from pat3d.layout.bodies import Body, distance, place_all
+from pat3d.layout.bodies import Body, distance, place, place_all
 from pat3d.layout.layout import arrange
 from pat3d.layout.leaning import BEYOND, leaning_rotation
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.predicates import check_arranged, check_relations
+from pat3d.layout.spans import crossing
 from pat3d.scene.arrangements import Arrangement, Posture
 from pat3d.scene.model import Relation
-from tests.layout.things import ball, block, mug, pen, shelf, table, vessel
+from tests.layout.things import asset, ball, block, mug, pen, shelf, table, vessel
 
 SIDE = 0.06
 
@@ -180,6 +182,47 @@ def test_leaning_things_are_tilted_enough_to_fall_to_the_wall_and_little_enough_
     assert np.linalg.det(lying) == pytest.approx(1.0)
     with pytest.raises(LayoutError, match="too thick to lean"):
         leaning_rotation(Body("chest", block(0.3, 0.1, 0.25)), np.array([0.0, 1.0, 0.0]))
+
+
+def bent(*points: tuple[float, float], heavy: float = 0.0):
+    """A bar 1 cm wide and 2 mm thick whose underside goes through (x, z); with a box on it that starts at `heavy`."""
+    bars = [
+        shapes.convex([(x, y, z + up) for x, z in pair for y in (-0.005, 0.005) for up in (0.0, 0.002)])
+        for pair in zip(points, points[1:], strict=False)
+    ]
+    if heavy:
+        bars.append(shapes.box(0.02, 0.01, 0.02).moved(heavy, 0.0, points[0][1] + 0.001))
+    return asset("bar", shapes.join(*bars))
+
+
+def crossing_of(bar, carrier=None):
+    return crossing(place("a", bar, Pose()), place("b", carrier or vessel(0.05, 0.05), Pose()))
+
+
+def test_what_lies_across_has_its_centre_of_mass_between_its_supports_and_not_its_middle():
+    """The box on the left moves the centre of mass 5 cm from the middle of a bar of 20 cm, beyond a rim of 10 cm."""
+    bar = bent((-0.1, 0.0), (0.1, 0.0), heavy=-0.085)
+    found = crossing_of(bar)
+    centre = bar.mass_properties.centre_of_mass[0] + found.position[0]
+    assert bar.mass_properties.centre_of_mass[0] < -0.04
+    assert abs(centre) < 0.042
+    assert crossing_of(bent((-0.1, 0.0), (0.1, 0.0))).position == pytest.approx([0.0, 0.0], abs=1e-3)
+
+
+def test_what_lies_across_is_tilted_until_both_supports_are_level():
+    """The underside steps up by 1 cm: over 10 cm between the supports that is 5.7 degrees."""
+    bar = bent((-0.1, 0.0), (-0.005, 0.0), (0.005, 0.01), (0.1, 0.01))
+    found = crossing_of(bar)
+    pitch = math.degrees(math.asin(found.rotation[2, 0]))
+    assert pitch == pytest.approx(-math.degrees(math.atan2(0.01, 0.096)), abs=0.3)
+
+
+@pytest.mark.parametrize(("slope", "stays"), [(2.0, True), (5.0, True), (8.0, False), (15.0, False)])
+def test_what_slides_down_its_own_slope_does_not_lie_across(slope, stays):
+    """Two halves that both slope down to the right by `slope`, a step between; friction may have to hold 6 degrees."""
+    rise = 0.0525 * math.tan(math.radians(slope))
+    saw = bent((-0.11, rise), (-0.005, -rise), (0.005, rise), (0.11, -rise))
+    assert (crossing_of(saw, vessel(0.062, 0.05)) is not None) == stays
 
 
 def test_postures_put_a_flat_face_down():

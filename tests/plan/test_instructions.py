@@ -76,3 +76,29 @@ def test_what_only_looks_like_an_instruction_describes(prompt: str):
     plan = PLANNER.plan(prompt)
     assert plan.task is None
     assert not any("no task" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "objects", "task", "noted"),
+    [
+        ("Use the towel to dry the pan on the stove.", "towel, pan, stove", None, "to dry the pan on the stove"),
+        ("Gently press the kettle.", "kettle", None, "Gently press the kettle"),
+        ("Put the lid on the pot to keep the soup warm.", "lid, pot", "place:lid:pot", "to keep the soup warm"),
+        ("Grab the mug, walk to the counter, and put it on the tray.", "mug, counter, tray", "place:mug:tray",
+         "walk to the counter"),
+        ("Peel a banana to put it in the blender.", "banana, blender", "place:banana:blender", "Peel a banana"),
+        ("From the shelf grab the red mug.", "red mug, shelf", "pick:red mug", ""),
+        ("Slide left the green cup.", "green cup", None, "Slide left"),
+        ("Give the brush to me.", "brush", "pick:brush", ""),
+        ("Put the spoon in the cup and stir.", "spoon, cup", "place:spoon:cup", "stir"),
+        ("Don't touch the vase; pick up the candle.", "vase, candle", "pick:candle", "Don't touch the vase"),
+        ("To move the pear to the plate.", "pear, plate", "place:pear:plate", ""),
+        ("After that, move the pear to the plate.", "pear, plate", "place:pear:plate", ""),
+        ("Close the drawer after placing the spoon inside the box.", "drawer, spoon, box", "place:spoon:box",
+         "Close the drawer"),
+    ],
+)  # fmt: skip
+def test_deeds_that_no_task_does_are_named_and_the_rest_is_read(sentence, objects, task, noted):
+    plan = PLANNER.plan(sentence)
+    assert (", ".join(obj.name for obj in plan.objects), plan.task) == (objects, task)
+    assert any(noted in note for note in plan.notes) or not noted

@@ -37,6 +37,10 @@ class Chunk:
     """For forms: objects in each row or stack; 0 where that is not said."""
     words: tuple[str, ...] = ()
     """The tokens it was cut from."""
+    quoted: str = ""
+    """As written."""
+    number: int = 0
+    """Position of its first word in the prompt [words, from 1]."""
 
     @property
     def relation(self) -> Link:
@@ -105,7 +109,14 @@ class Cursor:
         words = self._text[self._tokens[self._at].start : self._tokens[self._at + taken - 1].end]
         said = self._words(taken)
         self._made.chunks.append(
-            Chunk(kind=kind, text=words if text is None else text, words=said, **fields)  # type: ignore[arg-type]
+            Chunk(
+                kind=kind,
+                text=words if text is None else text,
+                words=said,
+                quoted=words,
+                number=self._tokens[self._at].number,
+                **fields,  # type: ignore[arg-type]
+            )
         )
         self._read.update(range(self._at, self._at + taken))
         self._at += taken

@@ -7,12 +7,14 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.commands import commanded
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Item, Manner, Step, World
 from pat3d.scene.relations import SUPPORT_KINDS
@@ -33,7 +35,7 @@ _VERBS: dict[str, Manner] = {
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
                      "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch",
-                     "tidy",
+                     "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange",
                      "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble", "rinse", "scrub", "dry", "discard", "secure", "squeeze",
                      "peel", "tie", "untie", "wrap", "mix", "twist", "screw", "unscrew", "tilt", "spin", "roll",
@@ -52,12 +54,19 @@ _ASKING = (
     ("you", "need", "to"), ("i", "want", "you", "to"), ("help", "me"), ("help", "me", "to"), ("let's",), ("let", "us"),
     ("your", "task", "is", "to"), ("the", "task", "is", "to"), ("make", "sure", "to"), ("go", "and"), ("you", "have",
     "to"),
-    ("please", "help", "me"), ("go",),
+    ("please", "help", "me"), ("go",), ("after", "that"), ("after", "that", ","), ("after", "this"),
+    ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
+    ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
 _PARTICLES = frozenset({"up", "down", "away", "back", "out", "over", "off", "on", "close"})
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
-_GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
+_WHILE = frozenset({"while", "by", "after", "before", "when", ",", "without"})
+_OWING = frozenset({"has", "have", "needs", "need", "is", "are", "was", "were", "want", "wants", "able", "used"})
+"""Words before "to" that tell of a duty or a fact."""
+_NO_DEEDS = frozenset({"like", "mean", "seem", "need", "want", "have", "be", "do", "free", "clear", "lower", "lean",
+                       "warm", "dry", "cool", "level", "light", "open", "close"})  # fmt: skip
+"""Verbs that describe as often."""
 _PURPOSES = frozenset({"make", "begin", "create", "start", "prepare", "access", "complete"})
 
 
@@ -71,11 +80,13 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
+    aside: str = ""
+    """What was left out of the sentence before it was read."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     """The clauses of one sentence, which ends in a stop."""
-    tokens = _handed(_ordered(tokens))
+    tokens = commanded(tokens)
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)
@@ -87,6 +98,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         told = verb is not None or tokens[at + 1].text in _CERTAIN
         if joint and told and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
             starts.append((at, found))
+        elif verb is not None and _begins_purpose(tokens, at, nouns):
+            starts.append((at, at + 1))
     if not starts:
         return [Clause(tokens=tuple(tokens))]
     made: list[Clause] = []
@@ -98,11 +111,13 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         first = verb + 1
         while tokens[first].text in _PARTICLES and not (tokens[first].text == "on" and tokens[verb].text in _CERTAIN):
             first += 1
-        body = list(tokens[first:end])
+        body, aside = list(tokens[first:end]), ""
         for at, token in enumerate(body[:-1]):
-            purpose = body[at + 1].text in _PURPOSES or _VERBS.get(body[at + 1].text) == "other"
+            purpose = _is_deed(body[at + 1].text, nouns) and _VERBS.get(body[at + 1].text, "other") == "other"
+            purpose = purpose or body[at + 1].text in _PURPOSES
             named = any(nouns.match([each.text]) for each in body[at + 2 :])
             if token.text == "to" and purpose and at and (not named or body[at + 1].text in _PURPOSES):
+                aside = text[token.start : body[-1].end].strip(" ,")
                 body = body[:at]
                 break
         while body and (body[-1].text in (",", "and", "then") or body[-1].text in _PARTICLES - {"on", "off"}):
@@ -110,35 +125,40 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         stop = tokens[-1]
         begun = max(start, 0)
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=_VERBS[word], said=said))
+        manner = _VERBS.get(word, "other")
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, aside=aside))
     return made
 
 
-def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 3):
-        asks = words[at] in ("should", "must", "shall")
-        asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
-        verb = at + 1 + (words[at + 1] == "to")
-        if not asks or words[verb] != "go" or not link_at(tokens, verb + 1) or words[0] not in lexicon.DETERMINERS:
-            continue
-        return [replace(tokens[0], text="put"), *tokens[:at], *tokens[verb + 1 :]]
-    return tokens
+def _is_deed(word: str, nouns: Nouns) -> bool:
+    """Whether `word` is a verb without an ending, and names nothing."""
+    return (word in _VERBS or base_verb(word) == word) and nouns.match([word]) is None
 
 
-def _handed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "hand me the cup" as "fetch the cup", and "make sure" as "ensure"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
-        if token.text in ("me", "us") and before in _GIVING:
-            made[-1] = replace(made[-1], text="fetch")
-            continue
-        if token.text == "sure" and before in ("make", "making") and follower != "to":
-            made[-1] = replace(made[-1], text="ensure", end=token.end)
-            continue
-        made.append(token)
+def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether "to scrub the bowl" or "while placing the pear" at token `at` names what was not named before it."""
+    word, verb = tokens[at].text, tokens[at + 1].text
+    doing = word in _WHILE and verb.endswith("ing") and not link_at(tokens, at + 1) and nouns.match([verb]) is None
+    deed = word == "to" and _is_deed(verb, nouns) and verb not in _PURPOSES and tokens[at - 1].text not in _OWING
+    if not deed and not (doing and base_verb(verb) is not None):
+        return False
+    end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark)
+    pronoun = tokens[at + 2].text in ("it", "them") and _VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
+    return pronoun or bool(_names(tokens[at + 2 : end], nouns) - _names(tokens[:at], nouns))
+
+
+def _names(tokens: Sequence[Token], nouns: Nouns) -> set[str]:
+    """Catalogue nouns that `tokens` name, but parts and what is no body."""
+    made: set[str] = set()
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 3]]
+        size = next((n for n in (3, 2, 1) if n <= len(words) and nouns.match(words[:n])), 0)
+        found = nouns.match(words[:size]) if size else None
+        plain = size == 1 and bool({words[0], *singulars(words[0])} & (lexicon.PARTS | lexicon.SUBSTANCES))
+        if found is not None and not plain and not (size == 1 and is_quality(words[0])):
+            made.add(found.noun)
+        at += size or 1
     return made
 
 
@@ -146,12 +166,12 @@ def _base(word: str) -> str:
     for guess in (word, word.removesuffix("s"), word.removesuffix("es")):
         if guess in _VERBS:
             return guess
-    return word
+    return base_verb(word) or word
 
 
 def known_verb(word: str) -> bool:
     """Whether `word` tells a robot what to do."""
-    return word in _VERBS
+    return word in _VERBS or base_verb(word) == word
 
 
 def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -> int | None:
@@ -162,8 +182,13 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         asking = next(
             (each for each in sorted(_ASKING, key=len, reverse=True) if tuple(words[: len(each)]) == each), None
         )
-        if asking:
+        if asking and not (asking == ("go",) and _base(words[1]) not in _VERBS):
             at += len(asking)
+        elif opening and words[0] == "to" and words[1] in _VERBS and not at:
+            at += 1
+        elif words[0].endswith("ly") and words[1] in _VERBS and words[0] not in lexicon.BACKGROUND:
+            # "Firmly press the button"
+            at += 1
         elif words[0] in _FILLERS and (opening or words[0] != ","):
             at += 1
         elif opening and (after := _after_actor(tokens, at)):
@@ -172,8 +197,13 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
             break
     word = tokens[at].text
     base = _base(word) if actor else word
-    if base not in _VERBS or at + 1 >= len(tokens):
+    if at + 1 >= len(tokens):
         return None
+    follows = tokens[at + 1].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
+    if base not in _VERBS:
+        # A verb of which no task is known: "Trade the places of the cups".
+        unknown = _is_deed(word, nouns) and word not in lexicon.COMMANDS | lexicon.VERBS | _NO_DEEDS
+        return at if unknown and follows and (not opening or tokens[at].number == 1) else None
     follower = tokens[at + 1].text
     if follower in ("of", "full", "with", "filled"):
         # "Stack of books", "plate full of carrots"
@@ -200,6 +230,10 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
     if base in _CERTAIN and not tokens[at + 1].mark:
         return at
+    going = _VERBS[base] == "other" and nouns.match([word]) is None
+    if going and (link_at(tokens, at + 1) or (tokens[at + 1].mark and not opening)) and (at or not tokens[at + 1].mark):
+        # "Navigate to the table, ...", "reach into the box", "... and stir"
+        return at if not opening or tokens[at].number == 1 or actor else None
     bare = base in ("stack", "open", "close", "sort", "pack", "push", "pull", "drop", "empty", "plate", "align", "add")
     goal = any(token.text in ("into", "in", "on", "onto", "to") for token in tokens[at + 2 : at + 6])
     if bare and (known or (goal and base not in ("open", "close"))) and opening and tokens[at].number == 1:

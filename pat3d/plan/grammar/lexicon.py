@@ -45,11 +45,15 @@ DEMONSTRATIVES = frozenset({"that", "this"})
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
+RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
+"""Words that open a clause about the noun before them."""
+
 COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "look", "appears", "appear"})
 VERBS = frozenset({"sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean",
     "perches", "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats",
     "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays", "belong", "sleep", "float",
-    "perch", "crouch", "stay", "remain", "remains"})  # fmt: skip
+    "perch", "crouch", "stay", "remain", "remains", "hides", "hide", "lurks", "lurk", "slumps", "lounges", "reclines",
+    "sprawls", "dozes", "nestles", "nestle", "huddles", "huddle", "rises", "looms"})  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
@@ -97,6 +101,10 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains", "lounge", "study", "den", "loft",
     "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom", "apartment", "courtyard", "porch", "veranda",
     "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery", "yard", "backyard", "patio", "terrace", "balcony",
+    "campsite", "campground", "camp", "alley", "plaza", "farm", "barn", "stable", "harbour", "harbor", "shore",
+    "riverside", "warehouse", "factory", "store", "supermarket", "market", "school", "hospital", "hotel", "lab",
+    "laboratory", "cellar", "driveway", "playground", "roadside", "cafeteria", "pantry", "entryway", "foyer",
+    "lakeside", "countryside",
     "pair view", "total", "sight", "time", "place", "contrast", "focus",
     "motion", "condition", "orientation", "direction", "manner", "way", "fashion", "use", "close up",
     "grain patterns"})  # fmt: skip
@@ -279,7 +287,7 @@ BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguish
 
 CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "dishwasher", "dryer", "filing cabinet",
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
-          "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
+          "cookie jar", "jam jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
 DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
 """What other things are with that stand beside it: "a laptop with a mouse"."""
@@ -312,7 +320,7 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
 PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
-    "jam": "cookie jar", "shampoo": "shampoo",
+    "jam": "jam jar", "shampoo": "shampoo",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.unmade import base_verb, is_no_noun, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import MAX_OBJECTS, Group, Item, World
 
@@ -118,7 +119,7 @@ class Maker:
         return self._nouns.match([word]) is not None and not is_modifier(word) and word not in lexicon.SUBSTANCES
 
     def _proxy(self, world: World, phrase: Phrase) -> tuple[str, str, bool]:
-        if self._allow_proxies:
+        if self._allow_proxies and not self.no_thing(phrase.head):
             world.note(f'"{phrase.head}" (word {phrase.number}) is not in the catalogue: a plain box stands in.')
             return "box", phrase.head[:40], True
         raise self.unknown(phrase)
@@ -128,12 +129,24 @@ class Maker:
         word, number = phrase.head, phrase.number
         if word in lexicon.MEALS:
             return UnreadError(
-                f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and a cup".'
+                f'"{word}" (word {number}) names no single thing. Say what is there: "a plate with two eggs and '
+                'a cup".',
+                number,
             )
-        if self.no_thing(word):
+        if is_quality(word) and is_no_noun(word):
+            return UnreadError(
+                f'"{word}" (word {number}) names nothing that can be placed. Leave it out, or name the thing that is '
+                "meant.",
+                number,
+            )
+        before = phrase.words.lower().split()[-2:-1]
+        named = bool(before) and (before[0] in lexicon.DETERMINERS or is_modifier(before[0]))
+        doing = base_verb(word) is not None and not named
+        if self.no_thing(word) or (doing and not self._nouns.respelled(word)):
             return UnreadError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
-                'the table. A spoon is to the left of the mug."'
+                'the table. A spoon is to the left of the mug."',
+                number,
             )
         near = self._nouns.nearest(word)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
@@ -150,7 +163,7 @@ class Maker:
                   lexicon.COPULAS, lexicon.MEALS, lexicon.STATES, lexicon.SAID_OTHERWISE, lexicon.LEVELS,
                   _NO_THINGS)  # fmt: skip
         participle = word.endswith(("ed", "ing")) and len(word) > 5 and word not in lexicon.NOT_VERBS
-        return any(word in table for table in tables) or participle or len(word) == 1
+        return any(word in table for table in tables) or participle or len(word) == 1 or is_no_noun(word)
 
     def _count(self, world: World, phrase: Phrase, filling: bool) -> tuple[int, int]:
         """Objects, and objects in a stack."""

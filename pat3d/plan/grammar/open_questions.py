@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.failures import UnreadError
 from pat3d.plan.grammar.lexing import Token, singulars
 
 _NEGATIONS = frozenset({
@@ -26,9 +27,10 @@ def refuse_negations(tokens: Sequence[Token]) -> None:
     for at, token in enumerate(tokens[:-1]):
         follower = tokens[at + 1].text
         if token.text in _NEGATIONS:
-            raise PromptError(
+            raise UnreadError(
                 f'"{token.text}" (word {token.number}): a prompt says what is there, not what is not. Say where things '
-                "are, and leave the rest out."
+                "are, and leave the rest out.",
+                token.number,
             )
         if (token.text, follower) in _EXCEPTIONS or token.text in ("except", "excluding"):
             raise PromptError(

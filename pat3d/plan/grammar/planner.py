@@ -31,6 +31,7 @@ from pat3d.plan.grammar.remarks import Remarks, Span
 from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.similes import similes
+from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
@@ -95,11 +96,7 @@ class GrammarPlanner:
         _check_language(text)
         tokens = worked_out(chessmen(tokenise(text)))
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        told = [
-            clause
-            for sentence in reordered(_sentences(tokens))
-            for clause in clauses(text, plainer(text, sentence, self._nouns), self._nouns)
-        ]
+        told = [clause for sentence in reordered(_sentences(tokens)) for clause in self._clauses(text, sentence)]
         world, others = World(self._likely), list[tuple[int, World]]()
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
@@ -116,6 +113,24 @@ class GrammarPlanner:
             if _supports(second) != _supports(plans[0]):
                 plans.append(second)
         return tuple(plans)
+
+    def _clauses(self, text: str, sentence: Sequence[Token]) -> list[Clause]:
+        """The clauses of `sentence`, without what denies something of nothing: "that is not in use".
+
+        Raises:
+            PromptError: the sentence leaves open what is to be there.
+        """
+        try:
+            return clauses(text, plainer(text, sentence, self._nouns), self._nouns)
+        except UnreadError as error:
+            failure = error
+        for start, end in Tails(sentence, self._nouns, {}).around(failure.number):
+            kept = _without(sentence, [(start, end)])
+            denied = sentence[start].text == "," and sentence[start + 1].text == "not"
+            if (denied or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
+                told = clauses(text, plainer(text, kept, self._nouns), self._nouns)
+                return [replace(told[0], aside=_quoted(text, sentence[start:end])), *told[1:]]
+        raise failure
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
         try:
@@ -137,6 +152,8 @@ class GrammarPlanner:
             for start, end in compared:
                 world.note(f'not modelled: "{_quoted(text, clause.tokens[start:end]).strip(" ,")}"')
             clause = replace(clause, tokens=_without(clause.tokens, compared))
+        if clause.aside:
+            world.note(f'not modelled: "{clause.aside}"')
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
             world.note(f'not modelled: "{clause.said}": no task does that.')
             return world, None
@@ -158,6 +175,8 @@ class GrammarPlanner:
                 failure = failure if isinstance(error, UnknownNounError) else error
             except PromptError:
                 continue
+        if (told := self._without_tails(text, clause, world, company, failure)) is not None:
+            return told
         if isinstance(failure, UnknownNounError) and (spelled := self._respelled(clause, failure.phrase)) is not None:
             said = failure.phrase.head
             world.note(f'"{said}" is read as "{" ".join(self._nouns.respelled(said))}".')
@@ -166,12 +185,45 @@ class GrammarPlanner:
             done = ": no task does that." if clause.manner is not None else ""
             world.note(f'not modelled: "{clause.said or _quoted(text, clause.tokens[:-1])}"{done}')
             return world, None
-        raise failure
+        raise self._fault(clause, failure)
+
+    def _fault(self, clause: Clause, failure: UnreadError) -> PromptError:
+        """`failure`, or that a thing of `clause` is not in the catalogue where only some other word was not read."""
+        at_fault = {token.text for token in clause.tokens if token.number == failure.number}
+        if isinstance(failure, UnknownNounError) or failure.number == 0 or at_fault & lexicon.MEALS:
+            return failure
+        for token in Tails(clause.tokens, self._nouns, {}).unknown():
+            if not self._maker.no_thing(token.text):
+                return self._maker.unknown(
+                    Phrase(kind="unknown", head=token.text, number=token.number, determined=True)
+                )
+        return failure
+
+    def _without_tails(
+        self, text: str, clause: Clause, world: World, company: Collection[str], failure: UnreadError
+    ) -> tuple[World, World | None] | None:
+        """`world` with what `clause` says before and behind what names nothing at its word at fault; None without."""
+        known = {group.noun: group.words.lower() for group in world.groups}
+        tails = Tails(clause.tokens, self._nouns, known)
+        if known and clause.manner is None and tails.whole():
+            world.note(f'not modelled: "{_quoted(text, clause.tokens[:-1])}"')
+            return world, None
+        for start, end in tails.around(failure.number):
+            lighter = _copied(world)
+            lighter.note(f'not modelled: "{_quoted(text, clause.tokens[start:end])}"')
+            kept = _without(clause.tokens, [(start, end)])
+            if not (known or Remarks(kept, self._nouns).things()):
+                continue
+            try:
+                return self._told(text, replace(clause, tokens=kept), lighter, company)
+            except PromptError:
+                continue
+        return None
 
     def _adds_nothing(self, clause: Clause, world: World, failure: PromptError | None) -> bool:
         """Whether `clause`, which cannot be read, only tells more of what was named, or asks what no task does."""
         known = [group.noun for group in world.groups]
-        sentence = Remarks(clause.tokens, self._nouns)
+        sentence = Tails(clause.tokens, self._nouns, {})
         if not known or clause.manner not in (None, "other") or not sentence.adds_nothing(known):
             return False
         # "The challenge lies in the angles": of nothing that is there.
@@ -240,7 +292,7 @@ class GrammarPlanner:
                 return readings, rest
         read = (end for end in range(len(chunks) - 1, 0, -1) if Grammar(chunks[:end], self._likely).readings())
         end = next(read, 0)
-        after = f' after "{chunks[end - 1].text}"' if end else ""
+        after = f' after "{chunks[end - 1].quoted}"' if end else ""
         before = chunks[end - 1].phrase if end else None
         words = before.words.lower().split()[:-1] if before is not None else []
         joined = not (before and before.determined) or any(self._nouns.match([word]) for word in words)
@@ -250,11 +302,13 @@ class GrammarPlanner:
         if before is not None and before.kind == "unknown" and chunks[end].kind == "noun" and verb:
             raise UnreadError(
                 f'"{before.head}" (word {before.number}) is no verb that is known. Say "is on", "is in" or "is next '
-                'to" for what is there, and "put", "move", "pick up" or "push" for what is to be done.'
+                'to" for what is there, and "put", "move", "pick up" or "push" for what is to be done.',
+                before.number,
             )
         raise UnreadError(
-            f'cannot read "{chunks[end].text}"{after}. Say one thing a sentence: "A mug is on the table. A spoon '
-            'is in the mug."'
+            f'cannot read "{chunks[end].quoted}"{after}. Say one thing a sentence: "A mug is on the table. A spoon '
+            'is in the mug."',
+            chunks[end].number,
         )
 
 
@@ -279,7 +333,7 @@ def _without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...
 
 
 def _quoted(text: str, tokens: Sequence[Token]) -> str:
-    return text[tokens[0].start : tokens[-1].end].replace('"', "").strip()
+    return text[tokens[0].start : tokens[-1].end].replace('"', "").strip(" ,")
 
 
 def _copied(world: World) -> World:

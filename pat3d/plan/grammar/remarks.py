@@ -31,7 +31,7 @@ _MANNERS = frozenset({"order", "sequence", "manner", "way", "fashion", "position
 _PIECES = frozenset({"half", "halves", "two", "three", "four", "many", "several", "thin", "small", "thick", "quarters",
     "pieces", "slices", "wedges", "rounds", "cubes", "rings", "strips", "chunks", "bits"})  # fmt: skip
 """What things are cut into."""
-_MOVING = frozenset({"rolling", "falling", "dropping", "flying", "pouring", "spilling", "running", "jumping", "rolled",
+MOVING = frozenset({"rolling", "falling", "dropping", "flying", "pouring", "spilling", "running", "jumping", "rolled",
     "divided", "distributed", "shared", "followed", "donning", "missing", "removed", "surrounded"})  # fmt: skip
 """Words in -ed and -ing that say where things are, or how many."""
 _OPENING = frozenset({"in", "at", "of", "by", "for", "from", "as", "though", "although", "because", "since", "so",
@@ -116,7 +116,7 @@ class Remarks:
             return end
         opens = first in _OPENING | lexicon.SUPERLATIVES.keys() or first.endswith(("ed", "ing", "ly"))
         told = any(is_colour_word(word) or word in ("one", "ones") or word in FINITE for word in words)
-        if not opens or first in _MOVING or told or self._names_a_thing(at, end):
+        if not opens or first in MOVING or told or self._names_a_thing(at, end):
             return 0
         return end if self._empty(at, end) else 0
 
@@ -146,7 +146,7 @@ class Remarks:
         participle = word.endswith(("ing", "ed")) or word in _IRREGULAR
         known = (
             at in self._named
-            or word in _MOVING
+            or word in MOVING
             or word in lexicon.NOT_VERBS
             or link_at(self._tokens, at)
             or is_colour_word(word)
@@ -154,9 +154,10 @@ class Remarks:
         if not saying and (not participle or known or not (behind or self._words[at - 1] in lexicon.COPULAS)):
             return 0
         end = at + 1 + (saying and passive)
-        if self._words[end] in ("in", "into") and self._words[end + 1] in _PIECES:
+        if self._words[end] in ("in", "into") and self._words[end + 1] in _PIECES | lexicon.NUMBERS.keys():
             # "cut in two"
-            end += 1 + next(n for n in range(1, 5) if self._words[end + 1 + n] not in _PIECES)
+            pieces = _PIECES | lexicon.NUMBERS.keys()
+            end += 1 + next(n for n in range(1, 5) if self._words[end + 1 + n] not in pieces)
             return end
         while self._words[end] in _PARTICLES and not self._begins(end + 1):
             end += 1

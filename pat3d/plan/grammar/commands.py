@@ -1,0 +1,98 @@
+"""Instructions in plainer words: what is asked for someone, wished for, forbidden, or said before its verb.
+
+"Hand me the cup" becomes "fetch the cup", "push left the cup" "push the cup to the left", "don't touch it" "avoid it".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.unmade import base_verb
+
+_GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
+_PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
+_TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
+_FORBIDDING = (("do", "not"), ("don't",), ("never",))
+
+
+def commanded(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` of one sentence with its instructions in plainer words."""
+    return _handed(_fronted(_sideways(_ordered(tokens))))
+
+
+def allowed(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "don't touch the cup" as "avoid the cup", and "without moving the cup" the same."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 4]]
+        opens = not made or made[-1].text in (".", ",", "and", "but", "please")
+        size = next((len(no) for no in _FORBIDDING if tuple(words[: len(no)]) == no), 0) if opens else 0
+        if size and base_verb(words[size]) == words[size] and len(words) > size + 1:
+            made.append(replace(tokens[at], text="avoid", end=tokens[at + size].end))
+            at += size + 1
+            continue
+        made.append(tokens[at])
+        at += 1
+    return made
+
+
+def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 3):
+        asks = words[at] in ("should", "must", "shall")
+        asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
+        verb = at + 1 + (words[at + 1] == "to")
+        if not asks or words[verb] != "go" or not link_at(tokens, verb + 1) or words[0] not in lexicon.DETERMINERS:
+            continue
+        return [replace(tokens[0], text="put"), *tokens[:at], *tokens[verb + 1 :]]
+    return tokens
+
+
+def _sideways(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "push left the red cup" as "push the red cup to the left"."""
+    for at in range(len(tokens) - 3):
+        verb, side, leads = (token.text for token in tokens[at : at + 3])
+        if verb in _PUSHING and side in ("left", "right") and leads in lexicon.DETERMINERS:
+            end = next(n for n in range(at + 2, len(tokens)) if tokens[n].mark or tokens[n].text == "and")
+            to = [replace(tokens[at + 1], text=word) for word in ("to", "the", side)]
+            return [*tokens[: at + 1], *tokens[at + 2 : end], *to, *tokens[end:]]
+    return tokens
+
+
+def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "in the box grasp the cup" as "grasp the cup in the box"."""
+    words = [token.text for token in tokens]
+    if words[0] not in ("in", "on", "from", "inside", "at") or words[1] not in lexicon.DETERMINERS:
+        return tokens
+    mark = next(n for n in range(len(tokens)) if tokens[n].mark)
+    verb = next((n for n in range(3, mark - 1) if words[n] in _TAKING), 0)
+    if not verb or words[verb + 1] not in lexicon.DETERMINERS or lexicon.COPULAS & set(words[:verb]):
+        return tokens
+    return [*tokens[verb:mark], *tokens[:verb], *tokens[mark:]]
+
+
+def _handed(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "hand me the cup" as "fetch the cup", and "make sure" as "ensure"."""
+    made: list[Token] = []
+    given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
+    for at, token in enumerate(tokens):
+        before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
+        if token.text in ("me", "us") and before in _GIVING:
+            made[-1] = replace(made[-1], text="fetch")
+            continue
+        if token.text in ("me", "us") and before == "to" and given is not None and given < len(made):
+            # "Give the cup to me"
+            made[given] = replace(made[given], text="fetch")
+            made.pop()
+            continue
+        if token.text == "sure" and before in ("make", "making") and follower != "to":
+            made[-1] = replace(made[-1], text="ensure", end=token.end)
+            continue
+        made.append(token)
+    return made

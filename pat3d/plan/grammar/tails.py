@@ -1,0 +1,221 @@
+"""Clauses and tails that name nothing to be made: "to boil the water faster", "that the robot has to avoid".
+
+A sentence that cannot be read whole is read without the shortest of them at which its reading fails; a note has its
+words. None names an object of the catalogue that is named nowhere else, or a thing that the catalogue lacks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import JOINERS, link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier
+from pat3d.plan.grammar.remarks import MOVING, Remarks, Span
+from pat3d.plan.grammar.unmade import base_verb, is_quality, makes_nothing
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_SUBORDINATING = frozenset({
+    "while", "as", "so", "because", "since", "until", "when", "after", "before", "though", "although", "whereas",
+    "once", "without", "using", "via", "due", "thanks", "despite", "like", "unlike", "instead",
+})  # fmt: skip
+_COUNTING = frozenset({"a", "an", "another", "some", "several", "many", "few", "more"})
+_TELLING = lexicon.NUMBERS.keys() | lexicon.POSITIONS.keys() | lexicon.SUPERLATIVES.keys() | {
+    "one", "ones", "other", "others", "each", "either", "rest", "neither", "none", "another",
+}  # fmt: skip
+"""Words that may stand for an object."""
+_ADVERBS = frozenset({"apart", "away", "aside", "back", "ago", "later", "before", "so"})
+_TRIED = 10
+"""Spans without which a sentence is tried."""
+
+
+class Tails(Remarks):
+    """Finds what may be set aside of one sentence, which ends in a stop."""
+
+    def __init__(self, tokens: Sequence[Token], nouns: Nouns, known: Mapping[str, str]) -> None:
+        """Look at `tokens`; `known` are the catalogue nouns of the sentences before, with the words they were in."""
+        super().__init__(tokens, nouns)
+        self._known = known
+
+    def around(self, number: int) -> list[Span]:
+        """What may be set aside so that word `number` of the prompt is no longer read, shortest first."""
+        fault = next((at for at, token in enumerate(self._tokens) if token.number == number and not token.mark), -1)
+        made = [
+            (start, end)
+            for start in range(len(self._words) - 1)
+            for end in self._ends(start)
+            if fault < 0 or start <= fault < end or end == fault
+        ]
+        made.sort(key=lambda span: (span[1] - span[0], span))
+        return [span for span in made if self._says_nothing(*span)][:_TRIED]
+
+    def unknown(self) -> list[Token]:
+        """Words of things that the catalogue lacks: heads of phrases with a determiner or a number, and plurals."""
+        made: list[Token] = []
+        for at, token in enumerate(self._tokens[:-1]):
+            after = self._words[at + 1]
+            head = self._tokens[at + 1].mark or after in JOINERS or after in FINITE or link_at(self._tokens, at + 1)
+            head = head or self._acts(at + 1) or (after.endswith(("ing", "ed")) and base_verb(after) is not None)
+            before = self._words[max(0, at - 3) : at]
+            told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
+            counted = any(word in told for word in before) or bool(singulars(token.text))
+            if head and counted and token.text.isalpha() and not self._in_name(at) and not _is_told(token.text):
+                made.append(token)
+        return made
+
+    def adds_nothing(self, known: Collection[str]) -> bool:
+        """Whether the sentence only tells more of the `known` catalogue nouns."""
+        new = {token.number for token in self.unknown()}
+        indefinite = any(
+            token.number in new and _COUNTING & set(self._words[max(0, at - 3) : at])
+            for at, token in enumerate(self._tokens)
+        )
+        return not indefinite and super().adds_nothing(known)
+
+    def _acts(self, at: int) -> bool:
+        """Whether the word at `at` is a verb, and no plural."""
+        word = self._words[at]
+        leads = self._words[min(at + 1, len(self._words) - 1)] in lexicon.DETERMINERS
+        return word.endswith("s") and base_verb(word) is not None and (leads or not is_quality(word))
+
+    def _in_name(self, at: int) -> bool:
+        return any(start <= at < start + size for start, size in self._named.items())
+
+    def whole(self) -> bool:
+        """Whether the sentence names nothing new at all, and places nothing: "The challenge lies in the angles"."""
+        last = len(self._words) - 1
+        head = next((at for at in range(1, last) if self._tokens[at].mark or link_at(self._tokens, at)
+                     or self._words[at] in FINITE), last)  # fmt: skip
+        abstract = is_quality(self._words[head - 1]) and head - 1 not in self._named
+        placed = any(self._placing(at) and self._words[at] != "of" for at in range(last))
+        return (abstract or not placed) and self._says_nothing(0, last, abstract=abstract)
+
+    def _ends(self, at: int) -> list[int]:
+        """Where what begins at token `at` may end; empty where nothing that may be set aside begins there."""
+        word, follower = self._words[at], self._words[at + 1]
+        marks = [n for n in range(at + 1, len(self._words)) if self._tokens[n].mark]
+        if at == 0:
+            # "After that, ..."
+            return [n + 1 for n in marks[:-1] if self._words[n] in (",", ":")]
+        behind = self._behind_noun(at)
+        finite = [n for n in range(at + 2, len(self._words)) if self._words[n] in FINITE and n < marks[-1]]
+        if word == ",":
+            return [] if follower in FINITE or self._placing(at + 1) else marks
+        if word in lexicon.RELATIVES:
+            # "that the robot has to avoid", "that is too old"
+            return [*finite[follower not in FINITE :], *marks] if behind else []
+        if word in _SUBORDINATING or (word in ("by", "for") and follower.endswith("ing")):
+            return marks if not link_at(self._tokens, at) or base_verb(follower) is not None else []
+        if word == "to" and base_verb(follower) is not None and not self._named.get(at + 1):
+            return marks
+        verb = base_verb(word) is not None and at not in self._named
+        if word in ("and", "but"):
+            predicate = base_verb(follower) is not None and at + 1 not in self._named and follower.endswith("s")
+            return marks if predicate and not self._tokens[at + 2].mark else []
+        if not verb or not behind or word in MOVING or self._words[at - 1] in FINITE:
+            return []
+        if word.endswith(("ing", "ed")):
+            placed = [n for n in range(at + 1, marks[0]) if self._placing(n)]
+            return [*placed, *finite, *marks]
+        # "two flags completed the setup": what is done, to nothing that is there.
+        related = any(self._placing(n) for n in range(at, marks[0]))
+        several = bool(singulars(self._words[at - 1])) or "and" in self._words[:at]
+        bare = word == base_verb(word) and not several
+        return [] if related or bare or self._tokens[at + 1].mark else marks[:1]
+
+    def _placing(self, at: int) -> bool:
+        size = link_at(self._tokens, at)
+        return size > 0 and self._leads(at + size)
+
+    def _says_nothing(self, start: int, end: int, *, abstract: bool = False) -> bool:
+        """Whether tokens `start` to `end` name nothing that is not named elsewhere, and all the rest something.
+
+        What is said of something `abstract` may name what nobody knows: "the sight of the ensemble".
+        """
+        elsewhere: dict[str, str] = {}
+        for at, size in self._named.items():
+            if not start <= at < end and (found := self._nouns.match(self._words[at : at + size])):
+                words = " ".join(self._words[max(0, at - 4) : at + size])
+                elsewhere[found.noun] = f"{elsewhere.get(found.noun, '')} {words}"
+        told = _TELLING - {"both"} if end == len(self._words) - 1 and not start else _TELLING
+        if not (elsewhere or self._known) or set(self._words[start:end]) & told:
+            return False
+        known = {**elsewhere, **{noun: f"{elsewhere.get(noun, '')} {words}" for noun, words in self._known.items()}}
+        at = start
+        while at < end:
+            size = self._named.get(at, 0)
+            said = self._words[max(start, at - 3) : at]
+            if size and not (size == 1 and self._is_no_thing(at)):
+                found = self._nouns.match(self._words[at : at + size])
+                if found is None or _COUNTING & set(said) or found.noun not in known:
+                    return False
+                if any(is_modifier(word) and word not in known[found.noun].split() for word in said):
+                    # "Unlike the red box, the blue box ..."
+                    return False
+            elif (
+                not size
+                and not self._tokens[at].mark
+                and not self._makes_nothing(start, at, end)
+                and (not abstract or _COUNTING & set(said))
+            ):
+                return False
+            at += size or 1
+        return True
+
+    def _makes_nothing(self, start: int, at: int, end: int) -> bool:
+        """Whether the word at `at`, which the catalogue lacks, is none that names a thing."""
+        word = self._words[at]
+        forms = (word, *singulars(word))
+        if any(form in lexicon.GENERICS for form in forms):
+            return False
+        inner = (
+            at + 1 < end
+            and word not in JOINERS
+            and not self._tokens[at + 1].mark
+            and (at + 1 in self._named or self._noun(at + 1))
+        )
+        if is_colour_word(word) and not inner:
+            # "Red at the bottom, then blue": of one of them each.
+            return False
+        article = any(self._words[n] in ("a", "an") for n in range(max(start, at - 2), at))
+        if not inner and article and (is_modifier(word) or word in lexicon.SUBSTANCES) and not is_marked(word):
+            # "Held down by a stone", "with a cork in front of it"
+            return False
+        if not inner and article and not (word in _ADVERBS or is_quality(word) or set(forms) & lexicon.PARTS):
+            return False
+        plain = word.isdecimal() or word == "'s" or is_marked(word) or is_modifier(word) or word in JOINERS
+        if plain or makes_nothing(word) or word in lexicon.VAGUE:
+            return True
+        general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES
+        if any(form in general for form in forms) or link_at(self._tokens, at):
+            return True
+        # What goes before another noun describes it.
+        return inner
+
+    def _is_no_thing(self, at: int) -> bool:
+        """Whether what the catalogue has by the name of the word at `at` is not what is meant: "the light"."""
+        word, before = self._words[at], self._words[at - 1] if at else ""
+        if before in ("a", "an") or before in lexicon.NUMBERS:
+            return False
+        noun = before in lexicon.DETERMINERS or before in lexicon.POSSESSIVES or is_modifier(before)
+        done = base_verb(word) is not None and self._words[at + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES
+        return is_quality(word) or (done and not noun)
+
+    def _noun(self, at: int) -> bool:
+        word = self._words[at]
+        return makes_nothing(word) and not (
+            self._acts(at) or link_at(self._tokens, at) or word in JOINERS or word in FINITE
+        )
+
+
+def _is_told(word: str) -> bool:
+    """Whether a table has `word`, or its ending tells that it names no thing."""
+    forms = {word, *singulars(word)}
+    tables = (lexicon.STACK_NOUNS, lexicon.ITEMS, lexicon.PIECES, lexicon.COLLECTIVES, lexicon.ROWS, lexicon.PORTIONS,
+              lexicon.SHAPES, lexicon.MEALS, lexicon.NUMBERS, lexicon.VAGUE, JOINERS, lexicon.PACKED)  # fmt: skip
+    generic = {part for name in lexicon.GENERICS for part in name.split()}
+    return (
+        makes_nothing(word) or is_modifier(word) or bool(generic & forms) or any(forms & set(each) for each in tables)
+    )
