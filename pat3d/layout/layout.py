@@ -20,7 +20,7 @@ from pat3d.layout.bodies import Array, Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
-from pat3d.layout.formations import ring_angles
+from pat3d.layout.formations import Wishes, ring_angles
 from pat3d.layout.frames import column_of, flat_regions
 from pat3d.layout.group import Group
 from pat3d.layout.hanging import attachment, hang
@@ -149,9 +149,7 @@ class _Arranger:
         groups = {name: self._build(name, self._yaw(name, GROUND, 0.0, laterals)) for name in names}
         items = [item_of(group, turnable=False) for group in groups.values()]
         pinned = {name: np.array(self.fixed[name].position[:2]) for name in names if name in self.fixed}
-        wishes = self.intents.wishes(GROUND, groups, self._across, self.gap)
-        tables = [seated(table, ways, groups) for table, ways in self._around.items()]
-        wishes = replace(wishes, formations=(*wishes.formations, *tables))
+        wishes = self._wishes(GROUND, groups)
         spots = arrange_flat(items, laterals, Surface(), pinned=pinned, wishes=wishes)
         if spots is None:
             said = [f"{lat.child} {lat.kind} {lat.parent}" for lat in laterals]
@@ -253,7 +251,7 @@ class _Arranger:
         given = [self._pinned(kid, group.name) for kid in names if kid in self.fixed]
         free = [kid for kid in names if kid not in self.fixed]
         groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]
-        wishes = self.intents.wishes(group.name, {one.name: one for one in groups}, self._across, self.gap)
+        wishes = self._wishes(group.name, {one.name: one for one in groups})
         settings = place_settings({one.name: one for one in groups}, laterals, wishes)
         angles = {name: angle for one in settings for name, angle in one.turns.items()}
         groups = [turned(one, angles[one.name]) if one.name in angles else one for one in groups]
@@ -298,21 +296,27 @@ class _Arranger:
         spread_by = 0.06 if kids or alone else 0.14
         return (base if alone else 0.0) + float(self._rng(name, "yaw").uniform(-spread_by, spread_by))
 
+    def _wishes(self, support: str, groups: Mapping[str, Group]) -> Wishes:
+        """What is asked for on `support`, with seats at the sides of their tables."""
+        wishes = self.intents.wishes(support, groups, self._across, self.gap)
+        tables = [seated(table, ways, groups) for table, ways in self._around.items() if {table, *ways} <= set(groups)]
+        return replace(wishes, formations=(*wishes.formations, *tables))
+
     def _around_tables(self) -> dict[str, dict[str, tuple[Array, float]]]:
         asked = {name for intents in self.intents.by_surface.values() for one in intents for name in one.stands_for}
         free = set(self.bodies) - asked - set(self.fixed)
         chairs = [name for name in free if SEATS & set(self.bodies[name].asset.noun.split())]
         found = {}
-        # A rug has no room for them; there they stand as they fit.
-        for table, names in around(self.laterals.get(GROUND, []), chairs).items():
-            asset = self.bodies[table].asset
-            round_top = any(one.shape == "disc" for one in asset.regions if one.kind == "on")
-            if round_top or table not in free or not SAT_AT & set(asset.noun.split()):
-                continue
-            width = max(float(self.bodies[name].asset.size[0]) for name in names)
-            ways = sides(len(names), asset.size[:2], width)
-            if ways:
-                found[table] = dict(zip(names, ways, strict=True))
+        for support, laterals in self.laterals.items():
+            room = np.full(2, np.inf) if support == GROUND else self.bodies[support].asset.size[:2]
+            for table, names in around(laterals, chairs).items():
+                asset = self.bodies[table].asset
+                round_top = any(one.shape == "disc" for one in asset.regions if one.kind == "on")
+                if round_top or table not in free or not SAT_AT & set(asset.noun.split()):
+                    continue
+                ways = sides(len(names), asset.size[:2], [self.bodies[name].asset.size[:2] for name in names], room)
+                if ways:
+                    found[table] = dict(zip(names, ways, strict=True))
         return found
 
     def _seats(self) -> dict[str, float]:

@@ -23,6 +23,8 @@ from pat3d.layout.shelved import BOUND, STOOD
 LEAST_TILT, LARGEST_TILT = math.radians(9.0), math.radians(20.0)
 BEYOND = math.radians(6.0)
 """Tilt [rad] beyond the one at which the centre of mass is over the lower edge."""
+SLIGHTLY = math.radians(3.0)
+"""The same for a book: one that leans further topples the book that it leans on."""
 AIR = 0.005
 """Room [m] above what is under something."""
 SLENDER = 0.2
@@ -56,9 +58,10 @@ def leaning_rotation(body: Body, way: Array) -> Array:
     axes[:, long], axes[:, thin] = _UP, sign * way
     rest = 3 - long - thin
     axes[:, rest] = np.cross(axes[:, (rest + 1) % 3], axes[:, (rest + 2) % 3])
+    over = math.atan2(float(size[thin]), float(size[long]))
+    tilt = max(LEAST_TILT, over + BEYOND)
     if body.asset.noun in BOUND and abs(way[0]) > abs(way[1]):
-        axes = STOOD
-    tilt = max(LEAST_TILT, math.atan2(float(size[thin]), float(size[long])) + BEYOND)
+        axes, tilt = STOOD, over + SLIGHTLY
     if tilt > LARGEST_TILT:
         raise LayoutError(
             f'"{body.name}" ({size[long]:.2f} m long, {size[thin]:.2f} m thick) is too thick to lean against anything: '

@@ -22,23 +22,27 @@ _AIR = 0.05
 """Between a seat and the table, and at least between neighbours [m]."""
 
 
-def sides(count: int, size: Array, seat: float) -> list[tuple[Array, float]]:
+def sides(count: int, size: Array, seats: Sequence[Array], room: Array) -> list[tuple[Array, float]]:
     """The side of a table at which each of `count` seats is, as a unit vector from its middle, and where along it.
 
     Args:
         count: of seats, three at least.
         size: of the table along x and y [m], shape (2,).
-        seat: width of a seat [m].
+        seats: widths and depths [m], shape (2,) each.
+        room: for all of it, along x and y [m], shape (2,).
 
     Returns:
         Unit vectors, shape (2,), and distances from the middle of the side [m]; none where the seats do not fit.
     """
+    seat, deep = (float(side) for side in np.max(seats, axis=0))
     long = int(np.argmax(size))
     along, across = np.eye(2)[long], np.eye(2)[1 - long]
     square = count == 4 and size[long] < _LONG * size[1 - long]
     ends = 2 if square or (count >= 6 and count % 2 == 0) else count % 2
     each = (count - ends) // 2
     if each * (seat + _AIR) > size[long] + _AIR or seat > size[1 - long] + 2 * _AIR:
+        return []
+    if np.any(size + 2 * (deep + _AIR) * (across + min(ends, 1) * along) > room):
         return []
     places = [(k + 0.5) / each * float(size[long]) - float(size[long]) / 2 for k in range(each)]
     found = [(sign * across, place) for sign in (-1.0, 1.0) for place in places]

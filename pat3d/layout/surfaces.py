@@ -324,7 +324,10 @@ class _Search:
                     turn = np.abs((angle - self.rings[item.name] + math.pi) % (2 * math.pi) - math.pi)
                     cost += 3.0 * turn * float(np.linalg.norm(half + other.size / 2))
             else:
-                cost[np.logical_not(side_holds(kind, centres - half, centres + half, low, high))] = np.inf
+                together = self.wishes.together(item.name, other_name)
+                if together is None or not together.overlapping:
+                    # What leans over another thing is beside it at its foot; the formation has the order.
+                    cost[np.logical_not(side_holds(kind, centres - half, centres + half, low, high))] = np.inf
                 across = 1 if kind in ("left_of", "right_of") else 0
                 cost += 2.0 * distance + 1.5 * in_line[:, across]
         return cost

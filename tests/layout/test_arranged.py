@@ -339,8 +339,10 @@ def test_what_stands_beside_another_is_never_on_another_tier(count):
     assert [found for found in check_relations(beside, assets, poses) if not found.holds] == []
 
 
-def test_of_books_side_by_side_the_second_leans_on_the_first_and_the_third_stands_by_it():
-    assets = {"shelf": shelf(), **{name: book() for name in "abc"}}
+@pytest.mark.parametrize("tall", [0.2, 0.24])
+def test_of_books_side_by_side_the_second_leans_on_the_first_and_the_third_stands_by_it(tall):
+    """It may be the taller one, whose top is then above the first."""
+    assets = {"shelf": shelf(), **{name: book() for name in "abc"}, "b": block(x=0.16, y=tall, z=0.03, noun="book")}
     asked = (
         Arrangement(kind="side_by_side", objects=tuple("abc")),
         Arrangement(kind="leaning_against", objects=("b",), of=("a",)),
@@ -352,6 +354,6 @@ def test_of_books_side_by_side_the_second_leans_on_the_first_and_the_third_stand
     row, _ = check_arranged(asked, (), assets, poses)
     assert row.holds, row.detail
     upper = placed["b"].rotation @ [0, 1, 0]
-    assert upper[0] < -0.2, "to the left"
+    assert upper[0] < -0.1, "to the left"
     assert distance(placed["a"], placed["b"]).distance < 0.003
     assert placed["c"].low[0] > placed["b"].high[0]

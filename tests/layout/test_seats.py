@@ -13,7 +13,7 @@ from tests.layout.things import block, table
 
 def at_each_side(count: int, size: tuple[float, float]) -> dict[tuple[int, int], int]:
     found: dict[tuple[int, int], int] = {}
-    for way, _ in sides(count, np.array(size), 0.42):
+    for way, _ in sides(count, np.array(size), [np.array([0.42, 0.5])], np.full(2, np.inf)):
         side = (round(float(way[0])), round(float(way[1])))
         found[side] = found.get(side, 0) + 1
     return found
@@ -62,9 +62,16 @@ def test_what_is_told_elsewhere_is_in_no_place_at_the_table():
     assert all(one.holds for one in check_relations(relations, assets, arrange(assets, relations, seed=0).poses))
 
 
-def test_on_a_rug_too_small_for_their_places_chairs_stand_as_they_fit():
+@pytest.mark.parametrize(("width", "expected"), [(1.85, 4), (1.75, 0)])
+def test_chairs_stand_at_the_sides_on_a_rug_that_has_room_for_them(width, expected):
+    """A table of 0.8 m, chairs of 0.45 m before and behind it and 5 cm between: 1.8 m."""
+    seats = [np.array([0.42, 0.45])] * 4
+    assert len(sides(4, np.array([1.2, 0.8]), seats, np.array([1.3, width]))) == expected
+
+
+def test_chairs_around_a_table_on_a_rug_are_around_it():
     chairs = dict.fromkeys("abcd", block(0.42, 0.42, 0.9, noun="chair"))
-    assets = {"rug": block(1.7, 1.5, 0.01, noun="rug"), "table": table(), **chairs}
+    assets = {"rug": block(2.4, 1.8, 0.01, noun="rug"), "table": table(), **chairs}
     relations = tuple(Relation(child=name, kind="on", parent="rug") for name in ("table", *chairs))
     around = tuple(Relation(child=name, kind="around", parent="table") for name in chairs)
     poses = arrange(assets, relations + around, seed=0).poses
