@@ -88,3 +88,25 @@ def test_forms_of_verbs_are_known_and_things_are_no_qualities():
     assert is_quality("simplicity")
     assert is_quality("challenges")
     assert not any(map(is_quality, ("cushion", "ornament", "chandelier", "station")))
+
+
+@pytest.mark.parametrize(
+    ("sentence", "objects", "relations", "noted"),
+    [
+        ("A candle has fallen over next to a vase.", "candle, vase", "candle next_to vase", "fallen"),
+        ("A carrot pokes out of a bucket on a bench.", "carrot, bucket, bench", "carrot in bucket, bucket on bench",
+         "pokes"),
+        ("The only object in the basket is a lemon.", "lemon, basket", "lemon in basket", "object"),
+        ("A tray piled high with pears.", "tray, pear 1, pear 2, pear 3", "pear 1 on tray, pear 2 on tray, "
+         "pear 3 on tray", "high"),
+        ("A cake cut into six slices on a plate.", "cake, plate", "cake on plate", "cut into six slices"),
+        ("Behind the kettle hides a lemon.", "kettle, lemon", "lemon behind kettle", "hides"),
+        ("A tray with both a mug and teapot on top.", "tray, mug, teapot", "mug on tray, teapot on tray", ""),
+        ("Two lanterns were left at the campground.", "lantern 1, lantern 2", "", "campground"),
+    ],
+)  # fmt: skip
+def test_what_happened_is_read_as_what_is_there(sentence, objects, relations, noted):
+    made, related, _, notes = read(sentence)
+    assert (made, related) == (objects, relations)
+    set_aside = PLANNER.plan(sentence).set_aside
+    assert any(noted in note for note in (*notes, *set_aside)) or not noted

@@ -18,7 +18,7 @@ class Asides(RelationWords):
     def _unsaid(self, word: str, follower: str) -> bool:
         """Name what no scene has and go on behind it: purposes, directions, the viewer."""
         number = self._word(2) in lexicon.NUMBERS or self._word(2).isdecimal()
-        if word == "at" and follower in ("least", "most") and number:
+        if word == "at" and follower in ("least", "most") and (number or self._word(2) in ("a", "an")):
             return self._leave(2)
         if word in ABOUT and (follower in lexicon.NUMBERS or follower.isdecimal()):
             self._at += 1

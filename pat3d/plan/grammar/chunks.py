@@ -115,8 +115,8 @@ class Cursor:
                 words=said,
                 quoted=words,
                 number=self._tokens[self._at].number,
-                **fields,
-            )  # type: ignore[arg-type]
+                **fields,  # type: ignore[arg-type]
+            )
         )
         self._read.update(range(self._at, self._at + taken))
         self._at += taken

@@ -186,7 +186,8 @@ class Cutter(Asides):
         for ahead in range(2, 8):
             word = self._word(ahead)
             if word == "and":
-                return self._word(ahead + 1) in (*lexicon.DETERMINERS, *lexicon.NUMBERS)
+                follower = self._word(ahead + 1)
+                return follower in (*lexicon.DETERMINERS, *lexicon.NUMBERS) or self._nouns.match([follower]) is not None
             if self._tokens[self._at + ahead].mark or link_at(self._tokens, self._at + ahead):
                 return False
         return False

@@ -52,7 +52,8 @@ COPULAS = frozenset({"is", "are", "was", "were", "be", "being", "'s", "looks", "
 VERBS = frozenset({"sits", "sit", "stands", "stand", "rests", "rest", "lies", "lie", "lays", "lay", "leans", "lean",
     "perches", "sat", "stood", "rested", "laid", "leaned", "hung", "perched", "stayed", "belongs", "sleeps", "floats",
     "goes", "stays", "hangs", "waits", "balances", "crouches", "poses", "swims", "plays", "belong", "sleep", "float",
-    "perch", "crouch", "stay", "remain", "remains"})  # fmt: skip
+    "perch", "crouch", "stay", "remain", "remains", "hides", "hide", "lurks", "lurk", "slumps", "lounges", "reclines",
+    "sprawls", "dozes", "nestles", "nestle", "huddles", "huddle", "rises", "looms"})  # fmt: skip
 """Finite verbs of posture: what follows relates to the subject of the clause."""
 NOUNS_LIKE_VERBS = frozenset({"stand"})
 """Verbs of posture whose plural is a noun too."""
@@ -100,6 +101,10 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains", "lounge", "study", "den", "loft",
     "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom", "apartment", "courtyard", "porch", "veranda",
     "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery", "yard", "backyard", "patio", "terrace", "balcony",
+    "campsite", "campground", "camp", "alley", "plaza", "farm", "barn", "stable", "harbour", "harbor", "shore",
+    "riverside", "warehouse", "factory", "store", "supermarket", "market", "school", "hospital", "hotel", "lab",
+    "laboratory", "cellar", "driveway", "playground", "roadside", "cafeteria", "pantry", "entryway", "foyer",
+    "lakeside", "countryside",
     "pair view", "total", "sight", "time", "place", "contrast", "focus",
     "motion", "condition", "orientation", "direction", "manner", "way", "fashion", "use", "close up",
     "grain patterns"})  # fmt: skip
@@ -254,7 +259,7 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
     "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
-ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
+ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank", "domino")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
 BOUND = ("book", "notebook", "spell book", "binder")
 SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")

@@ -61,13 +61,13 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(
         Link(kind="next_to"),
         "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to",
-        "alongside",
-        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "on side of",
-        "at the side of",
-        "off to the side of", "close by", "with its side to", "across from", "along",
-        "opposite", "opposite to", "among", "amongst", "touching", "outside", "outside of",
+        "alongside", "adjacent to", "nearest to", "closest to", "closer to", "nearer to", "at", "against",
+        "right next to", "to the side of", "on the side of", "on side of", "at the side of", "off to the side of",
+        "close by", "with its side to", "across from", "along", "opposite", "opposite to", "among", "amongst",
+        "touching", "outside", "outside of",
     )  # fmt: skip
-    add(Link(manner="far"), "far from", "far away from", "away from")
+    add(Link(manner="far"), "far from", "far away from", "away from", "furthest from", "farthest from",
+        "furthest away from", "farthest away from")  # fmt: skip
     add(Link(manner="source", kind="on"), "from", "off", "off of", "from the top of")
     add(Link(manner="source", kind="in"), "out of", "from inside")
     add(Link(manner="goal", kind="on"), "to", "onto", "back to", "back onto", "to the top of", "up to", "over to")
@@ -156,7 +156,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="with", kind="on"), "decorated with", "adorned with", "topped with", "topped by", "covered with",
         "occupied by",
         "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
-        "stacked with", "dotted with")  # fmt: skip
+        "stacked with", "dotted with", "piled with", "piled high with", "heaped with", "heaped high with",
+        "stacked high with", "loaded high with", "littered with", "scattered with", "laid with")  # fmt: skip
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip

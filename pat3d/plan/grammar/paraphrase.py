@@ -30,6 +30,7 @@ from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
+from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -43,7 +44,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
 _SILENT = tuple(tuple(said.split()) for said in (
-    "in turn", "of course", "nothing but", "as usual", "somewhere", "what about", "how about",
+    "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
     "so that it is", "so that it stands", "so that they are", "so that they stand",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
@@ -59,7 +60,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = covering(opened(allowed(_without(bare(tokens, nouns), _SILENT)), nouns), nouns)
+    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)

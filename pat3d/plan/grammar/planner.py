@@ -126,7 +126,8 @@ class GrammarPlanner:
             failure = error
         for start, end in Tails(sentence, self._nouns, {}).around(failure.number):
             kept = _without(sentence, [(start, end)])
-            if sentence[start].text in lexicon.RELATIVES and Remarks(kept, self._nouns).things():
+            denied = sentence[start].text == "," and sentence[start + 1].text == "not"
+            if (denied or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
                 told = clauses(text, plainer(text, kept, self._nouns), self._nouns)
                 return [replace(told[0], aside=_quoted(text, sentence[start:end])), *told[1:]]
         raise failure

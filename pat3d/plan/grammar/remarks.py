@@ -154,9 +154,10 @@ class Remarks:
         if not saying and (not participle or known or not (behind or self._words[at - 1] in lexicon.COPULAS)):
             return 0
         end = at + 1 + (saying and passive)
-        if self._words[end] in ("in", "into") and self._words[end + 1] in _PIECES:
+        if self._words[end] in ("in", "into") and self._words[end + 1] in _PIECES | lexicon.NUMBERS.keys():
             # "cut in two"
-            end += 1 + next(n for n in range(1, 5) if self._words[end + 1 + n] not in _PIECES)
+            pieces = _PIECES | lexicon.NUMBERS.keys()
+            end += 1 + next(n for n in range(1, 5) if self._words[end + 1 + n] not in pieces)
             return end
         while self._words[end] in _PARTICLES and not self._begins(end + 1):
             end += 1

@@ -57,7 +57,7 @@ class Tails(Remarks):
         for at, token in enumerate(self._tokens[:-1]):
             after = self._words[at + 1]
             head = self._tokens[at + 1].mark or after in JOINERS or after in FINITE or link_at(self._tokens, at + 1)
-            head = head or (base_verb(after) not in (None, after) and not is_quality(after))
+            head = head or self._acts(at + 1) or (after.endswith(("ing", "ed")) and base_verb(after) is not None)
             before = self._words[max(0, at - 3) : at]
             told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
             counted = any(word in told for word in before) or bool(singulars(token.text))
@@ -73,6 +73,12 @@ class Tails(Remarks):
             for at, token in enumerate(self._tokens)
         )
         return not indefinite and super().adds_nothing(known)
+
+    def _acts(self, at: int) -> bool:
+        """Whether the word at `at` is a verb, and no plural."""
+        word = self._words[at]
+        leads = self._words[min(at + 1, len(self._words) - 1)] in lexicon.DETERMINERS
+        return word.endswith("s") and base_verb(word) is not None and (leads or not is_quality(word))
 
     def _in_name(self, at: int) -> bool:
         return any(start <= at < start + size for start, size in self._named.items())
@@ -199,8 +205,9 @@ class Tails(Remarks):
 
     def _noun(self, at: int) -> bool:
         word = self._words[at]
-        verb = word.endswith("s") and base_verb(word) is not None and not is_quality(word)
-        return makes_nothing(word) and not (verb or link_at(self._tokens, at) or word in JOINERS or word in FINITE)
+        return makes_nothing(word) and not (
+            self._acts(at) or link_at(self._tokens, at) or word in JOINERS or word in FINITE
+        )
 
 
 def _is_told(word: str) -> bool:
