@@ -231,6 +231,8 @@ def draw(
     total = wp.vec3(0.0, 0.0, 0.0)
     start = float(0.0)
     nearest = float(-1.0)
+    last_slot = int(-1)
+    last_face = int(-1)
     label = int(0)
     layer = int(0)
     while layer <= MOST:
@@ -312,12 +314,15 @@ def draw(
         share = float(1.0)
         if pane:
             share = opacity
-            if wp.dot(outward, ray) >= 0.0:
+            # So short a step may end before the surface that it left.
+            if wp.dot(outward, ray) >= 0.0 or (slot == last_slot and face == last_face):
                 share = 0.0
         clipped = wp.vec3(wp.clamp(colour[0], 0.0, 1.0), wp.clamp(colour[1], 0.0, 1.0), wp.clamp(colour[2], 0.0, 1.0))
         total += through * share * clipped
         through = through * (1.0 - share)
         start = reach + BEYOND
+        last_slot = slot
+        last_face = face
         layer += 1
         if not pane:
             break

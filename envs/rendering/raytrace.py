@@ -39,8 +39,8 @@ GRID = ((0.125, 0.625), (0.375, 0.125), (0.625, 0.875), (0.875, 0.375))
 LAYERS = 8
 """Surfaces of see-through things that a ray passes, at most."""
 
-BEHIND = np.float32(2e-4)
-"""How far behind such a surface a ray goes on [m]."""
+BEHIND = np.float32(4e-6)
+"""How far behind such a surface a ray goes on [m]: less than what is at rest is above what carries it."""
 
 STEP = 0.03
 """Neighbours whose distances differ by more than this share are on an edge."""
@@ -139,13 +139,19 @@ class RayTracer:
         if not len(rows):
             return seen, *self._shade(data, eye, rays, seen, shadows=shadows)
         solid, panes = seen.at(np.arange(len(rays))), []
+        left: _Seen | None = None
         for _ in range(LAYERS):
             front = solid.at(rows)
-            panes.append((rows, front, self._opacity(data, rays[rows], front)))
+            opacity = self._opacity(data, rays[rows], front)
+            if left is not None:
+                # So short a step may end before the surface that it left.
+                opacity[(front.part == left.part) & (front.face == left.face)] = 0.0
+            panes.append((rows, front, opacity))
             behind = self._trace(data, eye, rays[rows], front.reach + BEHIND)
             for one, values in zip(solid, behind, strict=True):
                 one[rows] = values
-            rows = rows[np.isin(behind.part, self._panes)]
+            more = np.isin(behind.part, self._panes)
+            rows, left = rows[more], front.at(np.flatnonzero(more))
             if not len(rows):
                 break
         colours, shaded = self._shade(data, eye, rays, solid, shadows=shadows)

@@ -48,6 +48,8 @@ class Hits:
 
     which: NDArray[np.int64]
     """Indices of the rays, shape (m,)."""
+    face: NDArray[np.int32]
+    """Which triangle of all was hit, shape (m,)."""
     item: NDArray[np.int32]
     """Which item was hit, shape (m,)."""
     distance: NDArray[np.float32]
@@ -152,6 +154,7 @@ class Geometry:
         footprint = self._density[face] * distance * np.float32(pixel) / np.sqrt(slope)
         return Hits(
             which=hits.which,
+            face=face,
             item=self._item[face],
             distance=distance,
             point=point.astype(np.float32, copy=False),

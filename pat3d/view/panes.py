@@ -20,8 +20,9 @@ SHADE = 0.35
 """How dark the shadow of a see-through item is, against that of a solid one."""
 _MOST = 24
 """Surfaces that a ray passes, at most."""
-_STEP = 5e-5
-"""How far behind a surface a ray goes on, over the radius of the picture's contents."""
+_STEP = 4e-6
+"""How far behind a surface a ray goes on, over the radius of the picture's contents: less than what is at rest is above
+what carries it."""
 _EDGE = 0.6
 """Opacity of a surface that is seen from the side."""
 _TINT = 0.25
@@ -72,6 +73,7 @@ def peeled(geometry: Geometry, eye: Array, rays: Array, pixel: float) -> tuple[H
     if not geometry.see_through:
         return hits, ()
     solid, panes = [], []
+    last = np.full(len(rays), -1, dtype=np.int32)
     step = np.float32(_STEP * geometry.radius)
     for _ in range(_MOST):
         clear = geometry.opacity[hits.item] < 1.0
@@ -79,9 +81,12 @@ def peeled(geometry: Geometry, eye: Array, rays: Array, pixel: float) -> tuple[H
         if not clear.any():
             break
         front = hits.only(clear)
+        # So short a step may end before the surface that it left.
+        new = front.only(last[front.which] != front.face)
+        last[front.which] = front.face
+        opacity = np.where(new.outer, geometry.opacity[new.item], np.float32(0.0))
+        panes.append(Pane(new.which, rays[new.which], new.normal, new.colour, opacity))
         onward = rays[front.which]
-        opacity = np.where(front.outer, geometry.opacity[front.item], np.float32(0.0))
-        panes.append(Pane(front.which, onward, front.normal, front.colour, opacity))
         start = (front.point + step * onward).astype(np.float32, copy=False)
         hits = geometry.trace(start, onward, pixel).behind(front, step)
     return Hits.together(solid), tuple(panes)

@@ -106,6 +106,17 @@ def test_what_is_behind_a_pane_shines_through_it_once_and_depth_is_that_of_the_p
     assert picture.geoms[SIZE // 2, SIZE // 2] == 1
 
 
+def test_what_a_pane_stands_on_is_seen_under_it():
+    """The pane 15 um above the box, as things at rest are."""
+    model = lit_model(GLASS.format(alpha=0.25).replace("0 0 0.5", "0 0 0.300015"))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    image = RayTracer(model).draw(data, 0, SIZE, SIZE, depth=False, segmentation=False).image
+    top = lit((0.0, 0.0, 1.0)) / np.array([0.8, 0.4, 0.2])
+    expected = 0.25 * top * np.array([0.2, 0.6, 0.9]) + 0.75 * top * np.array([0.8, 0.4, 0.2])
+    assert abs(image - expected).max() < 1.1
+
+
 PAINTED = """
 <mujoco>
   <asset>

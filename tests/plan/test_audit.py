@@ -145,7 +145,7 @@ def test_what_is_over_something_upside_down_does_not_stand_on_it():
         ("A kettle is in the cabinet.", "inside"),
         ("Retrieve the knife from the drawer.", "inside"),
         ("A screwdriver is in a hammer.", "inside"),
-        ("Move the jam to the tray.", '"the jam" is made as'),
+        ("Move the water to the tray.", '"the water" is made as'),
         ("A fish and soy sauce are in a pan.", '"soy sauce" is made as'),
         ("A glass half full of water beside a full bottle.", '"half"'),
         ("A cup sits upside down over a die.", '"over a die"'),

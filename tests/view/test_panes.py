@@ -74,3 +74,19 @@ def test_the_shadow_of_a_see_through_ball_is_between_that_of_a_solid_one_and_non
 
     solid, clear, none = darkest(1.0), darkest(0.02), darkest()
     assert solid + 10.0 < clear < none - 1.0
+
+
+def test_what_a_see_through_block_stands_on_is_seen_under_it():
+    """15 um above a block of wood, as things at rest are; the ray goes on by less."""
+    wood, glass = block((0.6, 0.6, 0.1), colour=(150, 100, 60)), block((0.2, 0.2, 0.2), colour=(190, 215, 230))
+    items = [(wood, Pose(position=(0.0, 0.0, 0.05))), (glass, Pose(position=(0.0, 0.0, 0.200015)), 0.25)]
+    geometry = Geometry(items)
+    eye = np.array([0.02, -0.01, 2.0]) - geometry.origin
+    x, y = np.meshgrid(np.linspace(-0.04, 0.04, 15), np.linspace(-0.04, 0.04, 15))
+    rays = np.stack([x.ravel(), y.ravel(), np.full(x.size, -1.0)], axis=1)
+    rays = (rays / np.linalg.norm(rays, axis=1)[:, None]).astype(np.float32)
+    hits, panes = peeled(geometry, eye.astype(np.float32), rays, 1e-3)
+    np.testing.assert_allclose(hits.distance[np.argsort(hits.which)], -1.9 / rays[:, 2], atol=1e-4)
+    assert sorted(sum(pane.opacity[pane.which == ray].sum() for pane in panes) for ray in range(len(rays))) == (
+        pytest.approx([0.25] * len(rays))
+    )
