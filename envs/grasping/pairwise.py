@@ -83,7 +83,9 @@ def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -
     return [(left, right) for _, left, right in found[:PAIRS_KEPT]]
 
 
-def _firm(arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: np.ndarray, most: float) -> list[Grasp]:
+def _firm(
+    arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: Sequence[float], most: float
+) -> list[Grasp]:
     """Those by which one hand holds it alone, without it turning far in the fingers or slipping out of them."""
     most = most * make_robot(arm).payload
     firm = [one for one in grasps if torque(one, mass, centre) <= most and one.facing >= FIRM]
