@@ -91,7 +91,7 @@ def test_a_pin_is_handed_over_squarely_and_near_its_middle(own):
     """Pads that meet a cylinder at a height z above its axis face it by asin(z / r): boards keep them high."""
     radius, lying = 0.025, np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
     pose = Pose.from_matrix(lying, np.array([-LONG / 2, 0.0, radius]))
-    pin, board = placed("pin", asset_of(cylinder(radius, LONG, sides=80)), pose=pose), asset_of(box(LONG, 0.1, 0.03))
+    pin, board = placed("pin", asset_of(cylinder(radius, LONG, sides=120)), pose=pose), asset_of(box(LONG, 0.1, 0.03))
     pairs = paired_grasps(scene_of(pin), "pin", (own, own), wide=False)
     aside = [tuple(math.hypot(*one.position[:2]) for one in pair) for pair in pairs]
     assert aside == sorted(aside, key=lambda one: LEVEL * one[0] ** 2 + one[1] ** 2)
