@@ -84,7 +84,7 @@ _SURFACES: dict[str, tuple[float, float, float]] = {
 }
 """Roughness, metallic and opacity [-] of materials whose look says what they are."""
 
-STAINED = 0.6
+STAINED = 0.75
 """Opacity [-] of glass that has a colour."""
 
 MATERIAL_WORDS: dict[str, str] = {

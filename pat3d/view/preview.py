@@ -78,7 +78,7 @@ def save_preview(
 
 
 def side_by_side(
-    panels: Sequence[tuple[str, list[Item]]],
+    panels: Sequence[tuple[str, Sequence[Item]]],
     *,
     width: int = 800,
     height: int = 600,
