@@ -284,7 +284,7 @@ class Clock:
     NAMES = ("physics", "start", "rendering", "environment", "policy", "setup")
 
     def __init__(self) -> None:
-        self.seconds = dict.fromkeys(self.NAMES, 0.0)
+        self.seconds: dict[str, float] = dict.fromkeys(self.NAMES, 0.0)
 
     def watching(self) -> Any:
         """A context in which they are timed."""

@@ -18,7 +18,9 @@ from pat3d.envs.grasping.grasp import find_grasps
 from pat3d.envs.grasping.pairwise import FIRM, LEVEL, paired_grasps
 from pat3d.envs.grasping.standing import Needs
 from pat3d.envs.robots.arms import measure_gripper
+from pat3d.envs.tasks.hands import hands_of, rehearse_together
 from pat3d.envs.tasks.registry import parse_task
+from pat3d.envs.tasks.rehearsal import Workplace
 from pat3d.errors import TaskError
 from pat3d.geometry.pose import Pose
 from pat3d.policies_eval.policies.policy import EpisodeStart
@@ -144,6 +146,29 @@ def test_the_left_hand_takes_the_end_on_its_side(env):
         for one in (placement.grasps["bar"][0], placement.other.grasps["bar"][0])
     ]
     assert aside[0] > aside[1]
+
+
+def test_hands_that_would_be_in_one_another_take_the_next_pair(env):
+    """Both hands at one place meet; with a pair apart behind it, that one is taken."""
+    env.reset(seed=0, options={"task": "handover:bar"})
+    placement = env.placement
+    assert placement.other is not None
+    same = placement.other.grasps["bar"][:1]
+
+    def work(left, right):
+        there = replace(placement, grasps={"bar": left}, other=replace(placement.other, grasps={"bar": right}))
+        return Workplace(scene=env.scene, task=env.task, robot="", placement=there, simulation=env.simulation)
+
+    assert hands_of(work(same, same), at_once=False)[1] == (
+        'two hands find no way to "bar" on which neither is in the other arm.'
+    )
+    with pytest.raises(TaskError, match="neither is in the other arm"):
+        rehearse_together(work(same, same), at_once=False)
+    found, fault = hands_of(
+        work((*same, *placement.grasps["bar"]), (*same, *placement.other.grasps["bar"])), at_once=False
+    )
+    assert not fault
+    assert abs(found["left"].pose[0][0] - found["right"].pose[0][0]) > 0.08
 
 
 def test_both_hands_carry_a_bar_level(env):
