@@ -169,25 +169,25 @@ class Benchmark:
         self.row("episodes that replay bit for bit", f"{same} of {len(jobs)}", f"{len(jobs)} of {len(jobs)}")
 
     def overhead(self) -> None:
-        """Wall time of an evaluation in this process, and what physics and the policy have of it."""
+        """Processor time of an evaluation in this process, and what physics and the policy have of it."""
         kept = self._kept("overhead")
         if kept is None:
             # Imports and compilation are done once in a process.
             self._evaluate("overhead_warm", "scripted", [MUG], 1, workers=0, overwrite=True)
             clock = Clock()
             with clock.watching():
-                begun = time.perf_counter()
+                begun = time.process_time()
                 found = self._evaluate("overhead", "scripted", [MUG], self.options.timed, workers=0, overwrite=True)
-                wall = time.perf_counter() - begun
-            kept = self._keep("overhead", {"wall": wall, "episodes": len(found.results), **clock.seconds})
-        wall, setup = kept["wall"] - kept["setup"], kept["setup"]
-        strict = wall - kept["physics"] - kept["rendering"] - kept["policy"]
-        own = wall - kept["environment"] - kept["policy"]
-        shares = [f"{100 * seconds / wall:.1f} %" for seconds in (strict, own)]
-        self.row("neither physics, rendering nor policy, share of wall time", shares[0], "< 5 %")
-        self.row("neither environment nor policy", shares[1], "")
-        told = ", ".join(f"{name} {100 * kept[name] / wall:.1f} %" for name in Clock.NAMES if name != "setup")
-        say(f"  {kept['episodes']} episodes in {wall:.1f} s: {told}")
+                spent = time.process_time() - begun
+            kept = self._keep("overhead", {"spent": spent, "episodes": len(found.results), **clock.seconds})
+        spent, setup = kept["spent"] - kept["setup"], kept["setup"]
+        strict = spent - kept["physics"] - kept["start"] - kept["rendering"] - kept["policy"]
+        own = spent - kept["physics"] - kept["environment"] - kept["policy"]
+        shares = [f"{100 * seconds / spent:.1f} %" for seconds in (strict, own)]
+        self.row("neither physics, rendering nor policy, share of processor time", shares[0], "< 5 %")
+        self.row("neither physics, environment nor policy", shares[1], "")
+        told = ", ".join(f"{name} {100 * kept[name] / spent:.1f} %" for name in Clock.NAMES if name != "setup")
+        say(f"  {kept['episodes']} episodes in {spent:.1f} s: {told}")
         self.row("reading a scene and placing the robot, once for each scene [s]", f"{setup:.2f}", "")
 
     def workers(self) -> None:
@@ -277,11 +277,11 @@ class Benchmark:
 class Clock:
     """Seconds inside physics, pictures, the policy, and making an environment.
 
-    Physics has the controllers in it, which write torques at every step. The environment has physics and pictures in
-    it, and observations and the judging of the task.
+    Physics has the controllers in it, which write torques at every step. The environment has pictures and the starts of
+    episodes in it, and observations and the judging of the task.
     """
 
-    NAMES = ("physics", "rendering", "environment", "policy", "setup")
+    NAMES = ("physics", "start", "rendering", "environment", "policy", "setup")
 
     def __init__(self) -> None:
         self.seconds = dict.fromkeys(self.NAMES, 0.0)
@@ -300,12 +300,13 @@ class Clock:
         stack = ExitStack()
         for name, owner, method in (
             ("physics", Simulation, "step"),
-            ("physics", Simulation, "reset"),
+            ("start", Simulation, "reset"),
             ("rendering", Pictures, "take"),
             ("policy", ScriptedPolicy, "reset"),
             ("policy", ScriptedPolicy, "act"),
             ("setup", RolloutSettings, "make_env"),
-            ("environment", TabletopEnv, "step"),
+            ("environment", TabletopEnv, "command"),
+            ("environment", TabletopEnv, "look"),
             ("environment", TabletopEnv, "reset"),
         ):
             stack.enter_context(patch.object(owner, method, self._timed(name, getattr(owner, method))))
@@ -313,11 +314,11 @@ class Clock:
 
     def _timed(self, name: str, method: Callable[..., Any]) -> Callable[..., Any]:
         def timed(*values: Any, **more: Any) -> Any:
-            begun = time.perf_counter()
+            begun = time.process_time()
             try:
                 return method(*values, **more)
             finally:
-                self.seconds[name] += time.perf_counter() - begun
+                self.seconds[name] += time.process_time() - begun
 
         return timed
 

@@ -171,7 +171,16 @@ def _drawn(worlds: Sequence[World], bodies: Sequence[NDArray[np.int64]], shadows
         surfaces = Surfaces(model)
         rows.append(
             [
-                (int(numbers[body.number]), body.centre, body.radius, int(body.geom.min()), mesh.id, first, body.casts)
+                (
+                    int(numbers[body.number]),
+                    body.centre,
+                    body.radius,
+                    int(body.geom.min()),
+                    mesh.id,
+                    first,
+                    body.casts,
+                    body.opacity,
+                )
                 for body in surfaces.bodies
                 for mesh, first in (library.add(body, surfaces.textures),)
             ]
@@ -203,6 +212,7 @@ def _drawn(worlds: Sequence[World], bodies: Sequence[NDArray[np.int64]], shadows
                 ("mesh", wp.uint64, 0),
                 ("first", int, 0),
                 ("casts", int, 0),
+                ("opacity", float, 1.0),
             ),
         ),
         (planes, (("planes", wp.mat33, np.zeros((3, 3))), ("place", wp.vec3, nowhere), ("tint", wp.vec3, nowhere))),

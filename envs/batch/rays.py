@@ -7,7 +7,7 @@
 
 import warp as wp
 
-from pat3d.envs.rendering.raytrace import LIFTED, TILE
+from pat3d.envs.rendering.raytrace import BEHIND, LAYERS, LIFTED, TILE
 from pat3d.envs.surroundings.lights import FADES, FLOOR
 
 ACROSS, DOWN = 8, 4
@@ -16,6 +16,8 @@ ACROSS, DOWN = 8, 4
 NEAR, FAR = wp.constant(FADES[0]), wp.constant(FADES[1])
 SIDE = wp.constant(TILE)
 ABOVE = wp.constant(LIFTED)
+BEYOND = wp.constant(float(BEHIND))
+MOST = wp.constant(LAYERS)
 LIGHT_TILE, DARK_TILE = wp.constant(wp.vec3(*FLOOR[0])), wp.constant(wp.vec3(*FLOOR[1]))
 
 
@@ -50,6 +52,8 @@ class Drawn:
     tint: wp.array2d[wp.vec3]
     casts: wp.array2d[int]
     """Whether a body throws shadows, shape (kinds, bodies)."""
+    opacity: wp.array2d[float]
+    """Of what is seen through, 1 for what is solid, shape (kinds, bodies)."""
     sky: wp.array2d[wp.vec3]
     """Colour of the sky, shape (kinds, 1)."""
     around: wp.array2d[int]
@@ -222,75 +226,104 @@ def draw(
     length = wp.sqrt(1.0 + across * across + up * up)
     ray = view * (wp.vec3(across, up, -1.0) / length)
 
-    reach = float(1.0e10)
-    slot = int(-1)
-    face = int(0)
-    u = float(0.0)
-    v = float(0.0)
-    for number in range(spheres.shape[1]):
-        sphere = spheres[world, number]
-        away = wp.vec3(sphere[0], sphere[1], sphere[2]) - eye
-        along = wp.max(wp.dot(away, ray), 0.0)
-        # Shells of a room, which come last, are behind all that stands in it.
-        behind_all = drawn.casts[kind, number] == 0 and slot >= 0
-        if wp.dot(away, away) - along * along <= sphere[3] and not behind_all:
-            body = drawn.body[kind, number]
-            back = wp.transpose(rotation[world, body])
-            hit = wp.mesh_query_ray(drawn.mesh[kind, number], back * (eye - position[world, body]), back * ray, reach)
-            if hit.result:
-                reach = hit.t
-                slot = number
-                face = hit.face
-                u = hit.u
-                v = hit.v
-    plane = int(-1)
-    for number in range(drawn.planes.shape[1]):
-        axes = drawn.planes[kind, number]
-        axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
-        slope = wp.dot(ray, axis)
-        if slope < -1.0e-4:
-            distance = wp.dot(drawn.place[kind, number] - eye, axis) / slope
-            if distance > 0.0 and distance < reach:
-                reach = distance
-                plane = number
-
-    colour = drawn.sky[kind, 0]
+    # What was passed lets so much of the light behind it through.
+    through = float(1.0)
+    total = wp.vec3(0.0, 0.0, 0.0)
+    start = float(0.0)
+    nearest = float(-1.0)
     label = int(0)
-    if plane >= 0:
-        axes = drawn.planes[kind, plane]
-        point = wp.transpose(axes) * (eye + reach * ray - drawn.place[kind, plane])
-        odd = (int(wp.floor(point[0] / SIDE)) + int(wp.floor(point[1] / SIDE))) & 1
-        axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
-        tiled = DARK_TILE
-        if odd != 0:
-            tiled = LIGHT_TILE
-        shaded = hidden(drawn, spheres, position, rotation, world, kind, eye + reach * ray, axis)
-        light = brightness(drawn, kind, axis, wp.abs(wp.dot(ray, axis)), shaded)
-        fade = wp.clamp((reach - NEAR) / (FAR - NEAR), 0.0, 1.0)
-        own = wp.cw_mul(wp.cw_mul(tiled, drawn.tint[kind, plane]), light)
-        colour = own * (1.0 - fade) + drawn.sky[kind, 0] * fade
-    elif slot >= 0:
-        one = drawn.first[kind, slot] + face
-        w = 1.0 - u - v
-        body = drawn.body[kind, slot]
-        mixed = u * drawn.normals[3 * one] + v * drawn.normals[3 * one + 1] + w * drawn.normals[3 * one + 2]
-        normal = wp.normalize(rotation[world, body] * mixed)
-        facing = -wp.dot(normal, ray)
-        if facing < 0.0:
-            normal = -normal
-        own = drawn.colour[one]
-        texture = drawn.texture[one]
-        if texture >= 0:
-            uv = u * drawn.uv[3 * one] + v * drawn.uv[3 * one + 1] + w * drawn.uv[3 * one + 2]
-            own = wp.cw_mul(own, texel(drawn, texture, uv))
-        shaded = hidden(drawn, spheres, position, rotation, world, kind, eye + reach * ray, normal)
-        colour = wp.cw_mul(own, brightness(drawn, kind, normal, wp.abs(facing), shaded))
-        label = drawn.label[kind, drawn.geom[kind, slot] + drawn.part[one]]
-    else:
-        colour = behind(drawn, kind, ray)
+    layer = int(0)
+    while layer <= MOST:
+        reach = float(1.0e10)
+        slot = int(-1)
+        face = int(0)
+        u = float(0.0)
+        v = float(0.0)
+        outward = wp.vec3(0.0, 0.0, 0.0)
+        for number in range(spheres.shape[1]):
+            sphere = spheres[world, number]
+            away = wp.vec3(sphere[0], sphere[1], sphere[2]) - eye
+            along = wp.max(wp.dot(away, ray), 0.0)
+            # Shells of a room, which come last, are behind all that stands in it.
+            behind_all = drawn.casts[kind, number] == 0 and slot >= 0
+            if wp.dot(away, away) - along * along <= sphere[3] and not behind_all:
+                body = drawn.body[kind, number]
+                back = wp.transpose(rotation[world, body])
+                origin = back * (eye + start * ray - position[world, body])
+                hit = wp.mesh_query_ray(drawn.mesh[kind, number], origin, back * ray, reach - start)
+                if hit.result:
+                    reach = hit.t + start
+                    slot = number
+                    face = hit.face
+                    u = hit.u
+                    v = hit.v
+                    outward = rotation[world, body] * hit.normal
+        plane = int(-1)
+        for number in range(drawn.planes.shape[1]):
+            axes = drawn.planes[kind, number]
+            axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
+            slope = wp.dot(ray, axis)
+            if slope < -1.0e-4:
+                distance = wp.dot(drawn.place[kind, number] - eye, axis) / slope
+                if distance > start and distance < reach:
+                    reach = distance
+                    plane = number
+
+        colour = drawn.sky[kind, 0]
+        opacity = float(1.0)
+        named = int(0)
+        if plane >= 0:
+            axes = drawn.planes[kind, plane]
+            point = wp.transpose(axes) * (eye + reach * ray - drawn.place[kind, plane])
+            odd = (int(wp.floor(point[0] / SIDE)) + int(wp.floor(point[1] / SIDE))) & 1
+            axis = wp.vec3(axes[0, 2], axes[1, 2], axes[2, 2])
+            tiled = DARK_TILE
+            if odd != 0:
+                tiled = LIGHT_TILE
+            shaded = hidden(drawn, spheres, position, rotation, world, kind, eye + reach * ray, axis)
+            light = brightness(drawn, kind, axis, wp.abs(wp.dot(ray, axis)), shaded)
+            fade = wp.clamp((reach - NEAR) / (FAR - NEAR), 0.0, 1.0)
+            own = wp.cw_mul(wp.cw_mul(tiled, drawn.tint[kind, plane]), light)
+            colour = own * (1.0 - fade) + drawn.sky[kind, 0] * fade
+        elif slot >= 0:
+            one = drawn.first[kind, slot] + face
+            w = 1.0 - u - v
+            body = drawn.body[kind, slot]
+            mixed = u * drawn.normals[3 * one] + v * drawn.normals[3 * one + 1] + w * drawn.normals[3 * one + 2]
+            normal = wp.normalize(rotation[world, body] * mixed)
+            facing = -wp.dot(normal, ray)
+            if facing < 0.0:
+                normal = -normal
+            own = drawn.colour[one]
+            texture = drawn.texture[one]
+            if texture >= 0:
+                uv = u * drawn.uv[3 * one] + v * drawn.uv[3 * one + 1] + w * drawn.uv[3 * one + 2]
+                own = wp.cw_mul(own, texel(drawn, texture, uv))
+            shaded = hidden(drawn, spheres, position, rotation, world, kind, eye + reach * ray, normal)
+            colour = wp.cw_mul(own, brightness(drawn, kind, normal, wp.abs(facing), shaded))
+            named = drawn.label[kind, drawn.geom[kind, slot] + drawn.part[one]]
+            opacity = drawn.opacity[kind, slot]
+        else:
+            colour = behind(drawn, kind, ray)
+        if layer == 0:
+            nearest = reach
+            label = named
+        pane = opacity < 1.0 and layer < MOST
+        share = float(1.0)
+        if pane:
+            share = opacity
+            if wp.dot(outward, ray) >= 0.0:
+                share = 0.0
+        clipped = wp.vec3(wp.clamp(colour[0], 0.0, 1.0), wp.clamp(colour[1], 0.0, 1.0), wp.clamp(colour[2], 0.0, 1.0))
+        total += through * share * clipped
+        through = through * (1.0 - share)
+        start = reach + BEYOND
+        layer += 1
+        if not pane:
+            break
     for channel in range(3):
-        image[world, row, column, channel] = byte(colour[channel])
+        image[world, row, column, channel] = byte(total[channel])
     if depth.shape[0] > 0:
-        depth[world, row, column] = wp.min(reach / length, farthest[kind])
+        depth[world, row, column] = wp.min(nearest / length, farthest[kind])
     if labels.shape[0] > 0:
         labels[world, row, column] = wp.uint16(label)

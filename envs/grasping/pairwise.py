@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import permutations
+from itertools import product
 
 import numpy as np
 
@@ -19,10 +19,13 @@ TRIED = 40
 PAIRS_KEPT = 30
 """Pairs, at most."""
 
-ALONG, ACROSS = 0.11, 0.045
-"""Half extents of a hand along the direction in which its fingers close, and across it [m]."""
+BESIDE = 0.006
+"""Kept beside a hand along the direction in which its fingers close [m]."""
 
-CLEAR = 0.015
+ACROSS = 0.035
+"""Half extent of a hand across that direction [m], on the side without its camera."""
+
+CLEAR = 0.01
 """Between the hands [m]."""
 
 EVEN = 2.0
@@ -32,8 +35,12 @@ FIRM = math.cos(math.radians(20.0))
 """Least cosine between the closing direction and the surfaces at which one hand holds something alone: what is round
 and taken above its middle, or by an end that tapers, slips out."""
 
-STEADY = 0.15
-"""What is handed over may turn the fingers by this for each kilogram that the arm carries [N m/kg]."""
+STEADY, HANGING = 0.15, 0.5
+"""By how much what is handed over may turn the fingers of the hand that offers it, and of the one that takes it, for
+each kilogram that the arm carries [N m/kg]: what is offered stays level."""
+
+LEVEL = 2.0
+"""What the offering hand's distance from the middle counts, squared, where the taking one's counts 1."""
 
 
 def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -> list[tuple[Grasp, Grasp]]:
@@ -53,20 +60,21 @@ def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -
     payload = sum(make_robot(arm).payload for arm in arms)
     if mass > payload:
         raise TaskError(f'"{name}" weighs {mass:.1f} kg, two arms carry {payload:.1f} kg.')
-    known = {arm: find_grasps(scene, name, measure_gripper(arm), count=TRIED) for arm in set(arms)}
-    centre = scene[name].pose.apply(np.array([scene[name].asset.mass_properties.centre_of_mass]))[0]
+    found_by = {arm: find_grasps(scene, name, measure_gripper(arm), count=TRIED) for arm in set(arms)}
+    lefts, rights = (found_by[arm] for arm in arms)
+    centre = scene[name].pose.apply(np.array([scene[name].asset.mass_properties.centre_of_mass]))[0].tolist()
     if not wide:
-        known = {arm: _steady(arm, grasps, name, mass, centre) for arm, grasps in known.items()}
+        lefts = _firm(arms[0], lefts, name, mass, centre, STEADY)
+        rights = _firm(arms[1], rights, name, mass, centre, HANGING)
     found = []
-    pairs = permutations(known[arms[0]], 2) if arms[0] == arms[1] else None
-    for left, right in pairs or ((a, b) for a in known[arms[0]] for b in known[arms[1]]):
+    for left, right in product(lefts, rights):
         apart = np.subtract(right.position, left.position)
-        if float(np.hypot(*apart[:2])) >= _needed(left, apart) + _needed(right, apart) + CLEAR:
+        if float(np.hypot(*apart[:2])) >= sum(map(_needed, arms, (left, right), (apart, apart))) + CLEAR:
             aside = [np.subtract(one.position, centre)[:2] for one in (left, right)]
             if wide:
                 worth = float(np.hypot(*apart[:2])) - EVEN * float(np.linalg.norm(np.mean(aside, axis=0)))
             else:
-                worth = -float(np.sum(np.square(aside)))
+                worth = -float(LEVEL * aside[0] @ aside[0] + aside[1] @ aside[1])
             found.append((worth, left, right))
     if not found:
         places = "places" if wide else "places at which one hand holds it firmly and"
@@ -75,18 +83,21 @@ def paired_grasps(scene: Scene, name: str, arms: Sequence[str], *, wide: bool) -
     return [(left, right) for _, left, right in found[:PAIRS_KEPT]]
 
 
-def _steady(arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: np.ndarray) -> list[Grasp]:
+def _firm(
+    arm: str, grasps: Sequence[Grasp], name: str, mass: float, centre: Sequence[float], most: float
+) -> list[Grasp]:
     """Those by which one hand holds it alone, without it turning far in the fingers or slipping out of them."""
-    most = STEADY * make_robot(arm).payload
-    steady = [one for one in grasps if torque(one, mass, centre) <= most and one.facing >= FIRM]
-    if grasps and not steady:
+    most = most * make_robot(arm).payload
+    firm = [one for one in grasps if torque(one, mass, centre) <= most and one.facing >= FIRM]
+    if grasps and not firm:
         raise TaskError(
             f'"{name}" ({mass:.1f} kg) cannot be handed over: it would turn in the fingers of {arm} or slip out.'
         )
-    return steady
+    return firm
 
 
-def _needed(grasp: Grasp, towards: np.ndarray) -> float:
+def _needed(arm: str, grasp: Grasp, towards: np.ndarray) -> float:
     """From the middle of a hand to where it ends in a direction [m]."""
     angle = math.atan2(towards[1], towards[0]) - grasp.closing
-    return ALONG * abs(math.cos(angle)) + ACROSS * abs(math.sin(angle))
+    along = measure_gripper(arm).hand[0] / 2 + BESIDE
+    return along * abs(math.cos(angle)) + ACROSS * abs(math.sin(angle))

@@ -25,6 +25,7 @@ from pat3d.envs.grasping.taking import grasps_of
 from pat3d.envs.robots.arms import arm_kinematics, measure_gripper
 from pat3d.envs.robots.kinematics import ArmKinematics
 from pat3d.envs.robots.pairs import SIDES, Pair, pair_of
+from pat3d.envs.robots.robot import Gripper
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 
@@ -45,8 +46,8 @@ SHORT = 0.7
 RISER = 0.1
 """Least height of the robot's base above the surface of the work [m]."""
 
-TOGETHER_TRIED = 8
-"""Pairs of grasps that are tried for two arms where they may stand, at most."""
+TOGETHER_TRIED = 12
+"""Pairs of grasps that are tried for two arms where they may stand, and kept, at most."""
 
 PAIRS_TRIED = 240
 """Places of two arms that are tried, at most."""
@@ -122,29 +123,40 @@ def _place_together(scene: Scene, robot: str, pair: Pair | None, needs: Needs) -
     grippers = tuple(measure_gripper(one) for one in pair.arms)
     site = Site.of(scene, needs)
     for frames, view in islice(site.pairs(_standing(arms[0]), _standing(arms[1]), pair), PAIRS_TRIED):
-        for grasps in both[:TOGETHER_TRIED]:
-            reached = [
-                _reached(arm, frame, grasp, gripper.tip, gripper.closing_axis)
-                and _reached(arm, frame, grasp.lifted(LIFTED), gripper.tip, gripper.closing_axis)
-                for arm, frame, grasp, gripper in zip(arms, frames, grasps, grippers, strict=True)
-            ]
-            # Hands that crossed one another would meet on the way.
-            crossed = (
-                frames[0].local(np.array(grasps[0].position))[1] < frames[0].local(np.array(grasps[1].position))[1]
-            )
-            if None in reached or (pair.facing is None and crossed):
-                continue
-            other = Stand(
-                robot=pair.arms[1],
-                side=SIDES[1],
-                base_position=frames[1].position,
-                yaw=frames[1].yaw,
-                start=tuple(map(float, site.start(arms[1], frames[1], grippers[1].tip))),
-                grasps={name: (grasps[1],)},
-            )
-            found = site.placement(arms[0], frames[0], {name: (grasps[0],)}, grippers[0].tip, other)
-            return replace(found, robot=pair.arms[0], side=SIDES[0], view=view)
+        # Hands that crossed one another would meet on the way.
+        apart = [one for one in both if not _crossed(frames, *one)]
+        reached = [one for one in apart[:TOGETHER_TRIED] if _both_reach(frames, one, arms, grippers)]
+        if not reached:
+            continue
+        lefts, rights = zip(*reached, strict=True)
+        other = Stand(
+            robot=pair.arms[1],
+            side=SIDES[1],
+            base_position=frames[1].position,
+            yaw=frames[1].yaw,
+            start=tuple(map(float, site.start(arms[1], frames[1], grippers[1].tip))),
+            grasps={name: rights},
+        )
+        found = site.placement(arms[0], frames[0], {name: lefts}, grippers[0].tip, other)
+        return replace(found, robot=pair.arms[0], side=SIDES[0], view=view)
     raise TaskError(f'{robot} gets with both hands to "{name}" from nowhere.')
+
+
+def _crossed(frames: Sequence[Frame], left: Grasp, right: Grasp) -> bool:
+    """Whether the left arm would take the right arm's end."""
+    across = np.subtract(frames[1].position, frames[0].position)[:2]
+    return float(across @ np.subtract(right.position, left.position)[:2]) < 0.0
+
+
+def _both_reach(
+    frames: Sequence[Frame], grasps: Sequence[Grasp], arms: Sequence[ArmKinematics], grippers: Sequence[Gripper]
+) -> bool:
+    """Whether each arm gets to its own grasp, and up with it."""
+    return all(
+        _reached(arm, frame, one, gripper.tip, gripper.closing_axis) is not None
+        for arm, frame, grasp, gripper in zip(arms, frames, grasps, grippers, strict=True)
+        for one in (grasp, grasp.lifted(LIFTED))
+    )
 
 
 @dataclass(eq=False)

@@ -141,7 +141,7 @@ class SimState:
     def holding(self, name: str) -> tuple[bool, ...]:
         """Whether both fingers of an arm touch the object, the left one of two arms first."""
         fingers = self.states.snapshot.pinched[self._number, :, predicates.OWNERS + self._numbers[name]]
-        return tuple(fingers.reshape(-1, 2).all(axis=1).tolist())
+        return tuple(bool(one and other) for one, other in fingers.reshape(-1, 2))
 
     def inside(self, name: str, container: str) -> bool:
         """Whether an object lies in the cavity of another."""

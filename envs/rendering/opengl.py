@@ -25,6 +25,7 @@ class OpenGL:
         import mujoco
 
         self._mujoco, self._model = mujoco, model
+        self._see_through = bool((model.mat_rgba[:, 3] < 1.0).any() or (model.geom_rgba[:, 3] < 1.0).any())
         try:
             if kind == "osmesa":
                 from mujoco.osmesa import GLContext
@@ -94,11 +95,14 @@ class OpenGL:
         far = np.empty((height, width), dtype=np.float32) if depth else None
         mujoco.mjr_render(window, scene, mjr)
         mujoco.mjr_readPixels(image, far, window, mjr)
-        geoms = self._geoms(mjr, window, height, width) if segmentation else None
+        geoms = self._geoms(mjr, window, height, width) if segmentation or (depth and self._see_through) else None
+        if self._see_through and depth:
+            # What is see-through leaves no depth where it is drawn, but where it is told apart.
+            mujoco.mjr_readPixels(None, far, window, mjr)
         return Picture(
             image=np.ascontiguousarray(image[::-1]),
             depth=None if far is None else self._metres(far[::-1]),
-            geoms=geoms,
+            geoms=geoms if segmentation else None,
         )
 
     def close(self) -> None:

@@ -3,6 +3,9 @@
 Bodies are rigid, so their scenes are built once and a new pose costs nothing. Light is the model's. Observations have
 no smooth edges, and shadows where they are asked for: a ray towards the sun from every point that is seen. Films
 (`fine`) have both; several rays go through every pixel on the edge of something.
+
+Every surface of see-through things that faces the eye is blended with what is behind it; depth and geoms are those of
+the nearest one, and it throws shadows, as in MuJoCo's own renderer.
 """
 
 from __future__ import annotations
@@ -33,6 +36,12 @@ LIFTED = 1e-3
 GRID = ((0.125, 0.625), (0.375, 0.125), (0.625, 0.875), (0.875, 0.375))
 """Where the rays go through a pixel on an edge, from its corner."""
 
+LAYERS = 8
+"""Surfaces of see-through things that a ray passes, at most."""
+
+BEHIND = np.float32(2e-4)
+"""How far behind such a surface a ray goes on [m]."""
+
 STEP = 0.03
 """Neighbours whose distances differ by more than this share are on an edge."""
 
@@ -51,6 +60,10 @@ class _Seen(NamedTuple):
     weights: Array
     """Of the corners of that face, shape (rays, 3)."""
 
+    def at(self, rays: NDArray[np.int64]) -> _Seen:
+        """What some of the rays meet, shape (n,)."""
+        return _Seen(self.reach[rays], self.geom[rays], self.part[rays], self.face[rays], self.weights[rays])
+
 
 class RayTracer:
     """Draws one model."""
@@ -60,6 +73,7 @@ class RayTracer:
         surfaces = Surfaces(model)
         self._bodies, self._planes, self._textures = surfaces.bodies, surfaces.planes, surfaces.textures
         self._environment = surfaces.environment
+        self._panes = [number for number, body in enumerate(self._bodies) if body.opacity < 1.0]
 
     def draw(
         self,
@@ -98,14 +112,13 @@ class RayTracer:
         looking = np.stack([axes[:, 0], axes[:, 1], -axes[:, 2]])
         view = float(self._model.cam_fovy[camera])
         rays, lengths = pinhole_rays(looking, column + 0.5, row + 0.5, width, height, view)
-        seen = self._trace(data, eye, rays)
-        colours, shaded = self._shade(data, eye, rays, seen, shadows=shadows)
+        seen, colours, shaded = self._look(data, eye, rays, shadows=shadows)
         if fine:
             which = np.flatnonzero(_edges(seen, shaded, height, width))
             total = np.zeros((len(which), 3), dtype=np.float32)
             for x, y in GRID:
                 more, _ = pinhole_rays(looking, column[which] + x, row[which] + y, width, height, view)
-                total += self._shade(data, eye, more, self._trace(data, eye, more), shadows=True)[0].clip(0.0, 1.0)
+                total += self._look(data, eye, more, shadows=True)[1].clip(0.0, 1.0)
             colours[which] = total / np.float32(len(GRID))
         image = np.clip(colours * 255.0 + 0.5, 0, 255).astype(np.uint8).reshape(height, width, 3)
         far = self._model.vis.map.zfar * self._model.stat.extent
@@ -119,8 +132,43 @@ class RayTracer:
         """Free the triangles."""
         self._bodies = []
 
-    def _trace(self, data: Any, eye: Array, rays: Array) -> _Seen:
-        """What each ray from `eye`, shape (rays, 3), meets first."""
+    def _look(self, data: Any, eye: Array, rays: Array, *, shadows: bool) -> tuple[_Seen, Array, NDArray[np.bool_]]:
+        """What rays meet first, the colours there, shape (rays, 3), and which of what is solid lies in the shadow."""
+        seen = self._trace(data, eye, rays)
+        rows = np.flatnonzero(np.isin(seen.part, self._panes)) if self._panes else np.empty(0, dtype=np.int64)
+        if not len(rows):
+            return seen, *self._shade(data, eye, rays, seen, shadows=shadows)
+        solid, panes = seen.at(np.arange(len(rays))), []
+        for _ in range(LAYERS):
+            front = solid.at(rows)
+            panes.append((rows, front, self._opacity(data, rays[rows], front)))
+            behind = self._trace(data, eye, rays[rows], front.reach + BEHIND)
+            for one, values in zip(solid, behind, strict=True):
+                one[rows] = values
+            rows = rows[np.isin(behind.part, self._panes)]
+            if not len(rows):
+                break
+        colours, shaded = self._shade(data, eye, rays, solid, shadows=shadows)
+        for rows, front, opacity in reversed(panes):
+            own, _ = self._shade(data, eye, rays[rows], front, shadows=shadows)
+            under = colours[rows].clip(0.0, 1.0)
+            colours[rows] = under + opacity[:, None] * (own.clip(0.0, 1.0) - under)
+        return seen, colours, shaded
+
+    def _opacity(self, data: Any, rays: Array, seen: _Seen) -> Array:
+        """Opacity of see-through surfaces [-], 0 where they are seen from behind; shape (rays,)."""
+        found = np.zeros(len(rays), dtype=np.float32)
+        for number in np.unique(seen.part).tolist():
+            which = np.flatnonzero(seen.part == number)
+            body = self._bodies[number]
+            corners = body.corners[seen.face[which]]
+            outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            towards = np.einsum("ij,ij->i", outward, rays[which] @ _pose(data, body)[0]) < 0.0
+            found[which] = np.where(towards, np.float32(body.opacity), 0.0)
+        return found
+
+    def _trace(self, data: Any, eye: Array, rays: Array, start: Array | None = None) -> _Seen:
+        """What each ray from `eye`, shape (rays, 3), meets first, beyond `start` [m], shape (rays,), if given."""
         count = len(rays)
         seen = _Seen(
             reach=np.full(count, np.inf, dtype=np.float32),
@@ -139,16 +187,23 @@ class RayTracer:
             if not len(near):
                 continue
             local = np.ascontiguousarray(rays[near] @ rotation)
-            hits = body.scene.hits(((eye - position) @ rotation).astype(np.float32), local, nearer=seen.reach[near])
+            origin = ((eye - position) @ rotation).astype(np.float32)
+            if start is None:
+                hits, passed = body.scene.hits(origin, local, nearer=seen.reach[near]), np.float32(0.0)
+            else:
+                origins = origin + start[near, None] * local
+                hits = body.scene.hits(origins, local, nearer=seen.reach[near] - start[near])
+                passed = start[near[hits.which]]
             which = near[hits.which]
-            seen.reach[which], seen.part[which], seen.face[which] = hits.distance, number, hits.face
+            seen.reach[which], seen.part[which], seen.face[which] = hits.distance + passed, number, hits.face
             seen.weights[which], seen.geom[which] = hits.weights, body.geom[hits.face]
         for number, geom in enumerate(self._planes):
             axis = data.geom_xmat[geom].reshape(3, 3)[:, 2].astype(np.float32)
             slope = rays @ axis
             with np.errstate(divide="ignore", invalid="ignore"):
                 distance = ((data.geom_xpos[geom].astype(np.float32) - eye) @ axis) / slope
-            which = np.flatnonzero((slope < -1e-4) & (distance > 0) & (distance < seen.reach))
+            first = 0.0 if start is None else start
+            which = np.flatnonzero((slope < -1e-4) & (distance > first) & (distance < seen.reach))
             seen.reach[which], seen.part[which], seen.geom[which] = distance[which], -2 - number, geom
         return seen
 

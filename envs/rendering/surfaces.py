@@ -40,6 +40,8 @@ class Body:
     """Of every face, shape (faces,)."""
     casts: bool = True
     """Whether it throws shadows; the shells of a room let the light in."""
+    opacity: float = 1.0
+    """Below 1 for what is seen through, which is a body of its own here."""
 
     @cached_property
     def scene(self) -> RayScene:
@@ -57,13 +59,19 @@ class Surfaces:
         self.textures: dict[int, Array] = {}
         """Texels in [0, 1], shape (height, width, 3), by MuJoCo's number."""
         shell = np.array([model.geom(geom).name.startswith(SHELL) for geom in range(model.ngeom)])
-        groups = [(number, False) for number in range(model.nbody)]
+        opacity = np.array([self._look(geom)[0][3] for geom in range(model.ngeom)])
+        groups = [
+            (number, False, float(one))
+            for number in range(model.nbody)
+            for one in np.unique(opacity[(model.geom_bodyid == number) & ~shell])[::-1]
+        ]
         # The shells of a room come last: rays that something nearer stopped have less of them to search.
-        groups += [(int(number), True) for number in np.unique(model.geom_bodyid[shell])]
+        groups += [(int(number), True, 1.0) for number in np.unique(model.geom_bodyid[shell])]
         self.bodies = [
             body
-            for number, shells in groups
-            if (body := self._body(number, (model.geom_bodyid == number) & (shell == shells), not shells)) is not None
+            for number, shells, one in groups
+            for members in ((model.geom_bodyid == number) & (shell == shells) & (shells | (opacity == one)),)
+            if (body := self._body(number, members, not shells, one)) is not None
         ]
         plane = int(self._mujoco.mjtGeom.mjGEOM_PLANE)
         self.planes = [
@@ -75,7 +83,7 @@ class Surfaces:
         self.environment = _environment(model)
         """What is around everything, in [0, 1], shape (6, side, side, 3); None for a sky of one colour."""
 
-    def _body(self, number: int, members: NDArray[np.bool_], casts: bool) -> Body | None:
+    def _body(self, number: int, members: NDArray[np.bool_], casts: bool, opacity: float) -> Body | None:
         """The drawn triangles of those geoms of a body that are `members`; None where there are none."""
         model = self._model
         corners, normals, uvs, colours, textures, geoms = [], [], [], [], [], []
@@ -112,6 +120,7 @@ class Surfaces:
             texture=np.concatenate(textures),
             geom=np.concatenate(geoms),
             casts=casts,
+            opacity=opacity,
         )
 
     def _triangles(self, geom: int) -> tuple[Any, Any, Any] | None:

@@ -25,15 +25,16 @@ LIFT = 0.16
 
 
 class TakingHand:
-    """One of two arms, with its grasp of the object.
+    """One of two arms, with a grasp of the object.
 
     Args:
         env: a TabletopEnv, or a workplace, with two arms.
         side: "left" or "right".
+        number: of the pair of grasps, of those that both arms get to.
         half: by which its hand is turned about the approach [rad]: 0, or pi with its fingers exchanged.
     """
 
-    def __init__(self, env: Any, side: str, half: float) -> None:
+    def __init__(self, env: Any, side: str, number: int, half: float) -> None:
         placement, name = env.placement, env.task.names[0]
         own = placement if placement.side == side else placement.other
         arm = env.simulation.world.arm(side)
@@ -43,7 +44,7 @@ class TakingHand:
         """How far the fingers reach beyond the grip site [m]."""
         self.fingers = np.array(gripper.open_joints)
         """Joint positions of the open gripper."""
-        grasp: Grasp = own.grasps[name][0]
+        grasp: Grasp = own.grasps[name][number]
         self.pose: Hand = hand_pose(grasp, gripper.tip, gripper.closing_axis, half=half)
         """Of the hand in its grasp."""
 
@@ -62,20 +63,26 @@ class TakingHand:
 def hands_of(work: Any, *, at_once: bool) -> tuple[dict[str, TakingHand], str]:
     """Both hands, and what speaks against them: nothing where they get to the object and up with it, in nothing else.
 
-    Each hand can be turned either way round. Of the ways in which neither is in the other one, that in which the joints
-    move least is taken; where none is, that in which they move least at all.
+    Each hand can be turned either way round. Of the pairs of grasps, best first, the first is taken with which neither
+    hand is in the other one, in that way in which the joints move least; where there is none, the best pair is.
 
     Args:
         work: a TabletopEnv, or a workplace, with two arms.
         at_once: whether both take it where it stands; otherwise the right hand takes it out of the raised left one.
     """
-    clearance = Clearance(work)
-    both = ([TakingHand(work, side, half) for half in (0.0, math.pi)] for side in SIDES)
-    ways = [dict(zip(SIDES, way, strict=True)) for way in product(*both)]
-    ways.sort(key=lambda hands: sum(hand.motion for hand in hands.values()))
-    faults = [_fault(hands, clearance, work.task.names[0], at_once=at_once) for hands in ways]
-    best = faults.index("") if "" in faults else 0
-    return ways[best], faults[best]
+    clearance, name = Clearance(work), work.task.names[0]
+    first: tuple[dict[str, TakingHand], str] | None = None
+    for number in range(len(work.placement.grasps[name])):
+        both = ([TakingHand(work, side, number, half) for half in (0.0, math.pi)] for side in SIDES)
+        ways: list[dict[str, TakingHand]] = [dict(zip(SIDES, way, strict=True)) for way in product(*both)]
+        for hands in sorted(ways, key=lambda hands: sum(hand.motion for hand in hands.values())):
+            fault = _fault(hands, clearance, name, at_once=at_once)
+            if not fault:
+                return hands, ""
+            first = first or (hands, fault)
+    if first is None:
+        raise TaskError(f'no pair of grasps of "{name}" is known.')
+    return first
 
 
 def rehearse_together(work: Any, *, at_once: bool) -> None:

@@ -61,7 +61,7 @@ _SURFACES: dict[str, tuple[float, float, float]] = {
     "ceramic": (0.25, 0.0, 1.0),
     "porcelain": (0.15, 0.0, 1.0),
     "stone": (0.7, 0.0, 1.0),
-    "glass": (0.05, 0.0, 0.5),
+    "glass": (0.05, 0.0, 0.25),
     "metal": (0.35, 1.0, 1.0),
     "steel": (0.3, 1.0, 1.0),
     "iron": (0.55, 1.0, 1.0),
@@ -83,6 +83,9 @@ _SURFACES: dict[str, tuple[float, float, float]] = {
     "foliage": (0.7, 0.0, 1.0),
 }
 """Roughness, metallic and opacity [-] of materials whose look says what they are."""
+
+STAINED = 0.75
+"""Opacity [-] of glass that has a colour."""
 
 MATERIAL_WORDS: dict[str, str] = {
     "wooden": "wood", "oak": "wood", "pine": "wood", "walnut": "wood", "mahogany": "wood", "teak": "wood",
@@ -133,6 +136,8 @@ def surface_of(asset: Asset) -> Surface:
     from pat3d.scene.asset import Surface
 
     roughness, metallic, opacity = _SURFACES.get(asset.material.name, (0.55, 0.0, 1.0))
+    if opacity < 1.0 and asset.provenance.get("colours", [asset.material.name])[:1] != [asset.material.name]:
+        opacity = STAINED
     said = asset.provenance.get("surface") or {}
     return Surface(
         roughness=float(said.get("roughness", roughness)),

@@ -11,6 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 from pat3d.assets import catalogue as nouns
+from pat3d.assets.materials import surface_of
 from pat3d.cli import nouns_of_yours
 from pat3d.cli.console import console, watch
 from pat3d.cli.json_output import JSON, print_facts
@@ -88,11 +89,12 @@ def everything(*, seed: int, sheet: str | None) -> int:
     return 0
 
 
-def _drawn(found: tuple[nouns.Entry, ...], seed: int, progress: Progress) -> Iterator[tuple[str, VisualMesh]]:
-    """Name and mesh of every noun, made when it is their turn."""
+def _drawn(found: tuple[nouns.Entry, ...], seed: int, progress: Progress) -> Iterator[tuple[str, VisualMesh, float]]:
+    """Name, mesh and opacity of every noun, made when it is their turn."""
     for number, entry in enumerate(found):
         progress(Event(stage="drawing", detail=entry.noun, step=number, steps=len(found)))
-        yield entry.noun, nouns.make(entry.noun, seed=seed).visual
+        asset = nouns.make(entry.noun, seed=seed)
+        yield entry.noun, asset.visual, surface_of(asset).opacity
 
 
 def shipped_sizes() -> Path:
@@ -172,7 +174,7 @@ def one(name: str, *, seed: int, out: str | None) -> int:
         ("room for things", places or "-"),
         ("picture", str(picture)),
     )
-    save_turntable(asset.visual, picture, caption=entry.noun)
+    save_turntable(asset.visual, picture, caption=entry.noun, opacity=surface_of(asset).opacity)
     target = console()
     target.print(entry.noun, style="bold")
     for label, text in rows:

@@ -9,14 +9,14 @@ to the world's, so "left of" means the same everywhere. The result is checked be
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.pose import Pose
 from pat3d.geometry.rotations import yaw_matrix
-from pat3d.layout.bodies import Body
+from pat3d.layout.bodies import Array, Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
 from pat3d.layout.flat import Lateral, Surface
@@ -29,6 +29,7 @@ from pat3d.layout.leaning import leaning_rotation
 from pat3d.layout.loosening import loosen
 from pat3d.layout.place_settings import place_settings, turned
 from pat3d.layout.postures import posture_rotation
+from pat3d.layout.seats import SAT_AT, SEATS, around, facing, seated, sides
 from pat3d.layout.shelved import bookends
 from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat
@@ -40,10 +41,6 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
 from pat3d.scene.relations import OPPOSITE, SIDES
 
-_SEATS = frozenset({"chair", "armchair", "stool", "bench"})
-"""Nouns that turn towards what they stand around."""
-_SAT_AT = frozenset({"table", "desk", "workbench", "counter", "bar", "piano", "keyboard"})
-"""Nouns of what seats at a side of it are turned to."""
 _FURNITURE = 0.6
 """Objects larger than this [m] stand parallel to the walls of an imagined room."""
 
@@ -131,6 +128,8 @@ class _Arranger:
         self.intents.yaws |= bookends(placed, lambda name: self.bodies[name].asset.noun)
         self.turned = {name: posture_rotation(self.bodies[name], kind) for name, kind in postures.items()}
         """How objects are turned before their yaw, shape (3, 3), where they do not stand as they are made."""
+        self._around = self._around_tables()
+        """Seats around tables, each with the side where it is and its place along that [m]."""
         self._seated = self._seats()
         """Yaw of seats that stand at a side of a table [rad]."""
         for name, way in self.intents.leaning.items():
@@ -151,6 +150,8 @@ class _Arranger:
         items = [item_of(group, turnable=False) for group in groups.values()]
         pinned = {name: np.array(self.fixed[name].position[:2]) for name in names if name in self.fixed}
         wishes = self.intents.wishes(GROUND, groups, self._across, self.gap)
+        tables = [seated(table, ways, groups) for table, ways in self._around.items()]
+        wishes = replace(wishes, formations=(*wishes.formations, *tables))
         spots = arrange_flat(items, laterals, Surface(), pinned=pinned, wishes=wishes)
         if spots is None:
             said = [f"{lat.child} {lat.kind} {lat.parent}" for lat in laterals]
@@ -284,8 +285,8 @@ class _Arranger:
     def _yaw(self, name: str, parent: str, base: float, laterals: list[Lateral]) -> float:
         if name in self.intents.yaws:
             return self.intents.yaws[name]
-        angle = ring_angles(laterals).get(name)
-        if angle is not None and _SEATS & set(self.bodies[name].asset.noun.split()):
+        angle = ring_angles(laterals).get(name) if name not in self._seated else None
+        if angle is not None and SEATS & set(self.bodies[name].asset.noun.split()):
             return float(np.arctan2(-np.cos(angle), np.sin(angle)))
         towards = self._seated.get(name)
         if towards is not None:
@@ -297,15 +298,32 @@ class _Arranger:
         spread_by = 0.06 if kids or alone else 0.14
         return (base if alone else 0.0) + float(self._rng(name, "yaw").uniform(-spread_by, spread_by))
 
-    def _seats(self) -> dict[str, float]:
+    def _around_tables(self) -> dict[str, dict[str, tuple[Array, float]]]:
+        asked = {name for intents in self.intents.by_surface.values() for one in intents for name in one.stands_for}
+        free = set(self.bodies) - asked - set(self.fixed)
+        chairs = [name for name in free if SEATS & set(self.bodies[name].asset.noun.split())]
         found = {}
+        # A rug has no room for them; there they stand as they fit.
+        for table, names in around(self.laterals.get(GROUND, []), chairs).items():
+            asset = self.bodies[table].asset
+            round_top = any(one.shape == "disc" for one in asset.regions if one.kind == "on")
+            if round_top or table not in free or not SAT_AT & set(asset.noun.split()):
+                continue
+            width = max(float(self.bodies[name].asset.size[0]) for name in names)
+            ways = sides(len(names), asset.size[:2], width)
+            if ways:
+                found[table] = dict(zip(names, ways, strict=True))
+        return found
+
+    def _seats(self) -> dict[str, float]:
+        found = {name: facing(way) for ways in self._around.values() for name, (way, _) in ways.items()}
         for lat in self.laterals.get(GROUND, []):
             nouns = [set(self.bodies[name].asset.noun.split()) for name in (lat.child, lat.parent)]
             for seat, table, kind, own, other in (
                 (lat.child, lat.parent, lat.kind, *nouns),
                 (lat.parent, lat.child, OPPOSITE[lat.kind], *reversed(nouns)),
             ):
-                if kind in SIDES and _SEATS & own and _SAT_AT & other and table != seat:
+                if kind in SIDES and SEATS & own and SAT_AT & other and table != seat:
                     axis, sign = SIDES[kind]
                     way = -sign * np.eye(2)[axis]
                     # The front of an asset is at -y.

@@ -15,7 +15,7 @@ from pat3d.errors import LayoutError
 from pat3d.geometry.polygons import polygon_margin
 from pat3d.geometry.rotations import turn
 from pat3d.layout.bodies import Array, Body
-from pat3d.layout.shelved import BOUND, LOWER_EDGE, STOOD
+from pat3d.layout.shelved import stood
 
 ASTRAY = math.radians(14.0)
 """Largest angle [rad] between a face's normal and the direction that the posture has down."""
@@ -34,8 +34,9 @@ def posture_rotation(body: Body, kind: str) -> Array:
     """
     if kind == "upright":
         return np.eye(3)
-    if kind == "on_its_side" and body.asset.noun in BOUND and _endured(body, LOWER_EDGE) > STEADIEST:
-        return STOOD
+    standing = stood(body.asset.noun) if kind == "on_its_side" else None
+    if standing is not None and _endured(body, -standing[2]) > STEADIEST:
+        return standing
     best: tuple[float, Array] | None = None
     for normal in _faces(body.vertices):
         astray = math.acos(min(1.0, float(normal[2]))) if kind == "upside_down" else abs(math.asin(float(normal[2])))

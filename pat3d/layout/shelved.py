@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from pat3d.layout.bodies import Array
 from pat3d.layout.group import Group
 from pat3d.scene.arrangements import Arrangement
 
@@ -15,9 +16,15 @@ BOUND = frozenset({"book", "notebook", "spell book", "binder"})
 BOOKEND = "bookend"
 STOOD = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """Rotation of what is bound onto its lower edge, its spine at -y and its back cover at -x."""
-LOWER_EDGE = np.array([0.0, -1.0, 0.0])
+ON_END = np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rotation of what is long along x onto the end at -x, its thickness along x: a domino that is to topple the next."""
 _ACROSS = 0.9
 """Least cosine between the thickness of what is bound and x, for it to stand in a row."""
+
+
+def stood(noun: str) -> Array | None:
+    """How people stand what lies as it is made, shape (3, 3); None where any side will do."""
+    return STOOD if noun in BOUND else ON_END if noun == "domino" else None
 
 
 def shelved(group: Group) -> bool:

@@ -14,7 +14,7 @@ _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight"
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
             "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",
-            "lens": "lenses"}  # fmt: skip
+            "lens": "lenses", "fish": "fish", "bread": "loaves of bread"}  # fmt: skip
 _PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
 """Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
 _MASSES = frozenset({
@@ -106,6 +106,10 @@ class _Teller:
                 if parent == GROUND:
                     stand = "stands" if verb == "is" else "stand"
                     made.append(f"{self._listed(own)} {stand} on the ground")
+                elif (spread := self._spread(parent, kind)) is not None:
+                    names, sentence = spread
+                    made.append(sentence)
+                    told |= set(names)
                 else:
                     others, place = self._same_parents(parent, own)
                     is_or_are = "are" if len(others) > 1 else verb
@@ -125,12 +129,32 @@ class _Teller:
     def _same_parents(self, parent: str, own: list[str]) -> tuple[list[str], str]:
         """`own` and its like on the like of `parent`, where every one of these has its own."""
         kind = self._like[parent]
-        if len(kind) > 1 and len(own) == 1:
+        if len(kind) > 1 and len(own) == 1 and not any(self._continues_stack(name) for name in kind):
             pairs = [(other, self._children(other)) for other in kind]
             likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
             if all(len(each) == 1 for each in likes) and all(len(names) == 1 for _, names in pairs):
                 return [each[0] for each in likes], f"the {_count(len(kind))} {plural(self._base[parent])}, one on each"
         return own, self._the(parent)
+
+    def _spread(self, parent: str, kind: str) -> tuple[list[str], str] | None:
+        """What is spread over all that are like `parent`, and how that is said; None where nothing is."""
+        like = self._like[parent]
+        shares = [[name for name in self._children(each) if self._kind(name) == kind] for each in like]
+        names = [name for share in shares for name in share]
+        split = any(
+            len({at for at, share in enumerate(shares) if {*share} & {*self._like[name]}}) > 1 for name in names
+        )
+        alone = {*names} == {*self._like[names[0]]} and len(names) == len(like)
+        if len(like) < 2 or not split or alone or any(self._stack(name)[1:] for name in (*names, *like)):
+            return None
+        sizes = list(dict.fromkeys(map(len, shares)))
+        one_kind = len({self._like[name][0] for name in names}) == 1
+        parents = f"the {_count(len(like))} {plural(self._base[parent])}"
+        verb = RELATION_WORDS[kind]
+        if one_kind and len(sizes) == 1:
+            return names, f"{self._listed(names)} are {verb} {parents}, {_count(sizes[0])} {verb} each"
+        how = f": {_joined([_count(len(share)) if share else 'none' for share in shares])}" if one_kind else ""
+        return names, f"{self._listed(names)} are spread over {parents}{how}"
 
     def _stack(self, name: str) -> list[str]:
         """The tower of equal objects of which `name` is the lowest."""
@@ -222,9 +246,36 @@ class _Teller:
         for rel in self._plan.relations:
             if not rel.supports and not self._said(rel):
                 grouped.setdefault((rel.kind, rel.parent), []).append(rel.child)
-        made: list[str] = []
+        made = self._pairs(grouped)
         for (kind, parent), children in grouped.items():
             made.append(f"{self._all(children)} {self._is(children)} {RELATION_WORDS[kind]} {self._the(parent)}")
+        return made
+
+    def _pairs(self, grouped: dict[tuple[str, str], list[str]]) -> list[str]:
+        """Relations of likes to likes, which leave `grouped`: "each of the four forks is next to one of the knives"."""
+        made: list[str] = []
+        kinds: dict[tuple[str, str, str], list[tuple[str, str]]] = {}
+        for (kind, parent), children in grouped.items():
+            for child in children:
+                kinds.setdefault((kind, self._like[child][0], self._like[parent][0]), []).append((child, parent))
+        for (kind, first, other), pairs in kinds.items():
+            children, whole = [child for child, _ in pairs], self._like[first]
+            if first == other:
+                told = kind == "next_to" and len(pairs) == len(whole) - 1 > 1
+                said = f"the {_count(len(whole))} {plural(self._base[first])} are next to each other"
+            else:
+                parents = {parent for _, parent in pairs}
+                told = (
+                    len({*children}) == len(children) == len(whole) > 1 and len(parents) == len(self._like[other]) > 1
+                )
+                one = f"one of the {_count(len(self._like[other]))} {plural(self._base[other])}"
+                said = f"each of the {_count(len(whole))} {plural(self._base[first])} is {RELATION_WORDS[kind]} {one}"
+            if told:
+                made.append(said)
+                for child, parent in pairs:
+                    grouped[kind, parent].remove(child)
+        for key in [key for key, children in grouped.items() if not children]:
+            del grouped[key]
         return made
 
     def _said(self, rel: Relation) -> bool:
@@ -301,7 +352,7 @@ def _base(obj: PlannedObject, plan: ScenePlan) -> str:
     found = re.fullmatch(r"(.+) (\d+)", obj.name)
     if found is None:
         return obj.name
-    like = [other for other in plan.objects if other.noun == obj.noun and other.name.startswith(f"{found[1]} ")]
+    like = [other for other in plan.objects if re.fullmatch(rf"{re.escape(found[1])} \d+", other.name)]
     return found[1] if len(like) > 1 or obj.colours else obj.name
 
 
@@ -318,7 +369,7 @@ def plural(name: str) -> str:
         word = _PLURALS[word]
     elif _is_plural(word):
         pass
-    elif re.search(r"(s|x|z|ch|sh|tomato|potato)$", word):
+    elif re.search(r"(s|x|z|ch|sh|tomato|potato|domino)$", word):
         word += "es"
     elif re.search(r"[^aeiou]y$", word):
         word = f"{word[:-1]}ies"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -62,27 +62,50 @@ class Hits:
     """Unit normal of the triangle on the viewer's side, shape (m, 3)."""
     colour: NDArray[np.float32]
     """Linear RGB of the surface, shape (m, 3)."""
+    outer: NDArray[np.bool_]
+    """Whether the outside of the surface is seen, shape (m,)."""
+
+    def only(self, chosen: NDArray[np.bool_]) -> Hits:
+        """Those that are `chosen`, shape (m,)."""
+        return Hits(*(getattr(self, one.name)[chosen] for one in fields(self)))
+
+    def behind(self, front: Hits, step: np.float32) -> Hits:
+        """These hits of rays that go on `step` [m] behind those of `front`, as hits of the rays of `front`."""
+        return replace(self, which=front.which[self.which], distance=front.distance[self.which] + step + self.distance)
+
+    @staticmethod
+    def together(several: Sequence[Hits]) -> Hits:
+        """All of them."""
+        return Hits(*(np.concatenate([getattr(one, each.name) for one in several]) for each in fields(Hits)))
+
+
+Item = tuple[VisualMesh, Pose] | tuple[VisualMesh, Pose, float]
+"""A mesh, where it is, and its opacity [-], which is 1 where it is not said."""
 
 
 class Geometry:
     """Placed meshes ready for rays, in a float32 frame whose origin is the middle of the picture's contents."""
 
-    def __init__(self, items: Sequence[tuple[VisualMesh, Pose]]) -> None:
-        placed = [pose.apply(mesh.vertices) for mesh, pose in items]
+    def __init__(self, items: Sequence[Item]) -> None:
+        self.items = items
+        self.opacity = np.array([item[2] if len(item) > 2 else 1.0 for item in items], dtype=np.float32)
+        """Of every item [-], shape (items,)."""
+        self.see_through = bool((self.opacity < 1.0).any())
+        placed = [pose.apply(mesh.vertices) for mesh, pose, *_ in items]
         self.low = np.min([points.min(axis=0) for points in placed], axis=0)
         self.high = np.max([points.max(axis=0) for points in placed], axis=0)
         self.origin: NDArray[np.float64] = (self.low + self.high) / 2.0
         corners, normals = [], []
-        for (mesh, pose), points in zip(items, placed, strict=True):
+        for (mesh, pose, *_), points in zip(items, placed, strict=True):
             corners.append((points - self.origin).astype(np.float32)[mesh.faces])
             normals.append(_prepared(mesh).normals @ pose.rotation.T.astype(np.float32))
         self.corners: NDArray[np.float32] = np.concatenate(corners)
         self._normals: NDArray[np.float32] = np.concatenate(normals)
-        self._uv = np.concatenate([mesh.uv for mesh, _ in items]).astype(np.float32)
-        self._density = np.concatenate([_prepared(mesh).density for mesh, _ in items])
-        counts = [len(mesh.faces) for mesh, _ in items]
+        self._uv = np.concatenate([mesh.uv for mesh, *_ in items]).astype(np.float32)
+        self._density = np.concatenate([_prepared(mesh).density for mesh, *_ in items])
+        counts = [len(mesh.faces) for mesh, *_ in items]
         self._item = np.repeat(np.arange(len(items), dtype=np.int32), counts)
-        self._atlas = TextureAtlas([mesh.texture for mesh, _ in items])
+        self._atlas = TextureAtlas([mesh.texture for mesh, *_ in items])
         area = area_vectors(self.corners)
         length = np.linalg.norm(area, axis=1)
         self.face_normals: NDArray[np.float32] = area / np.maximum(length, 1e-30)[:, None]
@@ -103,17 +126,17 @@ class Geometry:
         return np.where(face >= 0, self._item[face], np.int32(-1))
 
     def trace(self, origin: NDArray[np.float32], directions: NDArray[np.float32], pixel: float) -> Hits:
-        """First hits of rays from one point.
+        """First hits of rays.
 
         Args:
-            origin: [m], shape (3,).
+            origin: of all of them [m], shape (3,), or of each, shape (n, 3).
             directions: unit vectors, shape (n, 3).
             pixel: angle between neighbouring rays [rad], which chooses the texture's resolution.
         """
         hits = self._scene.hits(origin, directions)
         face, distance, weights = hits.face, hits.distance, hits.weights
         ray = directions[hits.which]
-        point = origin + distance[:, None] * ray
+        point = (origin if origin.ndim == 1 else origin[hits.which]) + distance[:, None] * ray
         corner_normals, corners = self._normals[face], self.corners[face]
         normal = unit(hits.at(self._normals))
         flat = self.face_normals[face]
@@ -136,4 +159,5 @@ class Geometry:
             normal=normal * side,
             flat=flat * side,
             colour=self._atlas.colour(self._item[face], hits.at(self._uv), footprint),
+            outer=~inside,
         )

@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from pat3d.assets.materials import surface_of
 from pat3d.errors import SpecError
 from pat3d.geometry.pose import Pose
 from pat3d.scene.asset import VisualMesh
 from pat3d.scene.model import GROUND, Scene
 from pat3d.scene.replacement import replaced_file
 from pat3d.view.camera import ELEVATION, frame
-from pat3d.view.render import Item, render
+from pat3d.view.geometry import Item
+from pat3d.view.render import render
 from pat3d.view.viewpoint import overlooking
 
 if TYPE_CHECKING:
@@ -40,7 +42,10 @@ _LARGEST_PAGE = 16_384
 
 def scene_items(scene: Scene, *, initial: bool = False) -> list[Item]:
     """The meshes of `scene` at rest, or as laid out before settling."""
-    return [(obj.asset.visual, obj.initial_pose if initial else obj.pose) for obj in scene.objects]
+    return [
+        (obj.asset.visual, obj.initial_pose if initial else obj.pose, surface_of(obj.asset).opacity)
+        for obj in scene.objects
+    ]
 
 
 def stage_of(scene: Scene) -> int | None:
@@ -73,7 +78,7 @@ def save_preview(
 
 
 def side_by_side(
-    panels: Sequence[tuple[str, list[Item]]],
+    panels: Sequence[tuple[str, Sequence[Item]]],
     *,
     width: int = 800,
     height: int = 600,
@@ -110,7 +115,7 @@ def save_picture(
 
 
 def contact_sheet(
-    entries: Iterable[tuple[str, VisualMesh]],
+    entries: Iterable[tuple[str, VisualMesh, float]],
     path: str | os.PathLike[str],
     *,
     columns: int = 8,
@@ -121,7 +126,7 @@ def contact_sheet(
     """Write a grid of captioned pictures of meshes, each framed by itself.
 
     Args:
-        entries: caption and mesh of every cell; drawn one at a time, so a generator saves memory.
+        entries: caption, mesh and opacity of every cell; drawn one at a time, so a generator saves memory.
         path: of the PNG file; further pages get "-2", "-3", ... before the suffix.
         columns: cells in a row.
         width: of a cell's picture [pixel].
@@ -137,8 +142,8 @@ def contact_sheet(
     if columns < 1 or (per_page is not None and per_page < 1):
         raise SpecError(f"a contact sheet needs at least 1 column and 1 cell a page, got {columns}, {per_page}.")
     pictures = [
-        (caption, render([(mesh, Pose())], width=width, height=height, ground=float(mesh.bounds[0, 2])))
-        for caption, mesh in entries
+        (caption, render([(mesh, Pose(), opacity)], width=width, height=height, ground=float(mesh.bounds[0, 2])))
+        for caption, mesh, opacity in entries
     ]
     if not pictures:
         raise SpecError("a contact sheet needs at least one entry.")
@@ -162,6 +167,7 @@ def save_turntable(
     path: str | os.PathLike[str],
     *,
     caption: str = "",
+    opacity: float = 1.0,
     views: int = 4,
     width: int = 480,
     height: int = 400,
@@ -173,6 +179,7 @@ def save_turntable(
         mesh: what to draw, standing on its lowest point.
         path: of the PNG file.
         caption: text under the first picture.
+        opacity: of the mesh [-].
         views: pictures in the row, 1 to 16.
         width: of each picture [pixel].
         height: of each picture [pixel].
@@ -191,7 +198,7 @@ def save_turntable(
     camera = frame(everything, aspect=width / height, elevation=elevation)
     sheet = _Sheet(columns=views, rows=1, width=width, height=height, gap=6, text=max(round(height / 22), 11))
     for view, pose in enumerate(poses):
-        picture = render([(mesh, pose)], camera=camera, width=width, height=height)
+        picture = render([(mesh, pose, opacity)], camera=camera, width=width, height=height)
         sheet.put(view, picture, caption if view == 0 else "")
     save_png(sheet.image, path)
 

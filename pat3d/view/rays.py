@@ -84,15 +84,16 @@ class RayScene:
         found = self._scene.run(origins, directions, output=1)
         return found["primID"], found["tfar"]
 
-    def hits(self, origin: Array, directions: Array, nearer: Array | None = None) -> FirstHits:
-        """First hits of rays from one point.
+    def hits(self, origin: NDArray[np.floating[Any]], directions: Array, nearer: Array | None = None) -> FirstHits:
+        """First hits of rays.
 
         Args:
-            origin: [m], shape (3,).
+            origin: of all of them [m], shape (3,), or of each, shape (n, 3).
             directions: unit vectors, shape (n, 3).
             nearer: hits count that are nearer than this [m], shape (n,).
         """
-        origins = np.tile(origin.astype(np.float32, copy=False), (len(directions), 1))
+        one = origin.astype(np.float32, copy=False)
+        origins = np.tile(one, (len(directions), 1)) if one.ndim == 1 else np.ascontiguousarray(one)
         found = self._scene.run(origins, directions, output=1)
         hit = found["primID"] >= 0
         which = np.flatnonzero(hit if nearer is None else hit & (found["tfar"] < nearer))

@@ -14,15 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.errors import SpecError
-from pat3d.geometry.pose import Pose
-from pat3d.scene.asset import VisualMesh
 from pat3d.view import light
 from pat3d.view.camera import Camera, frame
 from pat3d.view.denoise import smooth
-from pat3d.view.geometry import Geometry
+from pat3d.view.geometry import Geometry, Item
+from pat3d.view.panes import SHADE, Pane, peeled
 from pat3d.view.tone import compress, quantise
 
-Item = tuple[VisualMesh, Pose]
 Array = NDArray[np.float32]
 
 LARGEST_PICTURE = 8192
@@ -33,7 +31,7 @@ _BACKGROUND, _GROUND = -1, 0
 def frame_items(items: Sequence[Item], *, aspect: float = 4.0 / 3.0, **options: float) -> Camera:
     """The automatic camera for `items`; `options` are those of `pat3d.view.camera.frame`."""
     _check(items)
-    return frame(np.concatenate([pose.apply(mesh.vertices) for mesh, pose in items]), aspect=aspect, **options)
+    return frame(np.concatenate([pose.apply(mesh.vertices) for mesh, pose, *_ in items]), aspect=aspect, **options)
 
 
 def render(
@@ -49,7 +47,7 @@ def render(
     """Draw meshes at their poses.
 
     Args:
-        items: what to draw: meshes and where they are.
+        items: what to draw: meshes, where they are, and their opacity where they are not solid.
         camera: from where; None frames everything from the front right.
         width: of the picture [pixel].
         height: of the picture [pixel].
@@ -83,7 +81,7 @@ def render(
 def _check(items: Sequence[Item]) -> None:
     if not items:
         raise SpecError("there is nothing to draw: a picture needs at least one mesh.")
-    for index, (mesh, _) in enumerate(items):
+    for index, (mesh, *_) in enumerate(items):
         if len(mesh.faces) == 0 or not np.all(np.isfinite(mesh.vertices)):
             raise SpecError(f"mesh {index} of the picture has no triangles or vertices that are not finite.")
 
@@ -106,6 +104,8 @@ class _Surfaces:
     """Shading normals, shape (n, 3)."""
     colour: Array
     """Linear RGB; of the ground and background as they appear without shadows, shape (n, 3)."""
+    panes: tuple[Pane, ...]
+    """See-through surfaces before all this, the nearest first."""
 
 
 class _View:
@@ -124,7 +124,7 @@ class _View:
         """What is seen through picture points [pixel], shapes (n,)."""
         ray = self.camera.directions(x, y, self.width, self.height)
         count = len(ray)
-        hits = self.geometry.trace(self.eye, ray, self.pixel)
+        hits, panes = peeled(self.geometry, self.eye, ray, self.pixel)
         what = np.full(count, _BACKGROUND, dtype=np.int32)
         distance = np.full(count, np.inf, dtype=np.float32)
         what[hits.which], distance[hits.which] = hits.item + 1, hits.distance
@@ -151,17 +151,15 @@ class _View:
             colour[down] = light.backdrop(radii.astype(np.float32, copy=False))
         seen = what[hits.which] > 0
         colour[hits.which[seen]] = hits.colour[seen]
-        return _Surfaces(what, ray, distance, point, start, normal, colour)
+        return _Surfaces(what, ray, distance, point, start, normal, colour, panes)
 
     def lighting(self, surfaces: _Surfaces, tile: NDArray[np.int32], seed: int) -> Array:
         """Sky and bounce irradiance RGB and the visible fraction of the key light, smoothed; shape (n, 4)."""
-        lit = np.empty((len(tile), 4), dtype=np.float32)
-        lit[:, :3], lit[:, 3] = self.studio.open_sky, 1.0
-        near = np.flatnonzero(self._reached(surfaces))
-        start, normal, tiles = surfaces.start[near], surfaces.normal[near], tile[near]
-        face_light = light.bounce(self.geometry, self.studio)
-        lit[near, 3] = light.key_visibility(self.geometry, self.studio, start, normal, tiles, seed)
-        lit[near, :3] = light.sky_light(self.geometry, self.studio, face_light, self.ground, start, normal, tiles, seed)
+        lit = self._lit_by(self.geometry, surfaces, tile, seed)
+        if self.geometry.see_through:
+            solid = [self.geometry.items[index] for index in np.flatnonzero(self.geometry.opacity == 1.0).tolist()]
+            clear = self._lit_by(Geometry(solid) if solid else None, surfaces, tile, seed)
+            lit = (clear + np.float32(SHADE) * (lit - clear)).astype(np.float32, copy=False)
         shape = (self.height, self.width)
         return smooth(
             lit.reshape(*shape, 4),
@@ -170,6 +168,21 @@ class _View:
             surfaces.normal.reshape(*shape, 3),
             (surfaces.distance * np.float32(self.pixel)).reshape(shape),
         ).reshape(-1, 4)
+
+    def _lit_by(self, geometry: Geometry | None, surfaces: _Surfaces, tile: NDArray[np.int32], seed: int) -> Array:
+        """Light with `geometry` in its way, or nothing, not smoothed; shape (n, 4)."""
+        lit = np.empty((len(tile), 4), dtype=np.float32)
+        lit[:, :3], lit[:, 3] = self.studio.open_sky, 1.0
+        if geometry is None:
+            return lit
+        near = np.flatnonzero(self._reached(surfaces))
+        moved = (self.geometry.origin - geometry.origin).astype(np.float32)
+        start, normal, tiles = surfaces.start[near] + moved, surfaces.normal[near], tile[near]
+        ground = None if self.ground is None else self.ground + float(moved[2])
+        lit[near, 3] = light.key_visibility(geometry, self.studio, start, normal, tiles, seed)
+        face_light = light.bounce(geometry, self.studio)
+        lit[near, :3] = light.sky_light(geometry, self.studio, face_light, ground, start, normal, tiles, seed)
+        return lit
 
     def _reached(self, surfaces: _Surfaces) -> NDArray[np.bool_]:
         """Pixels whose light the meshes can change: all of theirs, and the ground around them."""
@@ -211,6 +224,8 @@ class _View:
         glint = 0.16 * np.maximum(np.einsum("ij,ij->i", normal, half), 0.0) ** 48 * lit[mesh, 3]
         gloss = (mirror * openness)[:, None] * studio.open_sky + glint[:, None] * studio.key
         colour[mesh] = colour[mesh] * diffuse + gloss
+        for pane in reversed(surfaces.panes):
+            pane.over(colour, studio)
         return colour
 
 

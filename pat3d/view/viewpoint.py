@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from pat3d.geometry.normals import triangle_areas
 from pat3d.view.camera import ELEVATION, Camera, frame
-from pat3d.view.geometry import Geometry
-from pat3d.view.render import Item
+from pat3d.view.geometry import Geometry, Item
 
 ELEVATIONS = (ELEVATION, 40.0, 55.0, 70.0)
 """That are tried in this order [deg]: low views show best what things are, high ones what they hold."""
@@ -50,10 +49,10 @@ def _framed(panels: Sequence[Sequence[Item]], stage: int | None) -> NDArray[np.f
     """What has to be in the picture [m], shape (n, 3)."""
     items = [item for one in panels for number, item in enumerate(one) if number != stage]
     if stage is None or not items:
-        return np.concatenate([pose.apply(mesh.vertices) for one in panels for mesh, pose in one])
-    points = np.concatenate([pose.apply(mesh.vertices) for mesh, pose in items])
+        return np.concatenate([pose.apply(mesh.vertices) for one in panels for mesh, pose, *_ in one])
+    points = np.concatenate([pose.apply(mesh.vertices) for mesh, pose, *_ in items])
     low, high = points.min(axis=0), points.max(axis=0)
-    mesh, pose = panels[0][stage]
+    mesh, pose, *_ = panels[0][stage]
     carrier = pose.apply(mesh.vertices)
     # A little of the surface on every side says what things stand on.
     room = max(LEAST_VIEW, 0.6 * float((high - low)[:2].max()))
@@ -71,7 +70,7 @@ def share_seen(items: Sequence[Item], camera: Camera) -> NDArray[np.float64]:
     geometry = Geometry(items)
     eye = np.array(camera.position) - geometry.origin
     seen = np.empty(len(items))
-    for index, (mesh, pose) in enumerate(items):
+    for index, (mesh, pose, *_) in enumerate(items):
         corners = mesh.vertices[mesh.faces[:: -(-len(mesh.faces) // _SAMPLES)]]
         area = triangle_areas(corners)
         rays = pose.apply(corners.mean(axis=1)) - geometry.origin - eye

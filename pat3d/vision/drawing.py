@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pat3d.view.geometry import Geometry
-from pat3d.view.render import Item
+from pat3d.view.geometry import Geometry, Item
 from pat3d.vision.camera import PlacedCamera
 
 SKY = 50.0

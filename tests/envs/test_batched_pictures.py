@@ -96,6 +96,37 @@ def test_every_world_is_drawn_as_by_itself(envs, device):
 
 
 @pytest.mark.parametrize("device", DEVICES)
+def test_what_is_seen_through_is_that_of_the_single_environment(envs, device):
+    """In the second world the mug is of glass: what is behind is seen, depth and labels stay."""
+    made = [TabletopEnv(robot=envs[0].config.robot, task="pick:red mug") for _ in range(2)]
+    for env in made:
+        env.reset(seed=0)
+    model = made[1].simulation.model
+    objects = model.geom_matid[[geom for geom in range(model.ngeom) if "mug" in model.geom(geom).name]]
+    model.mat_rgba[objects[objects >= 0], 3] = 0.25
+    worlds = [env.simulation.world for env in made]
+    cameras = [model.camera(name).id for name in SPEC.cameras]
+    bodies = [np.arange(world.model.nbody) for world in worlds]
+    seen = BatchedPictures(worlds, bodies, cameras, SPEC, _stacked(made, 2, device)).take()
+    for number in range(2):
+        for name, expected in pictured(SPEC, made[number].pictures).items():
+            found = seen[name][number]
+            if name.endswith("_image"):
+                assert np.abs(found.astype(float) - expected).mean() < TOLERANCE
+                assert (found == expected).mean() > 0.99
+            else:
+                assert (np.abs(found.astype(float) - expected) > 1e-3).mean() < 1e-3
+    for name in ("agentview_depth", "agentview_segmentation"):
+        assert (np.abs(seen[name][0].astype(float) - seen[name][1]) > 1e-3).mean() < 1e-3
+    solid, clear = (seen["agentview_image"][world].astype(float) for world in range(2))
+    mug = seen["agentview_segmentation"][0][..., 0] == 2 + worlds[0].objects.index("red mug")
+    assert np.abs(solid - clear)[mug].mean() > 20.0
+    assert np.abs(solid - clear)[~mug].max() < 1.5
+    for env in made:
+        env.close()
+
+
+@pytest.mark.parametrize("device", DEVICES)
 def test_rooms_environments_and_shadows_are_those_of_the_single_environment(envs, device):
     """A kitchen, a bare bench under a clear sky and a bare bench side by side, each in its own light."""
     robot = envs[0].config.robot

@@ -98,7 +98,12 @@ env = TabletopEnv(robot=sys.argv[2], task="pick:red mug")
 env.reset(seed=0)
 model, data = env.simulation.model, env.simulation.data
 renderers = OpenGL(model, sys.argv[1]), RayTracer(model)
-for name in ("agentview", "wrist"):
+mug = [geom for geom in range(model.ngeom) if "mug" in model.geom(geom).name and model.geom_matid[geom] >= 0]
+for name, opacity in (("agentview", 1.0), ("wrist", 1.0), ("agentview", 0.25)):
+    if opacity < 1.0:
+        model.mat_rgba[model.geom_matid[mug], 3] = opacity
+        renderers[0].close()
+        renderers = OpenGL(model, sys.argv[1]), RayTracer(model)
     for fine in (False, True, False):
         theirs, ours = (
             one.draw(data, model.camera(name).id, 96, 128, depth=True, segmentation=True, fine=fine)

@@ -75,6 +75,37 @@ def test_a_surface_shows_its_outside_unless_that_is_turned_away(normal):
         np.testing.assert_array_equal(middle(tracer, data), seen)
 
 
+GLASS = """
+<mujoco>
+  <worldbody>
+    <body><geom name="box" type="box" size="0.2 0.2 0.2" rgba="0.8 0.4 0.2 1"/></body>
+    <body pos="0 0 0.5"><geom name="pane" type="box" size="0.2 0.2 0.1" rgba="0.2 0.6 0.9 {alpha}"/></body>
+    <camera name="eye" pos="0 0 2" fovy="5"/>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize("alpha", [0.25, 0.75, 1.0])
+@pytest.mark.parametrize("fine", [False, True])
+def test_what_is_behind_a_pane_shines_through_it_once_and_depth_is_that_of_the_pane(alpha, fine):
+    """The pane's top faces the eye, its underside does not. Both tops are lit alike: nothing shades without shadows."""
+    model = lit_model(GLASS.format(alpha=alpha))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    picture = RayTracer(model).draw(data, 0, SIZE, SIZE, depth=True, segmentation=True, fine=fine)
+    top = lit((0.0, 0.0, 1.0)) / np.array([0.8, 0.4, 0.2])
+    # Films have shadows: the pane's falls on the box beneath it.
+    lower = top if not fine else 255.0 * np.full(3, 0.40 + 0.15 + 0.10)
+    expected = alpha * top * np.array([0.2, 0.6, 0.9]) + (1.0 - alpha) * lower * np.array([0.8, 0.4, 0.2])
+    shadowed = abs(picture.image[SIZE // 2, SIZE // 2] - expected)
+    assert shadowed.max() < 1.1
+    assert picture.depth is not None
+    assert picture.geoms is not None
+    assert picture.depth[SIZE // 2, SIZE // 2] == pytest.approx(1.4, abs=1e-4)
+    assert picture.geoms[SIZE // 2, SIZE // 2] == 1
+
+
 PAINTED = """
 <mujoco>
   <asset>

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -82,7 +83,8 @@ def test_a_check_looks_again_at_what_a_suite_says_is_in_view(tmp_path, arm):
 
     def lines(task, percent):
         request = Request(tasks=("pick",), robot=arm, visible=percent)
-        return check_sight(where, request, SimpleNamespace(place=7, task=task))
+        entry: Any = SimpleNamespace(place=7, task=task)
+        return check_sight(where, request, entry)
 
     assert lines("pick:cube", 0.5) == lines("pick:post", 0.0) == []
     (line,) = lines("pick:post", 0.5)

@@ -9,10 +9,10 @@ import pytest
 
 from pat3d.assets import catalogue
 from pat3d.envs.suites.composer import natural
-from pat3d.envs.suites.composition import draft, structure_splits
+from pat3d.envs.suites.composition import SILHOUETTE, draft, structure_splits
 from pat3d.envs.suites.pools import CONTAINERS, GROUPS, ITEMS, partition
 from pat3d.envs.suites.request import SPLITS, TASKS, TWO_ARMED, Request, check_split, in_split
-from pat3d.envs.suites.structures import CORES, SIDES
+from pat3d.envs.suites.structures import CORES, SIDES, SORTED
 from pat3d.envs.suites.worker_pool import worker_count
 from pat3d.envs.tasks.registry import TASKS as JUDGED
 from pat3d.envs.tasks.registry import parse_task
@@ -233,6 +233,27 @@ def test_scenes_have_the_clutter_of_their_level_and_all_levels_come():
         seen[level] += 1
     assert set(seen) == {2, 4, 8}
     assert min(seen.values()) > 20
+
+
+def test_what_is_too_small_to_be_seen_is_not_tried_and_what_is_sorted_is_larger():
+    """Half a percent leaves every noun to move; a sort, with two homes in the picture, and more take larger ones."""
+
+    def moved(visible):
+        request = Request(tasks=("pick", "sort"), scenes=400, visible=visible)
+        found: dict[str, list[str]] = {"pick": [], "sort": []}
+        for place in range(200):
+            if request.split_of(place) == "train":
+                made = draft(request, place, 0)
+                found[request.task_of(place)] += [obj.noun for obj in made.plan.objects if obj.name in made.moved]
+        return {kind: set(nouns) for kind, nouns in found.items()}
+
+    sizes = {item.noun: item.width * item.height for item in ITEMS}
+    usual, anything, more = moved(0.5), moved(0.0), moved(2.0)
+    assert usual["pick"] == anything["pick"]
+    assert min(sizes[noun] for noun in usual["pick"]) < min(sizes[noun] for noun in usual["sort"])
+    assert min(sizes[noun] for noun in usual["sort"]) >= 0.5 * SILHOUETTE * SORTED
+    assert min(sizes[noun] for noun in anything["sort"]) < 0.5 * SILHOUETTE * SORTED
+    assert min(sizes[noun] for noun in more["pick"]) >= 2.0 * SILHOUETTE
 
 
 def test_distractors_are_like_what_is_moved_and_words_still_tell_them_apart():

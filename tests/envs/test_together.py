@@ -15,7 +15,7 @@ from pat3d.assets.shapes import box, cylinder
 from pat3d.envs.env import TabletopEnv
 from pat3d.envs.grasping import remembered
 from pat3d.envs.grasping.grasp import find_grasps
-from pat3d.envs.grasping.pairwise import FIRM, paired_grasps
+from pat3d.envs.grasping.pairwise import FIRM, LEVEL, paired_grasps
 from pat3d.envs.grasping.standing import Needs
 from pat3d.envs.robots.arms import measure_gripper
 from pat3d.envs.tasks.registry import parse_task
@@ -91,8 +91,10 @@ def test_a_pin_is_handed_over_squarely_and_near_its_middle(own):
     pose = Pose.from_matrix(lying, np.array([-LONG / 2, 0.0, radius]))
     pin, board = placed("pin", asset_of(cylinder(radius, LONG, sides=120)), pose=pose), asset_of(box(LONG, 0.1, 0.03))
     pairs = paired_grasps(scene_of(pin), "pin", (own, own), wide=False)
-    aside = [sum(one.position[0] ** 2 + one.position[1] ** 2 for one in pair) for pair in pairs]
-    assert aside == sorted(aside)
+    aside = [tuple(math.hypot(*one.position[:2]) for one in pair) for pair in pairs]
+    assert aside == sorted(aside, key=lambda one: LEVEL * one[0] ** 2 + one[1] ** 2)
+    # What is offered stays level, what is taken may hang.
+    assert aside[0][0] < aside[0][1]
     boards = (placed(f"board {side}", board, (0.0, 0.08 * side, GAP)) for side in (-1, 1))
     beside = scene_of(pin, *boards)
     high = find_grasps(beside, "pin", measure_gripper(own))
@@ -110,7 +112,7 @@ def test_what_would_turn_in_one_hand_is_carried_by_two_and_not_handed_over(own):
     lead = replace(WOOD, density=5000.0)
     heavy = scene_of(placed("bar", asset_of(box(LONG, SIDE, SIDE), material=lead), (0.0, 0.0, GAP)))
     assert paired_grasps(heavy, "bar", (own, own), wide=True)
-    with pytest.raises(TaskError, match='"bar" offers no two places at which one hand holds it firmly'):
+    with pytest.raises(TaskError, match=r'"bar" (offers no two places at which one hand holds it|.*turn in the)'):
         paired_grasps(heavy, "bar", (own, own), wide=False)
 
 

@@ -233,6 +233,9 @@ def test_postures_put_a_flat_face_down():
     assert abs((side.T @ [0, 0, -1])[0]) == pytest.approx(1.0), "on one of its wider sides, 6 x 20 cm"
     assert check_arranged((), (Posture(object="a", kind="on_its_side"),), {"a": block()},
                           {"a": Pose.from_matrix(side, np.zeros(3))})[0].holds  # fmt: skip
+    domino = posture_rotation(Body("domino", block(0.05, 0.025, 0.009, noun="domino")), "on_its_side")
+    np.testing.assert_allclose(domino @ [1, 0, 0], [0, 0, 1], atol=1e-9, err_msg="on its end")
+    np.testing.assert_allclose(np.abs(domino @ [0, 0, 1]), [1, 0, 0], atol=1e-9, err_msg="its face to the next")
     with pytest.raises(LayoutError, match='"pin" cannot stay upside down'):
         posture_rotation(Body("pin", block(0.004, 0.004, 0.2)), "upside_down")
 

@@ -193,6 +193,11 @@ def test_rows_behind_each_other_are_told_as_one_and_what_lies_in_a_vessel_stands
         ("A row of three mugs on a shelf.", []),
         ("Two stacks of two books in a row on a shelf.", []),
         ("Two books on a shelf.", []),
+        ("A bookshelf with three books and a vase.", ["book 1", "book 2", "book 3"]),
+        ("Three books lying on a shelf.", []),
+        ("A stack of three books on a shelf.", []),
+        ("Three mugs on a shelf.", []),
+        ("Three dominoes standing upright in a row on a table.", ["domino 1", "domino 2", "domino 3"]),
     ],
 )
 def test_books_in_a_row_on_a_shelf_stand(sentence: str, standing: list[str]):
@@ -219,3 +224,9 @@ def test_places_are_on_the_surface_that_is_spoken_of(sentence: str, wanted: set[
     assert held(plan) == wanted
     for arranged in plan.held():
         assert all(plan.parent(name) == arranged.of[0] for name in arranged.objects)
+
+
+def test_many_books_stand_in_rows_of_a_dozen_at_most():
+    rows = [one.objects for one in PLANNER.plan("Thirty books on a bookshelf.").held() if one.kind == "row"]
+    assert [len(row) for row in rows] == [10, 10, 10]
+    assert len({name for row in rows for name in row}) == 30

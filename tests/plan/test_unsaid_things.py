@@ -119,3 +119,49 @@ def test_the_mugs_are_all_mugs():
 def test_each_of_two_kinds():
     plan = PLANNER.plan("Two mugs and two bowls, each with a spoon in it.")
     assert nouns(plan).count("spoon") == 4
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"),
+    [
+        ("The jar on the left holds pears, the jar on the right plums.", "are read as one"),
+        ("A ladle lies with its bowl in the cup.", "a thing of its own"),
+        ("A plate of pasta stands next to a fork, with a glass in the background.", "in the background"),
+        ("A vase with flowers, one of which lies beside it.", "one of which"),
+        ("On the desk: a lamp, two books (one on top of the other) and a pen holder.", "lamp"),
+        ("Make a sandwich: bread, cheese, bread.", "bread"),
+        ("The third book from the bottom of a stack of five books is red.", "counted otherwise"),
+        ("Two dogs on the left and right, one on its bed.", "bed"),
+        ("Small wooden jars and cups on a table.", '"wooden" is read as said of "jars"'),
+    ],
+)
+def test_what_the_plan_has_otherwise_is_noted(prompt, said):
+    assert any(said in note for note in PLANNER.plan(prompt).notes)
+
+
+def test_one_on_each_is_one_of_those_named():
+    plan = PLANNER.plan("Three bowls, one on each of three trays.")
+    assert nouns(plan).count("bowl") == 3
+    assert len({rel.parent for rel in plan.relations}) == 3
+
+
+def test_all_stand_around_what_one_of_them_does():
+    plan = PLANNER.plan("One of the four chairs around the table has a hat on it.")
+    assert sum(rel.kind == "around" for rel in plan.relations) == 4
+
+
+def test_the_second_thing_of_an_instruction_has_its_own_goal():
+    plan = PLANNER.plan("Put the jam jar to the right of the plate and the red cup on the plate.")
+    assert plan.task == "place:red cup:plate"
+    assert not plan.relations
+
+
+def test_what_is_nearest_is_next_to_and_what_is_furthest_is_noted():
+    assert edges(PLANNER.plan("The cup nearest to the plate is red.")) == {("red cup", "next_to", "plate")}
+    plan = PLANNER.plan("Pick up the can that is furthest from the robot.")
+    assert nouns(plan) == ["can"]
+    assert any("furthest" in note for note in plan.notes)
+
+
+def test_a_mouse_beside_a_computer_mouse_is_an_animal():
+    assert nouns(PLANNER.plan("A mouse sits next to a computer mouse.")) == ["mouse", "computer mouse"]

@@ -45,7 +45,7 @@ def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path, monkeypatch):
 
 
 def test_contact_sheet_has_a_cell_for_every_entry_on_as_many_pages_as_needed(tmp_path):
-    entries = [(f"thing {k}", ball() if k % 2 else block()) for k in range(5)]
+    entries = [(f"thing {k}", ball() if k % 2 else block(), 1.0) for k in range(5)]
     (single,) = contact_sheet(iter(entries), tmp_path / "all.png", columns=3, width=64, height=48)
     with Image.open(single) as image:
         assert image.width == 3 * (64 + 6) + 6
@@ -55,7 +55,7 @@ def test_contact_sheet_has_a_cell_for_every_entry_on_as_many_pages_as_needed(tmp
 
 
 def test_long_captions_stay_inside_their_cell(tmp_path):
-    entries = [("a very long name that cannot fit under a small picture", block()), ("", block())]
+    entries = [("a very long name that cannot fit under a small picture", block(), 1.0), ("", block(), 1.0)]
     (page,) = contact_sheet(entries, tmp_path / "long.png", width=64, height=48)
     with Image.open(page) as image:
         picture = np.array(image.convert("L"))

@@ -120,7 +120,7 @@ def lighter(style: Style) -> Build:
     return Build(parts=((body, style.colour()), (join(hood, wheel), style.colour(1))), mass=0.021)
 
 
-@entry("hourglass", family="desk", material="glass", colours=("wood", "brown", "black"), accents=("glass", "gold"),
+@entry("hourglass", family="desk", material="wood", colours=("wood", "brown", "black"), accents=("glass", "gold"),
        synonyms=("sand timer", "sandglass", "egg glass"), plurals=("hourglasses",))  # fmt: skip
 def hourglass(style: Style) -> Build:
     """Two bulbs between round ends with three posts, half the sand run through."""

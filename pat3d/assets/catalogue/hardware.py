@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from pat3d.assets.catalogue.common import level_lean
 from pat3d.assets.catalogue.joinery import (
     BLACK,
     STEEL,
@@ -88,24 +89,33 @@ def bolt(style: Style) -> Build:
     )
 
 
+def _laid(head: Shape, shank: Shape) -> tuple[Shape, Shape]:
+    """A head and a shank along z, lying on the rim of the head and the point, both a little flat there."""
+    lean = level_lean(shank, head)
+    laid = [shape.turned("y", lean) for shape in (head, shank)]
+    down = 3e-4 + float(np.concatenate(laid[0].hulls)[:, 2].min())
+    first, second = (shape.moved(z=-down).cut_below(0.0) for shape in laid)
+    return first, second
+
+
 @entry("screw", family="tools", synonyms=("wood screw", "steel screw"), material="steel", colours=("gold", "steel"))
 def screw(style: Style) -> Build:
-    """A large wood screw standing on its head."""
+    """A large wood screw lying down, its head to the left."""
     n = style.vary(0.075, 0.05)
     head = lathe([(0.0075, 0), (0.0075, 0.0012), (0.0036, 0.005)], angles=(0.0, 40.0))
     shank = lathe([(0.0036, 0.0048), (0.0036, 0.8 * n), (0.0012, n)], angles=(0.0, 12.0), sides=10)
     groove = frustum(0.009, 0.009, 0.0011).solid - cylinder(0.0029, 0.1).moved(z=-0.05).solid
     thread = together([Shape(groove, ()).moved(z=float(h)) for h in np.arange(0.36 * n, 0.8 * n, 0.0024)])
-    return Build(parts=((head, style.colour()), (cut(shank, thread), style.colour())), mass=0.014)
+    return Build(parts=tuple((shape, style.colour()) for shape in _laid(head, cut(shank, thread))), mass=0.014)
 
 
 @entry("nail", family="tools", synonyms=("steel nail", "iron nail"), material="steel", colours=("steel", "gray"))
 def nail(style: Style) -> Build:
-    """A long nail standing on its head."""
+    """A long nail lying down, its head to the left."""
     n = style.vary(0.1, 0.05)
     head = cylinder(0.0055, 0.0018)
     shank = lathe([(0.0024, 0.0016), (0.0024, n - 0.008), (0.0006, n)], angles=(0.0, 14.0), sides=10)
-    return Build(parts=((join(head, shank), style.colour()),), mass=0.014)
+    return Build(parts=((join(*_laid(head, shank)), style.colour()),), mass=0.014)
 
 
 @entry(

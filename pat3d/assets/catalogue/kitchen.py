@@ -56,7 +56,7 @@ def jar(style: Style) -> Build:
     return Build(parts=((body, style.colour()),), regions=(cavity(inner, 12, (0.78 * h,)),), paint=(label,))
 
 
-@entry("cookie jar", family="kitchen", synonyms=("jam jar", "honey jar", "jar of jam", "spice jar"), material="glass",
+@entry("jam jar", family="kitchen", synonyms=("honey jar", "jar of jam", "spice jar"), material="glass",
        colours=("crimson", "golden", "purple"), accents=("white", "red"))  # fmt: skip
 def closed_jar(style: Style) -> Build:
     """A full jar with a screw lid and a label."""

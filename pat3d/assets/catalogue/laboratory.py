@@ -207,9 +207,24 @@ def syringe(style: Style) -> Build:
     )
 
 
-@entry("vial", family="laboratory", synonyms=("glass vial", "sample vial", "medicine vial", "reagent bottle",
-       "media bottle", "lab bottle"), material="glass", colours=("glass", "brown"), accents=("blue",))  # fmt: skip
+@entry("vial", family="laboratory", synonyms=("glass vial", "sample vial", "medicine vial"), material="glass",
+       colours=("glass", "brown"), accents=("white",))  # fmt: skip
 def vial(style: Style) -> Build:
+    """A small bottle with a screw cap, 6 cm tall."""
+    r, h = style.vary(0.0125), height(style, 0.05)
+    body = lathe([(0.94 * r, 0), (r, 0.002), (r, 0.74 * h), (0.6 * r, 0.88 * h), (0.6 * r, h)], cuts=(0.74 * h,))
+    cap = cylinder(0.75 * r, 0.013).moved(z=h - 0.003)
+    label = unseen(box(1.3 * r, 1, 0.4 * h)).moved(y=-0.5, z=0.2 * h)
+    return Build(
+        parts=((body, style.colour()), (cap, style.colour(1))),
+        paint=((label, WHITE),),
+        mass=0.022,
+    )
+
+
+@entry("reagent bottle", family="laboratory", synonyms=("media bottle", "lab bottle"), material="glass",
+       colours=("glass", "brown"), accents=("blue",))  # fmt: skip
+def reagent_bottle(style: Style) -> Build:
     """A closed reagent bottle with a blue cap and a scale."""
     r, h = style.vary(0.035), height(style, 0.105)
     body = lathe([(0.94 * r, 0), (r, 0.005), (r, 0.72 * h), (0.5 * r, 0.92 * h), (0.5 * r, h)], cuts=(0.72 * h,))

@@ -1,11 +1,11 @@
-"""Closed containers as they are while something is in them: without their lid, or with it open."""
+"""Containers as they are while something is in them, their lid off or open; and a jar with its lid on."""
 
 from pat3d.assets.catalogue.common import cavity
 from pat3d.assets.catalogue.joinery import cavity as room
 from pat3d.assets.catalogue.joinery import together
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.rounded import hollow
-from pat3d.assets.shapes import box, join, tray
+from pat3d.assets.shapes import box, cylinder, frustum, join, tray
 
 
 @entry("open treasure chest", family="storage", material="wood", colours=("brown", "wood"), accents=("gold",),
@@ -22,6 +22,19 @@ def open_treasure_chest(style: Style) -> Build:
         regions=(room(x / 2 - wall - 0.002, y / 2 - 0.022, wall, z - wall),),
         paint=((together(bands), metal),),
         mass=style.vary(7.0),
+    )
+
+
+@entry("cookie jar", family="kitchen", synonyms=("biscuit jar",), material="ceramic",
+       colours=("cream", "white", "blue"), accents=("brown",))  # fmt: skip
+def cookie_jar(style: Style) -> Build:
+    """A wide straight jar under a lid with a knob."""
+    r, h = style.vary(0.085), style.vary(0.17)
+    lid = cylinder(0.97 * r, 0.016).moved(z=h - 0.001)
+    knob = frustum(0.016, 0.021, 0.022).moved(z=h + 0.014)
+    return Build(
+        parts=((frustum(r, r, h), style.colour()), (join(lid, knob), style.colour(1))),
+        mass=1.3,
     )
 
 

@@ -14,6 +14,7 @@ from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.numbers import choices, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
+    behind_all,
     carried,
     for_each,
     grounded,
@@ -54,6 +55,8 @@ _OF_SEVERAL = ARTICLES | HEADLESS | FORMED | {"from", "in", "of", "line", "tower
 _REPEATING = REPEATS | ORDINALS | NUMBERS.keys() - {"a", "an"}
 _REMARK = re.compile(r'not modelled: "([^"]*)"')
 _REMARK_WORDS = 3
+_SHARE = 8
+"""Words of "one to the left of each"."""
 _REACH = 5
 """Words from "a stack" to what it is of."""
 
@@ -130,6 +133,7 @@ class _Auditor(Compared):
         made += [
             *for_each(self),
             *grounded(self),
+            *behind_all(self),
             *middles(self),
             *others(self),
             *parts(self),
@@ -211,6 +215,8 @@ class _Auditor(Compared):
                 and not (mention.number and word in FORMED and words[at - 1] in ("a", "an", "the"))
                 for mention in mentions
             )
+            if self._shares(at):
+                continue
             if word in FORMED and not near:
                 # "The book on the stack of four books": a stack of which the number is said.
                 continue
@@ -219,6 +225,13 @@ class _Auditor(Compared):
             if each or (at not in leading and (near or any(mention.start <= at for mention in mentions))):
                 return True
         return False
+
+    def _shares(self, at: int) -> bool:
+        """Whether word `at` is of ", one in front of each chair": of what is named before, no more of it."""
+        words = self.said.words
+        start = next((n for n in range(at, max(at - _SHARE, 0), -1) if words[n] == "one" and words[n - 1] == ","), 0)
+        told = next((mention for mention in self.said.mentions if start <= mention.start <= at), None)
+        return bool(start and EACH & set(words[start : start + _SHARE])) and told is None
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""

@@ -217,6 +217,18 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
 
 
+def behind_all(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is said to be in the background and is carried by something."""
+    words = it.said.words
+    for at in range(1, len(words) - 2):
+        far = words[at : at + 2] == ["in", "the"] and words[at + 2] in ("background", "foreground", "distance")
+        before = [mention for mention in it.said.mentions if mention.end <= at][-2:]
+        # "a glass of wine in the background": of the glass
+        told = [mention for mention in before if mention.end == at or words[mention.end : mention.end + 1] == ["of"]]
+        if far and told and any(it.above(obj.name) for mention in told for obj in it.which(mention)):
+            yield at, f'not as said: "{" ".join(words[at : at + 3])}" of "{told[0].text}"'
+
+
 def grounded(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be on the floor and is carried by something."""
     words = it.said.words

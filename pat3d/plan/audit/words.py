@@ -144,7 +144,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
     sides = [f"{word} the {side}{tail}" for word in ("to", "on", "at") for side in ("{}",) for tail in ("", " side")]
     left, right = ([f"{side.format(name)} of" for side in sides] for name in ("left", "right"))
     table: dict[Place, tuple[str, ...]] = {
-        "on": ("on", "onto", "upon"),
+        "on": ("on", "onto", "upon", "covers", "covering"),
         "on top": ("on top of", "atop", "on the top of", "to the top of"),
         "in": ("in", "inside", "within", "into", "inside of", "share", "shares", "fill", "fills"),
         "beside": ("on one side of", "on the other side of", "at one end of", "on each side of", "on either side of",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
 from pat3d.plan.grammar.world import Arranged, Edge, Group, Item, World
@@ -13,6 +15,10 @@ _SHARED = ("far_from", "under")
 
 
 _LINES = ("row", "side_by_side")
+_LIES = re.compile(r"\b(?:lying|lies?|laid|lay|flat|scattered|strewn)\b", re.IGNORECASE)
+"""What is said where books do not stand."""
+_ROW = 12
+"""Books in one row at most, where nobody says how many."""
 
 
 def together(world: World) -> list[Edge]:
@@ -26,13 +32,17 @@ def together(world: World) -> list[Edge]:
     ]
 
 
-def settle(world: World) -> None:
+def settle(world: World, prompt: str) -> None:
     """Mark what the scene is to hold, now that it is known what carries what; note what it is not."""
     for group in world.groups:
         if group.pyramid:
             _heap_up(world, group)
         if group.rows:
             _line_up(world, group)
+        elif _LIES.search(prompt) is None and _may_line_up(world, group):
+            rows = -(-len(group.items) // _ROW)
+            for at in range(rows):
+                world.arrange("row", group.items[len(group.items) * at // rows : len(group.items) * (at + 1) // rows])
     for each in world.arranged:
         if each.kind in _LINES:
             # Of stacks in a row the lowest stand in it.
@@ -64,6 +74,22 @@ def shelved(world: World, item: Item) -> bool:
     leans = any(each.kind == "leaning_against" and item in each.items for each in world.arranged)
     row = any(each.kind in _LINES and each.arranged and item in each.items for each in world.arranged)
     return row and not leans and item.group.height == 1 and all(edge.parent is not item for edge in edges)
+
+
+def _may_line_up(world: World, group: Group) -> bool:
+    """Whether `group` are books on a shelf of which nothing else is said, so that they stand in rows there."""
+    carriers = {world.support(item) for item in group.items}
+    carrier = carriers.pop() if len(carriers) == 1 else None
+    if carrier is None or len(group.items) < 3 or group.height > 1 or group.heap or group.pyramid:
+        return False
+    own = {*group.items}
+    placed = [{edge.child, edge.parent} for edge in world.laterals]
+    placed += [{*each.items, *each.of} for each in world.arranged] + [{*each.items} for each in world.sided]
+    told = any(own & each for each in placed)
+    lies = group.modifiers.postures or any(item.told.postures for item in own)
+    carries = any(edge.parent in own for edge in world.supports.values())
+    bound = all(world.is_a(item, lexicon.BOUND) for item in own) and world.is_a(carrier, lexicon.SHELVES)
+    return bound and not (told or lies or carries)
 
 
 def further_carriers(world: World, names: dict[Item, str]) -> list[Relation]:

@@ -12,8 +12,9 @@ from itertools import pairwise
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import EACH_OTHER
+from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _FINITE = lexicon.COPULAS | lexicon.VERBS
@@ -28,7 +29,7 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*tokens, tokens[-1]])
     ]
-    return _shared_landmark(_last_in_order(_of_which(_one_upon(_on_another(tokens, nouns)))))
+    return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(_on_another(tokens, nouns)))))))
 
 
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -178,6 +179,43 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
         start = one + 3 + (words[one + 3] == ",")
         return [*tokens[: one + 3], *landmark, *tokens[start : two + 3], *again, *tokens[end:]]
     return list(tokens)
+
+
+def _each_with(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "three bowls with two eggs each" as "three bowls, each with two eggs"."""
+    words = [token.text for token in tokens]
+    for each in (at for at in range(4, len(words) - 1) if words[at] == "each" and tokens[at + 1].mark):
+        had = next((n for n in range(each - 1, max(each - 6, 1), -1) if words[n] == "with"), 0)
+        counted = had and words[had + 1] in lexicon.NUMBERS and words[had - 1].endswith("s")
+        if counted and not any(link_at(tokens, n) or tokens[n].mark for n in range(had + 1, each)):
+            comma, every = replace(tokens[had], text=",", mark=True), replace(tokens[had], text="each")
+            return [*tokens[:had], comma, every, *tokens[had:each], *tokens[each + 1 :]]
+    return list(tokens)
+
+
+def _verb_again(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "put the jam left of the plate and the mug on it" as "... and put the mug on it"."""
+    words = [token.text for token in tokens]
+    links: list[int] = []
+    at = 1
+    while at < len(words):
+        links += [at] if link_at(tokens, at) else []
+        at += link_at(tokens, at) or 1
+    if words[0] not in ("put", "place", "set") or len(links) != 2:
+        return list(tokens)
+    first, second = links
+    beside = LINKS.get(tuple(words[first : first + link_at(tokens, first)]))
+    joints = [at for at in range(first, second) if words[at] == "and"]
+    again = joints[0] + 1 if len(joints) == 1 else 0
+    if (
+        beside is None
+        or beside.kind not in LATERAL_KINDS
+        or words[again] != "the"
+        or not again
+        or words[-2] in ("left", "right", "side")
+    ):
+        return list(tokens)
+    return [*tokens[:again], replace(tokens[0], number=tokens[again].number), *tokens[again:]]
 
 
 def _full_sides(tokens: Sequence[Token]) -> list[Token]:

@@ -45,7 +45,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     _widen_bowls(world, nouns)
     _pair_sides(world)
     _share_supports(world)
-    arranging.settle(world)
+    arranging.settle(world, prompt)
     objects = _objects(world, nouns)
     names = {item: obj.name for item, obj in objects.items()}
     relations = [*_supports(world, names), *arranging.further_carriers(world, names), *_laterals(world, names)]

@@ -294,7 +294,8 @@ class Interpreter(Placing):
                 self._said.not_understood([head for head in (*child_heads, *parent_heads) if head not in self._handled])
             return
         phrase = places[0]
-        if link.kind in SUPPORT_KINDS and not link.finite and list(child_heads) == [at - 1]:
+        whole = link.kind in SUPPORT_KINDS or link.kind == "around"
+        if whole and not link.finite and list(child_heads) == [at - 1]:
             children = self._whole(child_heads[0], children)
         named = any(self._chunks[head].named.kind == "object" for head in child_heads)
         if link.kind in SUPPORT_KINDS and (named or self._said.speaks_of_each(child_heads, carrying=True)):
@@ -312,7 +313,9 @@ class Interpreter(Placing):
         elif self._said.for_each(parent_heads, children, parents) or (
             several and len(children) < len(parents) and not set(children) & set(parents)
         ):
-            children = multiply(self._world, children, len(parents))
+            whole_group = group.counted and len(group.items) == len(parents) and len(children) == 1
+            # "Three bowls, one on each of three trays": the three.
+            children = list(group.items) if whole_group else multiply(self._world, children, len(parents))
         if link.kind == "on" and phrase is not None and self._lies_on(phrase, children, parents):
             return
         if link.kind in LATERAL_KINDS or link.manner == "between":

@@ -259,7 +259,7 @@ LYING = ("book", "notebook", "magazine", "laptop", "tablet", "phone", "smartphon
     "pizza", "cookie", "pancake", "keyboard", "remote control", "brick", "toothbrush", "razor", "comb", "newspaper",
     "envelope", "umbrella")  # fmt: skip
 """What lies as the catalogue makes it: "upright" says something of it that the scene does not have."""
-ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank")
+ON_EDGE = ("book", "notebook", "magazine", "phone", "smartphone", "tablet", "brick", "cutting board", "plank", "domino")
 """What lies and can stand on its edge: "upright" and "on end" say that of it."""
 BOUND = ("book", "notebook", "spell book", "binder")
 SHELVES = ("shelf", "bookshelf", "bookcase", "shelving unit")
@@ -287,7 +287,7 @@ BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguish
 
 CLOSED = ("microwave", "fridge", "stove", "toaster oven", "washing machine", "dishwasher", "dryer", "filing cabinet",
           "suitcase", "backpack", "handbag", "briefcase", "drawer organizer",
-          "cookie jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
+          "cookie jar", "jam jar", "toaster", "rice cooker", "air fryer")  # fmt: skip
 """What things go into through a door, a drawer or a lid."""
 DEVICES = ("laptop", "computer", "keyboard", "monitor", "tablet", "phone", "television")
 """What other things are with that stand beside it: "a laptop with a mouse"."""
@@ -320,7 +320,7 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
 PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
-    "jam": "cookie jar", "shampoo": "shampoo",
+    "jam": "jam jar", "shampoo": "shampoo",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {

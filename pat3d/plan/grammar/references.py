@@ -240,7 +240,8 @@ class References(Contrast):
                 return self._one_like(beside[0].items, phrase)
         if (like := self._partner(at, phrase)) is not None:
             return self._one_like(like, phrase)
-        if words.colours or words.palette or words.size_word:
+        compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
+        if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:
             told, world.telling = world.telling[:count], world.telling[count:]
@@ -294,7 +295,7 @@ class References(Contrast):
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
-        told = words.size_word if words.size_word in _LARGER | _SMALLER else ""
+        told = {words.size_word, *words.adjectives} & (_LARGER | _SMALLER)
         if told and not phrase.definite and phrase.words.lower().split()[-1] == "one" and not words.colours:
             named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
             first = named[0] if named else self._world.subject

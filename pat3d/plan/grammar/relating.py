@@ -133,7 +133,7 @@ class Relating:
         """Say that what a closed thing or a holder is said to have does not stand inside."""
         world = self.world
         shut = lexicon.SHUT if weak else ()
-        closed = world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and not world.is_a(owner, ("stove",))
+        closed = world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and owner.group.said != "stove"
         closed = closed and not world.on_floor(child) and not world.is_a(child, lexicon.BY_A_SEAT)
         if closed and world.containment(owner) != "in":
             said = f'"{child.group.words}" inside "{owner.group.words}"'
