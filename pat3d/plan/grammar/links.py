@@ -61,11 +61,10 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(
         Link(kind="next_to"),
         "beside", "besides", "alongside of", "next to", "near", "near to", "nearby", "nearby to", "by", "close to",
-        "alongside",
-        "adjacent to", "at", "against", "right next to", "to the side of", "on the side of", "on side of",
-        "at the side of",
-        "off to the side of", "close by", "with its side to", "across from", "along",
-        "opposite", "opposite to", "among", "amongst", "touching", "outside", "outside of",
+        "alongside", "adjacent to", "at", "against",
+        "right next to", "to the side of", "on the side of", "on side of", "at the side of", "off to the side of",
+        "close by", "with its side to", "across from", "along", "opposite", "opposite to", "among", "amongst",
+        "touching", "outside", "outside of",
     )  # fmt: skip
     add(Link(manner="far"), "far from", "far away from", "away from", "furthest from", "farthest from",
         "furthest away from", "farthest away from")  # fmt: skip
