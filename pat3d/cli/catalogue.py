@@ -11,6 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 from pat3d.assets import catalogue as nouns
+from pat3d.assets.catalogue.adjectives import shipped_adjectives, taken
 from pat3d.assets.materials import surface_of
 from pat3d.cli import nouns_of_yours
 from pat3d.cli.console import console, watch
@@ -103,13 +104,16 @@ def shipped_sizes() -> Path:
 
 
 def measure_shipped() -> None:
-    """Measure `shipped_sizes` anew, after a recipe changed; takes a minute.
+    """Measure `shipped_sizes` and `shipped_adjectives` anew, after a recipe changed; takes a minute.
 
     python -c "from pat3d.cli.catalogue import measure_shipped; measure_shipped()"
     """
     sizes = {entry.noun: [round(side, 4) for side in _size_of(entry.noun, 0)] for entry in nouns.entries()}
     rows = ",\n".join(f' "{noun}": {size}' for noun, size in sorted(sizes.items()))
     shipped_sizes().write_text(f"{{\n{rows}\n}}\n", encoding="utf-8")
+    words = {entry.noun: taken(entry) for entry in nouns.entries()}
+    rows = ",\n".join(f' "{noun}": {json.dumps(found)}' for noun, found in sorted(words.items()) if found)
+    shipped_adjectives().write_text(f"{{\n{rows}\n}}\n", encoding="utf-8")
 
 
 def _sizes(seed: int, progress: Progress) -> dict[str, list[float]]:

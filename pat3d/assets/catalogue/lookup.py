@@ -86,6 +86,26 @@ def make_entry(found: Entry, noun: str, variant: Variant = USUAL) -> Asset:
     """
     from pat3d.assets.catalogue.assemble import assemble
 
+    style, colours = style_of(found, noun, variant)
+    build = found.recipe(style)
+    provenance = {
+        "source": "catalogue",
+        "noun": found.noun,
+        "seed": variant.seed,
+        "scale": variant.scale,
+        "colours": colours,
+        "material": style.material,
+    }
+    material = find_material_entry(style.material)
+    return assemble(found.noun, build, material=material, scale=variant.scale, provenance=provenance)
+
+
+def style_of(found: Entry, noun: str, variant: Variant) -> tuple[Style, list[str]]:
+    """What the recipe of an entry that was called `noun` gets, and the names of its main colours.
+
+    Raises:
+        AssetError: a colour or the material is not known.
+    """
     rng = np.random.default_rng([variant.seed, *noun.encode()])
     default = found.colours[int(rng.integers(len(found.colours)))]
     natural = NATURAL_COLOURS.get(variant.material or "", (default,))
@@ -102,16 +122,7 @@ def make_entry(found: Entry, noun: str, variant: Variant = USUAL) -> Asset:
         material=chosen.name,
         adjectives=frozenset(variant.adjectives),
     )
-    build = found.recipe(style)
-    provenance = {
-        "source": "catalogue",
-        "noun": found.noun,
-        "seed": variant.seed,
-        "scale": variant.scale,
-        "colours": list(asked) or [default],
-        "material": chosen.name,
-    }
-    return assemble(found.noun, build, material=chosen, scale=variant.scale, provenance=provenance)
+    return style, [name for name in asked if name] or [default]
 
 
 def _load_families() -> None:

@@ -28,17 +28,23 @@ class Names:
     """The nouns, synonyms and irregular plurals that the catalogue has, as its lookup finds them."""
 
     def __init__(
-        self, plurals: Mapping[str, Sequence[str]], names: Mapping[str, str], kin: Mapping[str, str] | None = None
+        self,
+        plurals: Mapping[str, Sequence[str]],
+        names: Mapping[str, str],
+        adjectives: Mapping[str, Sequence[str]],
+        kin: Mapping[str, str] | None = None,
     ) -> None:
         self._words = {noun: Word(noun=noun, plurals=tuple(plurals.get(noun, ()))) for noun in set(names.values())}
         self._names = names
         self._plurals = plurals
+        self.adjectives = adjectives
+        """Of catalogue nouns: what their recipes make something of, or what they are as they come."""
         self.kin = kin or {}
         """The catalogue noun that another source's noun is a kind of."""
 
     def joined(self, names: Mapping[str, str], kin: Mapping[str, str]) -> Names:
         """These, with the nouns of other sources by their names, which come first, and what each is a kind of."""
-        return Names(self._plurals, {**self._names, **names}, {**self.kin, **kin})
+        return Names(self._plurals, {**self._names, **names}, self.adjectives, {**self.kin, **kin})
 
     def find(self, name: str, /) -> Word | None:
         """What is called `name`, or None."""
@@ -59,7 +65,7 @@ def catalogue_names() -> Names:
     path = cache_root() / f"names-{_key()}.json"
     try:
         data = json.loads(path.read_text())
-        return Names(data["plurals"], data["names"])
+        return Names(data["plurals"], data["names"], data["adjectives"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return _stored(path)
 
@@ -80,23 +86,27 @@ def known_names(libraries: Sequence[str] = ()) -> Names:
 
 def _stored(path: Path) -> Names:
     from pat3d.assets.catalogue import lookup
+    from pat3d.assets.catalogue.adjectives import shipped_adjectives
+    from pat3d.scene.folder import read_json
 
+    adjectives = read_json(shipped_adjectives())
     entries = {name: found for name in lookup.names() if (found := lookup.find(name)) is not None}
     names = {name: found.noun for name, found in entries.items()}
     plurals = {found.noun: list(found.plurals) for found in entries.values() if found.plurals}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as file:
-            json.dump({"plurals": plurals, "names": names}, file)
+            json.dump({"plurals": plurals, "names": names, "adjectives": adjectives}, file)
         os.replace(file.name, path)
     except OSError:
         # A cache that cannot be written costs a second, nothing more.
         pass
-    return Names(plurals, names)
+    return Names(plurals, names, adjectives)
 
 
 def _key() -> str:
     """A hash that changes with the sources of the catalogue."""
     folder = Path(pat3d.__file__).parent / "assets" / "catalogue"
     stats = sorted((entry.name, entry.stat().st_mtime_ns, entry.stat().st_size) for entry in os.scandir(folder))
-    return hashlib.sha256(repr([each for each in stats if each[0].endswith(".py")]).encode()).hexdigest()[:16]
+    sources = [each for each in stats if each[0].endswith((".py", ".json"))]
+    return hashlib.sha256(repr(sources).encode()).hexdigest()[:16]

@@ -75,7 +75,9 @@ class Maker:
         said = f'"{phrase.words}"'
         idle: list[str] = []
         for word in (told or phrase.modifiers).adjectives:
-            if word in lexicon.HONOURED | lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
+            if word in lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
+                continue
+            if word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word):
                 continue
             if word in (phrase.said or phrase.noun).split():
                 continue

@@ -90,10 +90,15 @@ class Nouns:
         self._classes: dict[Any, frozenset[str]] = {}
         # What a library calls "ycb/mug" is judged as a mug is.
         self._kin: dict[str, str] = dict(getattr(vocabulary, "kin", {}))
+        self._adjectives: dict[str, list[str]] = dict(getattr(vocabulary, "adjectives", {}))
         self.joined = frozenset(
             tuple(name.split()) for name in vocabulary.names() if {"of", "and", "in", "on", "with"} & set(name.split())
         )
         """Names with a function word inside ("slice of cake"), as tuples of words."""
+
+    def takes(self, noun: str, adjective: str) -> bool:
+        """Whether an adjective makes a difference to `noun`, or says what it is anyway; all do where nobody knows."""
+        return not self._adjectives or adjective in self._adjectives.get(noun, ())
 
     def match(self, words: Sequence[str]) -> Match | None:
         """The known noun that `words` are exactly, or None."""
