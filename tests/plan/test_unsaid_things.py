@@ -2,6 +2,7 @@
 
 import pytest
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
 
@@ -194,3 +195,8 @@ def test_how_it_is_to_be_put_down_is_not_said_of_where():
     assert plan.task == "place:cup:crate"
     assert not plan.postures
     assert any("upside down" in note for note in plan.notes)
+
+
+def test_it_is_never_the_place_from_which_something_unknown_was_picked():
+    with pytest.raises(PromptError, match="what was picked up"):
+        PLANNER.plan("Pick the item from the crate and place it on the plate.")

@@ -101,6 +101,11 @@ class Pronouns:
         steps = self._world.steps
         if child and not plural and steps and steps[-1].manner == "pick":
             # "Pick the bowl on the box and place it on the plate"
+            if not steps[-1].items:
+                raise PromptError(
+                    f'"{phrase.words}" (word {phrase.number}) is what was picked up, which is no object of the scene. '
+                    "Name the thing itself."
+                )
             candidates.append((-1.2, list(steps[-1].items)))
         if child and plural and steps and steps[-1].manner == "stack":
             # "Stack the bowl on the plate and place them in the tray"
