@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, NUMBERS, POSED
+from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, CORNERS, EACH, ENDS, NUMBERS, POSED, RELATIONS
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
 _SMALL = frozenset({"small", "little", "tiny", "mini"})
+_SHARES = NUMBERS.keys() - {"a", "an", "another", "single", "both", "dozen", "pair", "couple"}
+_REACH = 6
+"""Words of "two of them in each of"."""
 _AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
@@ -20,6 +23,7 @@ _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     """Numbers of which the plan has others."""
     yield from _miscounted_shares(it)
+    yield from _shares_of_each(it)
     yield from _shares_of_sides(it)
     yield from _all_but(it)
     yield from _dozens(it)
@@ -45,12 +49,47 @@ def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
         before = [mention for mention in it.said.mentions if mention.end <= at and (mention.number or 2) > count]
         if claim is None or claim.of is None or not before or claim.place not in KINDS:
             continue
+        if EACH & {*words[behind : claim.end]}:
+            continue
         landmarks = {obj.name for obj in it.which(claim.of)}
         several = max((it.which(mention) for mention in before), key=len)
         there = {a for a, kind, b in it.edges if kind in KINDS[claim.place] and b in landmarks}
         share = [obj for obj in several if obj.name in there]
         if len(several) > 1 and landmarks and len(share) != count and not it.excused(claim):
             yield at, f'counted otherwise: "{word} {claim.said}"; there are {len(share)}'
+
+
+def _shares_of_each(it: Compared) -> Iterator[tuple[int, str]]:
+    """How many there are at each of several: "six apples, two in each of three bowls"."""
+    words, mentions = it.said.words, it.said.mentions
+    for at in (at for at, word in enumerate(words) if word in EACH):
+        number = next((n for n in range(at - 1, max(at - _REACH, -1), -1) if words[n] in _SHARES), at)
+        place = next(
+            (RELATIONS[said] for n in range(number + 1, at) if (said := tuple(words[n:at])) in RELATIONS), None
+        )
+        if place not in KINDS or {*words[at + 1 : at + 2]} & {"other", *ENDS, *CORNERS}:
+            continue
+        count, said = NUMBERS[words[number]], " ".join(words[number : at + 1])
+        before = [mention for mention in mentions if mention.end <= number and (mention.number or 0) > 1]
+        things = [mention for mention in mentions if number < mention.start < at]
+        owners = [mention for mention in mentions if at < mention.start and _leads_to(words[at + 1 : mention.start])]
+        pairs = [(one, other) for other in owners[:1] or before[::-1] for one in things or before[::-1]
+                 if one.noun != other.noun]  # fmt: skip
+        even = [(one, other) for one, other in pairs if (one.number or 0) == count * (other.number or 0)]
+        for own, owner in (even or pairs)[:1]:
+            names = {obj.name for obj in it.of(own)}
+            there = {len({a for a, kind, b in it.edges if kind in KINDS[place] and b == obj.name and a in names})
+                     for obj in it.which(owner)} - {count}  # fmt: skip
+            if names and there:
+                yield at, f'counted otherwise: "{said}"; there are {max(there)}'
+            total = max((mention.number or 0 for mention in before if mention.noun == own.noun), default=len(names))
+            if len(names) > total:
+                yield at, f'counted otherwise: "{own.text}", of which there are {len(names)}, with "{said}"'
+
+
+def _leads_to(words: Sequence[str]) -> bool:
+    """Whether `words` stand between "each" and what it is said of: "each of the three small" bowls."""
+    return len(words) < _REACH and set(words) <= ARTICLES | ADJECTIVES | {"of"}
 
 
 def _shares_of_sides(it: Compared) -> Iterator[tuple[int, str]]:
