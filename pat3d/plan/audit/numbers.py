@@ -29,6 +29,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _dozens(it)
     yield from _as_many(it)
     yield from _of_one(it)
+    yield from _stacked(it)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -147,8 +148,46 @@ def _as_many(it: Compared) -> Iterator[tuple[int, str]]:
             yield 0, f'counted otherwise: "{found[0]}"; there are {counts[0]} and {counts[1]}'
 
 
+def _stacked(it: Compared) -> Iterator[tuple[int, str]]:
+    """Which of some likes are stacked: "five books, three of them stacked", "the red ones are stacked"."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word in ("stacked", "piled")):
+        end = at
+        while end and words[end - 1] in POSED:
+            end -= 1
+        start = end - (2 if words[max(end - 2, 0) : end] in _OF_THEM else 0)
+        mention = next((mention for mention in reversed(it.said.mentions) if mention.end <= start), None)
+        claim = next((claim for claim in it.said.claims if claim.at == at + 1), None)
+        onto = claim is not None and (claim.of is None or mention is None or claim.of.noun == mention.noun)
+        formed = {*words[at + 1 : at + 4]} & {"high", "piles", "stacks", "towers", "columns", "groups"}
+        if mention is None or not end or onto or formed:
+            continue
+        alike = [obj for obj in it.plan.objects if obj.noun == mention.noun]
+        towers = [{obj.name, *it.above(obj.name)} & {one.name for one in alike} for obj in alike]
+        towers = [tower for tower in towers if not any(tower < other for other in towers)]
+        first = mention.first if mention.end == start else max(start - 2, 0)
+        first += not words[first][0].isalnum()
+        lead = words[first : mention.start if mention.end == start else start]
+        number = next((NUMBERS[word] for word in lead if word in _SHARES), 0)
+        colour = next((word for word in lead if find_colour(word)), "")
+        told = {obj.name for obj in alike if colour and it.has(obj, colour)}
+        several = any(len(tower) > 1 for tower in towers)
+        said = " ".join(words[first : at + 1])
+        if number > 1 and several and all(len(tower) != number for tower in towers) and not it.named(words[at]):
+            yield at, f'counted otherwise: "{said}"; of which there are {max(map(len, towers))}'
+        elif (
+            len(told) > 1
+            and any(len(tower) > 1 and tower & told and tower - told for tower in towers)
+            and not it.named(words[at])
+        ):
+            yield at, f'not as said: "{said}"; others are in that stack'
+
+
 def rows(it: Compared) -> Iterator[tuple[int, str]]:
     """A row, or an order from left to right, that no two things of the plan stand in."""
+    for one in it.plan.arrangements:
+        if one.kind in ("row", "side_by_side", "circle") and len({*one.objects, *one.of}) == 1:
+            yield 0, f'not as said: "{one.kind.replace("_", " ")}" of "{one.objects[0]}" alone'
     stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
     stands = stands or any(not rel.supports for rel in it.plan.relations)
     words = it.said.words

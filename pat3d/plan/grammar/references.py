@@ -315,7 +315,11 @@ class References(Contrast):
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
-                return own[:count] if phrase.count is not None or not phrase.plural else own
+                if not (phrase.plural or phrase.words.lower().endswith(" ones")):
+                    return own[:count]
+                # "The red ones are stacked, the rest ..."
+                self._world.telling = [item for item in group.items if item not in own]
+                return own[: phrase.count]
         if phrase.definite and words.colours:
             # "Two buckets: the green one holds three balls, the red one is empty": of those told by colour.
             groups = sorted(groups, key=lambda group: not _told_apart(group))
