@@ -101,3 +101,18 @@ def test_one_thing_alone_is_no_row():
     row = Arrangement(kind="row", objects=("book 1",))
     plan = ScenePlan(prompt="Five books in a row.", objects=BOOKS, relations=(), arrangements=(row,))
     assert 'not as said: "row" of "book 1" alone' in audited(plan, Nouns(catalogue_names()).resolve).notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "note"),
+    [
+        ("A mug and a plate, which is larger, are on a table.", 'not as said: "larger" of "plate"'),
+        ("One cup holds pens and the other, which is taller, holds spoons.", 'not as said: "taller" of "cup"'),
+        ("One of the cups holds pens and the other one, which is larger, holds forks.", "the same one does"),
+        ("Stack two boxes on top of the other two boxes in the cabinet.", '"two boxes in the cabinet"; there are 1'),
+    ],
+)
+def test_what_is_said_of_the_other_one_is_noted_where_it_is_not_so(planner: GrammarPlanner, prompt: str, note: str):
+    plan = planner.plan(prompt)
+    assert any(note in each for each in plan.notes)
+    assert not any("larger" in obj.name and obj.noun in ("pen", "fork") for obj in plan.objects)

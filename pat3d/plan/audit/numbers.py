@@ -16,6 +16,8 @@ _SMALL = frozenset({"small", "little", "tiny", "mini"})
 _SHARES = NUMBERS.keys() - {"a", "an", "another", "single", "both", "dozen", "pair", "couple"}
 _REACH = 6
 """Words of "two of them in each of"."""
+_STEMS = frozenset({"larg", "bigg", "small", "tall", "short", "long", "wid", "thick", "thinn", "tini", "high", "low"})
+"""Of comparatives."""
 _AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
@@ -30,6 +32,9 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _as_many(it)
     yield from _of_one(it)
     yield from _stacked(it)
+    yield from _partly(it)
+    yield from _compared_sizes(it)
+    yield from _held_by_other(it)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -181,6 +186,50 @@ def _stacked(it: Compared) -> Iterator[tuple[int, str]]:
             and not it.named(words[at])
         ):
             yield at, f'not as said: "{said}"; others are in that stack'
+
+
+def _partly(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things of one phrase of which only some are where all of them are said to be."""
+    for claim in it.said.claims:
+        own = next((mention for mention in it.said.mentions if mention.end == claim.at and mention.plural), None)
+        if own is None or claim.of is None or claim.place not in KINDS or it.tasks.strip() or it.undone:
+            continue
+        phrase = " ".join(it.said.words[own.first : own.end])
+        group = [obj.name for obj in it.of(own) if obj.phrase.lower() == phrase]
+        landmarks = {obj.name for obj in it.which(claim.of)}
+        there = {a for a, kind, b in it.edges if kind in KINDS[claim.place] and b in landmarks and a in group}
+        if 0 < len(there) < len(group):
+            yield claim.at, f'counted otherwise: "{phrase} {claim.said}"; there are {len(there)}'
+
+
+def _held_by_other(it: Compared) -> Iterator[tuple[int, str]]:
+    """What "the other one" holds, where the first one holds it: "one bowl holds a key, the other one a nut"."""
+    words = it.said.words
+    held = [claim for claim in it.said.claims if claim.place == "holding" and claim.of is not None]
+    for one, other in pairwise(held):
+        between = words[one.end : other.at]
+        if one.of is None or other.of is None or "the other" not in " ".join(between) or one.part != other.part:
+            continue
+        things = [{obj.name for obj in it.which(of)} for of in (one.of, other.of)]
+        first, second = ({b for a, kind, b in it.edges if kind in ("on", "in") and a in own} for own in things)
+        holders = {obj.name for mention in it.said.mentions if mention.end <= one.at for obj in it.of(mention)}
+        if first & second & holders and not it.excused(other):
+            yield other.at, f'not as said: "the other" {other.said}; the same one does'
+
+
+def _compared_sizes(it: Compared) -> Iterator[tuple[int, str]]:
+    """What "which is larger" is said of, where nothing of that name is: "a mug and a bowl, which is larger"."""
+    words = it.said.words
+    for at in (at for at in range(2, len(words) - 2) if words[at] in ("which", "that")):
+        size = words[at + 2]
+        if words[at + 1] not in ("is", "are") or size.removesuffix("er") not in _STEMS:
+            continue
+        end = at - (words[at - 1] == ",")
+        other = end - (words[end - 1] in ("one", "ones"))
+        before = [mention for mention in it.said.mentions if mention.end <= end]
+        own = [mention for mention in before if mention.end == end] or before[:1] * (words[other - 1] == "other")
+        if own and not any(size in (*obj.name.split(), *obj.adjectives) for obj in it.of(own[0])):
+            yield at, f'not as said: "{size}" of "{own[0].text}"'
 
 
 def rows(it: Compared) -> Iterator[tuple[int, str]]:

@@ -220,6 +220,9 @@ class References(Contrast):
                 return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
+        if rest:
+            # "One of the bowls holds keys and the other one holds nuts": of the bowls.
+            groups.sort(key=lambda group: not group.phrase.one_of)
         if rest and world.telling:
             told = world.telling[: phrase.count or len(world.telling)]
             world.telling = world.telling[len(told) :]
