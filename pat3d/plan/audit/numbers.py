@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, NUMBERS, POSED
+from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, CORNERS, EACH, ENDS, NUMBERS, POSED, RELATIONS
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
 _SMALL = frozenset({"small", "little", "tiny", "mini"})
+_SHARES = NUMBERS.keys() - {"a", "an", "another", "single", "both", "dozen", "pair", "couple"}
+_REACH = 6
+"""Words of "two of them in each of"."""
+_STEMS = frozenset({"larg", "bigg", "small", "tall", "short", "long", "wid", "thick", "thinn", "tini", "high", "low"})
+"""Of comparatives."""
 _AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
@@ -20,11 +25,16 @@ _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     """Numbers of which the plan has others."""
     yield from _miscounted_shares(it)
+    yield from _shares_of_each(it)
     yield from _shares_of_sides(it)
     yield from _all_but(it)
     yield from _dozens(it)
     yield from _as_many(it)
     yield from _of_one(it)
+    yield from _stacked(it)
+    yield from _partly(it)
+    yield from _compared_sizes(it)
+    yield from _held_by_other(it)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -45,12 +55,47 @@ def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
         before = [mention for mention in it.said.mentions if mention.end <= at and (mention.number or 2) > count]
         if claim is None or claim.of is None or not before or claim.place not in KINDS:
             continue
+        if EACH & {*words[behind : claim.end]}:
+            continue
         landmarks = {obj.name for obj in it.which(claim.of)}
         several = max((it.which(mention) for mention in before), key=len)
         there = {a for a, kind, b in it.edges if kind in KINDS[claim.place] and b in landmarks}
         share = [obj for obj in several if obj.name in there]
         if len(several) > 1 and landmarks and len(share) != count and not it.excused(claim):
             yield at, f'counted otherwise: "{word} {claim.said}"; there are {len(share)}'
+
+
+def _shares_of_each(it: Compared) -> Iterator[tuple[int, str]]:
+    """How many there are at each of several: "six apples, two in each of three bowls"."""
+    words, mentions = it.said.words, it.said.mentions
+    for at in (at for at, word in enumerate(words) if word in EACH):
+        number = next((n for n in range(at - 1, max(at - _REACH, -1), -1) if words[n] in _SHARES), at)
+        place = next(
+            (RELATIONS[said] for n in range(number + 1, at) if (said := tuple(words[n:at])) in RELATIONS), None
+        )
+        if place not in KINDS or {*words[at + 1 : at + 2]} & {"other", *ENDS, *CORNERS}:
+            continue
+        count, said = NUMBERS[words[number]], " ".join(words[number : at + 1])
+        before = [mention for mention in mentions if mention.end <= number and (mention.number or 0) > 1]
+        things = [mention for mention in mentions if number < mention.start < at]
+        owners = [mention for mention in mentions if at < mention.start and _leads_to(words[at + 1 : mention.start])]
+        pairs = [(one, other) for other in owners[:1] or before[::-1] for one in things or before[::-1]
+                 if one.noun != other.noun]  # fmt: skip
+        even = [(one, other) for one, other in pairs if (one.number or 0) == count * (other.number or 0)]
+        for own, owner in (even or pairs)[:1]:
+            names = {obj.name for obj in it.of(own)}
+            there = {len({a for a, kind, b in it.edges if kind in KINDS[place] and b == obj.name and a in names})
+                     for obj in it.which(owner)} - {count}  # fmt: skip
+            if names and there:
+                yield at, f'counted otherwise: "{said}"; there are {max(there)}'
+            total = max((mention.number or 0 for mention in before if mention.noun == own.noun), default=len(names))
+            if len(names) > total:
+                yield at, f'counted otherwise: "{own.text}", of which there are {len(names)}, with "{said}"'
+
+
+def _leads_to(words: Sequence[str]) -> bool:
+    """Whether `words` stand between "each" and what it is said of: "each of the three small" bowls."""
+    return len(words) < _REACH and set(words) <= ARTICLES | ADJECTIVES | {"of"}
 
 
 def _shares_of_sides(it: Compared) -> Iterator[tuple[int, str]]:
@@ -108,8 +153,90 @@ def _as_many(it: Compared) -> Iterator[tuple[int, str]]:
             yield 0, f'counted otherwise: "{found[0]}"; there are {counts[0]} and {counts[1]}'
 
 
+def _stacked(it: Compared) -> Iterator[tuple[int, str]]:
+    """Which of some likes are stacked: "five books, three of them stacked", "the red ones are stacked"."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word in ("stacked", "piled")):
+        end = at
+        while end and words[end - 1] in POSED:
+            end -= 1
+        start = end - (2 if words[max(end - 2, 0) : end] in _OF_THEM else 0)
+        mention = next((mention for mention in reversed(it.said.mentions) if mention.end <= start), None)
+        claim = next((claim for claim in it.said.claims if claim.at == at + 1), None)
+        onto = claim is not None and (claim.of is None or mention is None or claim.of.noun == mention.noun)
+        formed = {*words[at + 1 : at + 4]} & {"high", "piles", "stacks", "towers", "columns", "groups"}
+        if mention is None or not end or onto or formed:
+            continue
+        alike = [obj for obj in it.plan.objects if obj.noun == mention.noun]
+        towers = [{obj.name, *it.above(obj.name)} & {one.name for one in alike} for obj in alike]
+        towers = [tower for tower in towers if not any(tower < other for other in towers)]
+        first = mention.first if mention.end == start else max(start - 2, 0)
+        first += not words[first][0].isalnum()
+        lead = words[first : mention.start if mention.end == start else start]
+        number = next((NUMBERS[word] for word in lead if word in _SHARES), 0)
+        colour = next((word for word in lead if find_colour(word)), "")
+        told = {obj.name for obj in alike if colour and it.has(obj, colour)}
+        several = any(len(tower) > 1 for tower in towers)
+        said = " ".join(words[first : at + 1])
+        if number > 1 and several and all(len(tower) != number for tower in towers) and not it.named(words[at]):
+            yield at, f'counted otherwise: "{said}"; of which there are {max(map(len, towers))}'
+        elif (
+            len(told) > 1
+            and any(len(tower) > 1 and tower & told and tower - told for tower in towers)
+            and not it.named(words[at])
+        ):
+            yield at, f'not as said: "{said}"; others are in that stack'
+
+
+def _partly(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things of one phrase of which only some are where all of them are said to be."""
+    for claim in it.said.claims:
+        own = next((mention for mention in it.said.mentions if mention.end == claim.at and mention.plural), None)
+        if own is None or claim.of is None or claim.place not in KINDS or it.tasks.strip() or it.undone:
+            continue
+        phrase = " ".join(it.said.words[own.first : own.end])
+        group = [obj.name for obj in it.of(own) if obj.phrase.lower() == phrase]
+        landmarks = {obj.name for obj in it.which(claim.of)}
+        there = {a for a, kind, b in it.edges if kind in KINDS[claim.place] and b in landmarks and a in group}
+        if 0 < len(there) < len(group):
+            yield claim.at, f'counted otherwise: "{phrase} {claim.said}"; there are {len(there)}'
+
+
+def _held_by_other(it: Compared) -> Iterator[tuple[int, str]]:
+    """What "the other one" holds, where the first one holds it: "one bowl holds a key, the other one a nut"."""
+    words = it.said.words
+    held = [claim for claim in it.said.claims if claim.place == "holding" and claim.of is not None]
+    for one, other in pairwise(held):
+        between = words[one.end : other.at]
+        if one.of is None or other.of is None or "the other" not in " ".join(between) or one.part != other.part:
+            continue
+        things = [{obj.name for obj in it.which(of)} for of in (one.of, other.of)]
+        first, second = ({b for a, kind, b in it.edges if kind in ("on", "in") and a in own} for own in things)
+        holders = {obj.name for mention in it.said.mentions if mention.end <= one.at for obj in it.of(mention)}
+        if first & second & holders and not it.excused(other):
+            yield other.at, f'not as said: "the other" {other.said}; the same one does'
+
+
+def _compared_sizes(it: Compared) -> Iterator[tuple[int, str]]:
+    """What "which is larger" is said of, where nothing of that name is: "a mug and a bowl, which is larger"."""
+    words = it.said.words
+    for at in (at for at in range(2, len(words) - 2) if words[at] in ("which", "that")):
+        size = words[at + 2]
+        if words[at + 1] not in ("is", "are") or size.removesuffix("er") not in _STEMS:
+            continue
+        end = at - (words[at - 1] == ",")
+        other = end - (words[end - 1] in ("one", "ones"))
+        before = [mention for mention in it.said.mentions if mention.end <= end]
+        own = [mention for mention in before if mention.end == end] or before[:1] * (words[other - 1] == "other")
+        if own and not any(size in (*obj.name.split(), *obj.adjectives) for obj in it.of(own[0])):
+            yield at, f'not as said: "{size}" of "{own[0].text}"'
+
+
 def rows(it: Compared) -> Iterator[tuple[int, str]]:
     """A row, or an order from left to right, that no two things of the plan stand in."""
+    for one in it.plan.arrangements:
+        if one.kind in ("row", "side_by_side", "circle") and len({*one.objects, *one.of}) == 1:
+            yield 0, f'not as said: "{one.kind.replace("_", " ")}" of "{one.objects[0]}" alone'
     stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
     stands = stands or any(not rel.supports for rel in it.plan.relations)
     words = it.said.words

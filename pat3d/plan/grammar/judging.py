@@ -97,6 +97,12 @@ class Judging:
         """Whether `heads` is "each", and `owners` are several."""
         return self._phrase(heads[0]).head == "each" and any(self._several(owner) for owner in owners)
 
+    def _some_of(self, at: int) -> bool:
+        """Whether chunk `at` speaks of some of what is named before: "three of them", "the red ones", "the rest"."""
+        phrase = self._chunks[at].phrase if at >= 0 else None
+        ones = phrase is not None and (phrase.head in ("rest", "others") or phrase.words.lower().endswith(" ones"))
+        return phrase is not None and phrase.kind == "pieces" and (ones or (phrase.count or 1) > 1)
+
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
         return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")

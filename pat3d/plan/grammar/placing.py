@@ -251,6 +251,15 @@ class Placing:
             return
         whole = groups[0] if len(groups) == 1 and len(groups[0].items) > 1 else None
         items = [item for group in groups for item in group.items]
+        if whole is not None and (some := self._some_of(whole, heads)):
+            whole, items = None, some
+            if chunk.text in ("stack", "tower"):
+                for lower, upper in zip(some, some[1:], strict=False):
+                    world.place([upper], "on", [lower])
+                return
+            if chunk.text in ("row", "side_by_side"):
+                world.arrange(chunk.text, some)
+                return
         if chunk.text in ("rows", "stacks"):
             plural = next((group for group in groups if len(group.items) > 1), None)
             if plural is None:
@@ -292,6 +301,11 @@ class Placing:
             world.arrange("row", ordered)
             for left, right in zip(ordered, ordered[1:], strict=False):
                 world.beside([left], "left_of", [right])
+
+    def _some_of(self, whole: Group, heads: Sequence[int]) -> list[Item]:
+        """The members of `whole` that `heads` speak of, where those are several and not all: "the red ones"."""
+        some = [item for item in whole.items if item in self._said.refs_of(heads)]
+        return some if 1 < len(some) < len(whole.items) and whole.height == 1 else []
 
     def _ringed(self, items: Sequence[Item]) -> list[Item]:
         """What all of `items` are around, if there is one such thing."""

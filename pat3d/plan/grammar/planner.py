@@ -96,7 +96,7 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
         _check_language(text)
-        tokens = worked_out(chessmen(tokenise(text)))
+        tokens = worked_out(chessmen(tokenise(text)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in reordered(_sentences(tokens)) for clause in self._clauses(text, sentence)]
         world, others = World(self._likely), list[tuple[int, World]]()

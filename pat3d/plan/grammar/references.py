@@ -220,6 +220,9 @@ class References(Contrast):
                 return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
+        if rest:
+            # "One of the bowls holds keys and the other one holds nuts": of the bowls.
+            groups.sort(key=lambda group: not group.phrase.one_of)
         if rest and world.telling:
             told = world.telling[: phrase.count or len(world.telling)]
             world.telling = world.telling[len(told) :]
@@ -315,7 +318,11 @@ class References(Contrast):
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
-                return own[:count] if phrase.count is not None or not phrase.plural else own
+                if not (phrase.plural or phrase.words.lower().endswith(" ones")):
+                    return own[:count]
+                # "The red ones are stacked, the rest ..."
+                self._world.telling = [item for item in group.items if item not in own]
+                return own[: phrase.count]
         if phrase.definite and words.colours:
             # "Two buckets: the green one holds three balls, the red one is empty": of those told by colour.
             groups = sorted(groups, key=lambda group: not _told_apart(group))

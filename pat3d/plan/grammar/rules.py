@@ -187,6 +187,9 @@ class Grammar(Goals):
                 cost += 0.6
             if kind == "form" and self._chunks[at].text == "tower" and len(named.heads) != self._chunks[at].size:
                 return None
+            if kind == "form" and self._some_of(modifier.start - 1) and named.heads != (modifier.start - 1,):
+                # "Five books, three of them stacked": of those three.
+                cost += 1.5
             if self._chunks[at].text in ("one", "other"):
                 cost += 0.5
             if named.start == 0 and {"its", "their"} & set(self._chunks[at].words):
