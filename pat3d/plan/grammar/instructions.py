@@ -283,14 +283,12 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     """
     steps = world.steps
     notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
-    blocked = {item for step in steps if step.manner == "other" for item in step.items}
-    wanted = [step for step in steps if step.manner != "other" and step.items]
-    # To pick what is placed afterwards is the beginning of placing it.
-    begun = [{item for later in wanted[at + 1 :] for item in later.items} | blocked for at in range(len(wanted))]
+    # To pick what something is done with afterwards is the beginning of that.
+    begun = [{item for later in steps[at + 1 :] for item in later.items} for at in range(len(steps))]
     wanted = [
         step
-        for step, later in zip(wanted, begun, strict=True)
-        if not (step.manner == "pick" and set(step.items) & later)
+        for step, later in zip(steps, begun, strict=True)
+        if step.manner != "other" and step.items and not (step.manner == "pick" and set(step.items) & later)
     ]
     specs: list[str] = []
     for step in wanted:
