@@ -185,10 +185,10 @@ def test_what_either_arm_holds_is_held(pair):
 
 
 def test_the_nearer_arm_is_asked_first_and_the_further_one_where_that_cannot(own, monkeypatch):
-    """The mug stands to the right of the arms, the banana to their left."""
+    """The mug and the bowl stand on opposite sides of the tray."""
     found = load()
     sides = {name: rehearse(found.scene, found.mjcf, parse_task(f"pick:{name}"), f"{own}+{own}").side
-             for name in ("red mug", "banana")}  # fmt: skip
+             for name in ("red mug", "blue bowl")}  # fmt: skip
     assert set(sides.values()) == {"left", "right"}
     from pat3d.envs.grasping import placement
 

@@ -173,3 +173,24 @@ def test_what_is_nearest_is_next_to_and_what_is_furthest_is_noted():
 
 def test_a_mouse_beside_a_computer_mouse_is_an_animal():
     assert nouns(PLANNER.plan("A mouse sits next to a computer mouse.")) == ["mouse", "computer mouse"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "expected", "said"),
+    [
+        ('A cup with the word "pepper" stands on a box labelled "apples".', ["cup", "box"], "with the word pepper"),
+        ("A jar with a label saying 'salt' beside a spoon.", ["jar", "spoon"], "salt"),
+        ('Put the jar that says "honey" on the shelf.', ["jar", "shelf"], "that says honey"),
+    ],
+)
+def test_what_is_written_on_a_thing_is_no_object(prompt, expected, said):
+    plan = PLANNER.plan(prompt)
+    assert nouns(plan) == expected
+    assert any(said in note for note in plan.notes)
+
+
+def test_how_it_is_to_be_put_down_is_not_said_of_where():
+    plan = PLANNER.plan("Pick up the cup and place it upside down in the crate.")
+    assert plan.task == "place:cup:crate"
+    assert not plan.postures
+    assert any("upside down" in note for note in plan.notes)

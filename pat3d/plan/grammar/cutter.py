@@ -254,6 +254,11 @@ class Cutter(Asides):
             if piece.kind == "clause":
                 break
             nearest = index == len(chunks) - 1
+            if nearest and piece.phrase is not None and piece.phrase.head in ("it", "them") and not is_measure(word):
+                # "Place it upside down in the box" is not said of the box.
+                token = self._tokens[after - 1]
+                self._made.unread.append(self._text[token.start : token.end])
+                return None
             told = (
                 nearest
                 and piece.phrase is not None

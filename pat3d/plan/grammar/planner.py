@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from pat3d.errors import PromptError, SpecError
@@ -20,6 +21,7 @@ from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, known_verb, task_of
 from pat3d.plan.grammar.interpret import Interpreter
+from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.names import catalogue_names
@@ -148,10 +150,11 @@ class GrammarPlanner:
 
         Second is the next likely reading where it is nearly as likely.
         """
-        if compared := similes(clause.tokens, self._nouns):
-            for start, end in compared:
+        for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
+            spans = find(clause.tokens)
+            for start, end in spans:
                 world.note(f'not modelled: "{_quoted(text, clause.tokens[start:end]).strip(" ,")}"')
-            clause = replace(clause, tokens=_without(clause.tokens, compared))
+            clause = replace(clause, tokens=_without(clause.tokens, spans))
         if clause.aside:
             world.note(f'not modelled: "{clause.aside}"')
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
