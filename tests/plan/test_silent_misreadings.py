@@ -17,6 +17,7 @@ PLANNER = GrammarPlanner()
         ("a plate with a spoon on the left and a fork on the right, and a mug in front of the fork",
          {"spoon left_of plate", "fork right_of plate", "mug in_front_of fork"}),
         ("a backpack with a doll on top", {"doll on backpack"}),
+        ("Put a single apple and pear from the basket onto the plate.", {"apple in basket", "pear in basket"}),
         ("A cup is on the table and a plate is near the lamp.", {"cup on table", "plate next_to lamp"}),
     ],
 )  # fmt: skip
@@ -35,6 +36,8 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not arranged: "A spoon" under "the book" and "the shelf"; it is placed next to it'),
         ("The egg is on the cup and the plate.",
          'not arranged: "The egg" on "the cup" and "the plate" together; it is placed on the first'),
+        ("The tomato is on the round bun and the pizza.",
+         'not arranged: "The tomato" on "the round bun" and "the pizza" together; it is placed on the first'),
         ("a box with a brontosaurus stuffed head on top",
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
         ("Stack the three bowls, the green one at the bottom, the red one on top.", 'not understood: "at the bottom"'),
