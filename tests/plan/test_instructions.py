@@ -40,6 +40,7 @@ def test_the_scene_before_and_the_task(prompt: str, before: set[str], task: str)
          "the instruction is several tasks, of which the environment has one at a time: place:tomato soup:basket, "
          "place:tomato sauce:basket."),
         ("put the mug behind the bowl", 'not modelled: "put the mug behind the bowl": no task does that.'),
+        ("Slide the mug closer to the bowl.", 'not modelled: "Slide the mug closer to the bowl": no task does that.'),
         ("close the laptop", 'not modelled: "close the laptop": no task does that.'),
     ],
 )  # fmt: skip

@@ -326,7 +326,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         return []
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
     fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
-    if not fits or step.link.kind == "hangs_from":
+    nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
+    if not fits or nearer or step.link.kind == "hangs_from":
         return []
     noun = world.noun(goal)
     if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):
