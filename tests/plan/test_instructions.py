@@ -40,6 +40,7 @@ def test_the_scene_before_and_the_task(prompt: str, before: set[str], task: str)
          "the instruction is several tasks, of which the environment has one at a time: place:tomato soup:basket, "
          "place:tomato sauce:basket."),
         ("put the mug behind the bowl", 'not modelled: "put the mug behind the bowl": no task does that.'),
+        ("Slide the mug closer to the bowl.", 'not modelled: "Slide the mug closer to the bowl": no task does that.'),
         ("close the laptop", 'not modelled: "close the laptop": no task does that.'),
     ],
 )  # fmt: skip
@@ -102,3 +103,22 @@ def test_deeds_that_no_task_does_are_named_and_the_rest_is_read(sentence, object
     plan = PLANNER.plan(sentence)
     assert (", ".join(obj.name for obj in plan.objects), plan.task) == (objects, task)
     assert any(noted in note for note in plan.notes) or not noted
+
+
+@pytest.mark.parametrize(
+    ("prompt", "task", "undone"),
+    [
+        ("Rinse the plum in the sink, take the plum out of the sink.", "pick:plum", "Rinse the plum in the sink"),
+        ("Heat the soup, remove it from the stove.", "pick:tomato soup", "Heat the soup"),
+    ],
+)
+def test_what_is_picked_after_something_no_task_does_is_the_task(prompt: str, task: str, undone: str):
+    plan = PLANNER.plan(prompt)
+    assert plan.task == task
+    assert f'not modelled: "{undone}": no task does that.' in plan.notes
+
+
+def test_what_is_picked_before_something_no_task_does_is_the_beginning_of_that():
+    plan = PLANNER.plan("Take the plum and rinse it.")
+    assert plan.task is None
+    assert any("rinse" in note for note in plan.notes)

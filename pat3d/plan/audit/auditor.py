@@ -46,6 +46,7 @@ from pat3d.plan.audit.words import (
     REPEATS,
     SHADES,
     SILENT,
+    UNCOUNTED,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.arrangements import crossing
@@ -99,12 +100,14 @@ def _shapes(it: Compared) -> frozenset[str]:
     nouns = {obj.name: obj.noun for obj in it.plan.objects}
     stacked = any(rel.kind == "on" and nouns[rel.child] == nouns.get(rel.parent) for rel in it.plan.relations)
     round_about = {one.kind for one in it.plan.arrangements} & {"circle", "around"}
+    lying = any(one.kind == "on_its_side" for one in it.plan.postures)
     heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
     return (
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
+        | frozenset({"flat"} if lying else ())
     )
 
 
@@ -270,6 +273,9 @@ class _Auditor(Compared):
                 and not words & (name | REPEATS | HEADLESS)
                 and obj.phrase.lower() not in quoted
             ):
+                made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
+            elif name & UNCOUNTED and not name & set(obj.noun.split()) and f'"{obj.noun}"' not in quoted:
+                # "latte art", "furniture": of what shape is not said.
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')

@@ -283,14 +283,12 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     """
     steps = world.steps
     notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
-    blocked = {item for step in steps if step.manner == "other" for item in step.items}
-    wanted = [step for step in steps if step.manner != "other" and step.items]
-    # To pick what is placed afterwards is the beginning of placing it.
-    begun = [{item for later in wanted[at + 1 :] for item in later.items} | blocked for at in range(len(wanted))]
+    # To pick what something is done with afterwards is the beginning of that.
+    begun = [{item for later in steps[at + 1 :] for item in later.items} for at in range(len(steps))]
     wanted = [
         step
-        for step, later in zip(wanted, begun, strict=True)
-        if not (step.manner == "pick" and set(step.items) & later)
+        for step, later in zip(steps, begun, strict=True)
+        if step.manner != "other" and step.items and not (step.manner == "pick" and set(step.items) & later)
     ]
     specs: list[str] = []
     for step in wanted:
@@ -328,7 +326,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         return []
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
     fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
-    if not fits or step.link.kind == "hangs_from":
+    nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
+    if not fits or nearer or step.link.kind == "hangs_from":
         return []
     noun = world.noun(goal)
     if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):

@@ -261,9 +261,12 @@ class Interpreter(Placing):
 
     def _related(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         link = self._chunks[at].relation
-        parents: list[Item] = []
-        if not any(self._said.is_open(head) for head in child_heads):
-            parents = self._said.refs_of(parent_heads, link, child_heads)
+        if len(parent_heads) > 1 and link.kind == "next_to" and self._chunks[parent_heads[0]].named.kind == "part":
+            # "Stack the cups, the red one at the bottom, the blue one on top": by no cup.
+            self._world.note(f'not understood: "{self._chunks[at].text} {self._chunks[parent_heads[0]].text}"')
+            return
+        later = any(self._said.is_open(head) for head in child_heads)
+        parents = [] if later else self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
         if link.manner == "goal" and self._clause.manner in ("other", "unload"):

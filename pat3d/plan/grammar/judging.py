@@ -45,11 +45,19 @@ class Judging:
         return same or self._said_of(named, head)
 
     def _said_of(self, named: Node, parent: int) -> bool:
-        """Whether `named` is related to what `parent` speaks of already: "a pot on the stove ... beside the stove"."""
+        """Whether `named` is related to what `parent` speaks of already, or has it.
+
+        "a pot on the stove ... beside the stove", "a plate with a knife, ... behind the knife"
+        """
         phrase = self._phrase(parent)
-        return phrase.definite and any(
-            fact[0] == "rel" and set(fact[2]) & set(named.heads) and _same(self._phrase(fact[3][0]), phrase)
-            for fact in named.facts
+        if not phrase.definite:
+            return False
+        related = [(fact[2], fact[3][:1]) for fact in named.facts if fact[0] == "rel"]
+        related += [(fact[2], fact[3]) for fact in named.facts if fact[0] == "have"]
+        related += [(fact[3], fact[2]) for fact in named.facts if fact[0] == "place"]
+        return any(
+            set(those) & set(named.heads) and any(_same(self._phrase(head), phrase) for head in by)
+            for those, by in related
         )
 
     def _again_named(self, head: int, heads: tuple[int, ...]) -> bool:
@@ -106,6 +114,10 @@ class Judging:
     def _several(self, at: int) -> bool:
         phrase = self._phrase(at)
         return phrase.plural or (phrase.count or 1) > 1 or phrase.kind in ("pronoun", "pieces", "items")
+
+    def _definite(self, heads: tuple[int, ...]) -> bool:
+        """Whether all `heads` are spoken of as known: "the clock"."""
+        return all(self._phrase(head).definite and self._phrase(head).kind not in HEADLESS for head in heads)
 
     def _disagrees(self, heads: tuple[int, ...], verb: int) -> bool:
         """Whether the verb at chunk `verb` is of one thing and `heads` are several, or the other way round."""

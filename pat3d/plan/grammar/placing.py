@@ -23,6 +23,8 @@ _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its b
 """What an object may lie on that is a part of itself, and how it is turned then."""
 
 
+_UNSAID = 0.4
+"""Cost of a place of which it is left open what it is at."""
 _HARDLY_IN = 1.7
 """Cost of being inside what has no inside, see Plausible.within."""
 
@@ -78,6 +80,7 @@ class Placing:
                 self._relating.relate(inner, chunk.link, children)
             elif not parents:
                 world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
+                self._relating.cost += _UNSAID * (world.containment(children[0]) != "in")
             else:
                 self._relating.relate(children, chunk.link, parents)
             return
@@ -329,6 +332,10 @@ class Placing:
             words = phrase.modifiers
             if words.colours or words.palette or words.material:
                 describe(group, words, part=phrase.said)
+                idle = [word for word in words.adjectives if word not in lexicon.HONOURED | lexicon.SAID_OTHERWISE]
+                if idle := [word for word in idle if word not in lexicon.SHADE_WORDS]:
+                    said = ", ".join(f'"{word}"' for word in idle)
+                    self._world.note(f'not modelled: {said} of "{phrase.words}"')
             elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:

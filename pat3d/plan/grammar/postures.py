@@ -11,7 +11,7 @@ from pat3d.plan.scene_plan import PostureKind
 
 POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
-    r"|(?:lying|lies|lie|laid|turned|tipped) (?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
+    r"|(?:lying|lies|lie|laid|turned|tipped) (?:flat )?(?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
     r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down"
     r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
@@ -22,7 +22,7 @@ POSTURE = (
 """Pattern of a posture."""
 _HELD = re.compile(
     r"upright|(?:turned )?upside[ -]down|bottom[ -]up|inverted|flipped(?: over)?|turned over"
-    r"|(?:\w+ )?(?:on|onto) (?:its|their) sides?|toppled(?: over)?|(?:tipped|knocked) over"
+    r"|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?|toppled(?: over)?|(?:tipped|knocked) over"
 )
 """Postures that a scene holds as they are said."""
 

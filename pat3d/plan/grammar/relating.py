@@ -85,11 +85,27 @@ class Relating:
             if link.says == "circle":
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
+            others = list({item.group: item for item in parents[1:] if item.group is not parents[0].group}.values())
+            if link.kind == "around":
+                parents = self._centre(children, parents)
+            for other in others if len(children) == 1 and link.kind != "around" else ():
+                # "near the lamp and the clock"
+                world.beside(children, link.kind, [other])  # type: ignore[arg-type]
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
             table = world.is_table(parents[0]) and world.on_floor(parents[0])
             if link.kind == "next_to" and small and table and world.support(children[0]) is None:
                 world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
             world.beside(children, link.kind, parents)  # type: ignore[arg-type]
+
+    def _centre(self, children: list[Item], parents: list[Item]) -> list[Item]:
+        """What `children` stand around: a ring of several things has one centre, as a note says."""
+        several = len({item.group for item in children}) > 1 or len(children) < len(parents)
+        if len(parents) == 1 or not several:
+            return parents
+        around, inner = (" and ".join(dict.fromkeys(f'"{item.group.words}"' for item in each))
+                         for each in (children, parents))  # fmt: skip
+        self.world.note(f"not arranged: {around} around {inner} together; it is placed around the first")
+        return parents[:1]
 
     def hold(self, link: Link, owners: list[Item], children: list[Item]) -> None:
         """Record what it means that `owners` have `children`."""
@@ -97,7 +113,7 @@ class Relating:
         self._settle(children, owners)
         weak = link.manner == "with" and link.kind is None
         if link.manner == "surround":
-            world.beside(children, "around", owners)
+            world.beside(children, "around", self._centre(children, owners))
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
         elif weak and world.is_a(owner, lexicon.DEVICES):
@@ -198,7 +214,9 @@ class Relating:
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
         else:
-            world.arrange("under", children, parents, f"{said.format('under')}; it is placed next to it")
+            rest = "".join(f' and "{words}"' for words in dict.fromkeys(item.group.words for item in parents[1:])
+                           if words != parent.group.words)  # fmt: skip
+            world.arrange("under", children, parents, f"{said.format('under')}{rest}; it is placed next to it")
 
     def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
         """`children` stand on both sides of `parents`, or at both ends of its top."""

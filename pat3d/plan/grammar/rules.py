@@ -139,6 +139,13 @@ class Grammar(Goals):
             cost += 0.1 + 0.7 * (aside and self._chunks[modifier.start].text == ",")
         if "finite" in named.flags and "finite" not in modifier.flags:
             cost += 0.1
+        if (
+            modifier.cat == "CM"
+            and not modifier.flags & {"finite", "which"}
+            and not named.flags & {"modified", "finite"}
+        ):
+            # "The box is bigger than the crate and on top of it": the box is.
+            cost += 0.6 * (self._chunks[modifier.start].text == "and")
         if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
             # "a candle, a rose in a vase and a cup": the list goes on behind what is said of the rose.
             cost += 0.4
@@ -283,10 +290,17 @@ class Grammar(Goals):
         if "placed" in rest.flags and "placed" not in first.flags:
             # "a mug and a plate on a table": what stands behind a list is said of all of it, or of its last.
             cost += 0.3 if len(rest.heads) == 1 else 0.6
+        taken = [fact[2] for fact in rest.facts if fact[0] == "rel" and self._link(fact[1]).manner == "source"]
+        if rest.heads in taken and "placed" not in first.flags:
+            # "Put a bun and a sausage from the bowl onto a plate": both are taken out of it.
+            cost += 0.5
         if "modified" in first.flags:
             cost += 0.15 if "finite" not in first.flags else 0.3
         if "finite" in rest.flags and "finite" not in first.flags:
             cost += 0.4
+        if rest.joints == "&" and "finite" in first.flags - rest.flags and self._definite(rest.heads):
+            # "A ball is near the lamp and the clock": near both.
+            cost += 1.2
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
 

@@ -1,0 +1,69 @@
+"""Sentences that were read as something else without a note: each is read as said now, or a note names what is not."""
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+
+PLANNER = GrammarPlanner()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("A cup is near the lamp and the clock.", {"cup next_to lamp", "cup next_to clock"}),
+        ("The fork is to the left of the plate and the bowl.", {"fork left_of plate", "fork left_of bowl"}),
+        ("The green box is smaller than the red box and on top of it.", {"green box on red box"}),
+        ("The green box is smaller than the red box and behind it.", {"green box behind red box"}),
+        ("a plate with a spoon on the left and a fork on the right, and a mug in front of the fork",
+         {"spoon left_of plate", "fork right_of plate", "mug in_front_of fork"}),
+        ("a backpack with a doll on top", {"doll on backpack"}),
+        ("Put a single apple and pear from the basket onto the plate.", {"apple in basket", "pear in basket"}),
+        ("A cup is on the table and a plate is near the lamp.", {"cup on table", "plate next_to lamp"}),
+    ],
+)  # fmt: skip
+def test_is_read_as_said(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "note"),
+    [
+        ("Two candles stand on a tray. Around them are a vase and a mug.",
+         'not arranged: "a vase" and "a mug" around "Two candles" together; it is placed around the first'),
+        ("Two candles surrounded by a plate, a vase and a mug.",
+         'not arranged: "a vase" around "Two candles" together; it is placed around the first'),
+        ("A spoon is under the book and the shelf.",
+         'not arranged: "A spoon" under "the book" and "the shelf"; it is placed next to it'),
+        ("The egg is on the cup and the plate.",
+         'not arranged: "The egg" on "the cup" and "the plate" together; it is placed on the first'),
+        ("The tomato is on the round bun and the pizza.",
+         'not arranged: "The tomato" on "the round bun" and "the pizza" together; it is placed on the first'),
+        ("a box with a brontosaurus stuffed head on top",
+         'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
+        ("Stack the three bowls, the green one at the bottom, the red one on top.", 'not understood: "at the bottom"'),
+        ("A coffee cup with latte art.", '"latte art" is made as a "sculpture"'),
+    ],
+)  # fmt: skip
+def test_what_is_not_as_said_is_in_a_note(prompt: str, note: str):
+    assert note in PLANNER.plan(prompt).notes
+
+
+def test_what_several_stand_around_is_one_of_them():
+    relations = PLANNER.plan("Two candles stand on a tray. Around them are a plate, a vase and a mug.").relations
+    assert {relation.parent for relation in relations if relation.kind == "around"} == {"candle 1"}
+
+
+def test_a_ring_of_one_kind_is_shared_out_without_a_note():
+    plan = PLANNER.plan("Two tables, each with four chairs around it.")
+    assert not [note for note in plan.notes if "together" in note]
+
+
+def test_what_lies_flat_on_its_side_does():
+    plan = PLANNER.plan("A bottle lies flat on its side.")
+    assert [(one.object, one.kind) for one in plan.postures] == [("bottle", "on_its_side")]
+    assert plan.notes == ()
+
+
+def test_what_is_at_the_bottom_stands_by_nothing_before_the_task():
+    plan = PLANNER.plan("Stack the three bowls, the green one at the bottom, the red one on top.")
+    assert plan.relations == ()
