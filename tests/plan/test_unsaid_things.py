@@ -200,3 +200,18 @@ def test_how_it_is_to_be_put_down_is_not_said_of_where():
 def test_it_is_never_the_place_from_which_something_unknown_was_picked():
     with pytest.raises(PromptError, match="what was picked up"):
         PLANNER.plan("Pick the item from the crate and place it on the plate.")
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"),
+    [
+        ("Two green cubes and a yellow cube are stacked.", '"stacked" of all'),
+        ("Three jars are in a row on the desk with the blue one in the middle.", "at the end of the row"),
+        ("A blue cube and a red cube are stacked.", None),
+        ("Two plates and three bowls are stacked on a shelf.", None),
+        ("Three jars are in a row in the middle of the table.", None),
+    ],
+)
+def test_what_is_left_out_of_a_stack_or_of_the_middle_of_a_row_is_noted(prompt, said):
+    notes = [note for note in PLANNER.plan(prompt).notes if "not as said" in note]
+    assert any(said in note for note in notes) if said else not notes

@@ -186,6 +186,9 @@ def _stacked(it: Compared) -> Iterator[tuple[int, str]]:
             and not it.named(words[at])
         ):
             yield at, f'not as said: "{said}"; others are in that stack'
+        elif number < 2 and several and words[first - 1] == "and" and any(len(tower) == 1 for tower in towers):
+            # "Two blue cubes and one red cube are stacked."
+            yield at, f'not as said: "{words[at]}" of all; {sum(len(tower) == 1 for tower in towers)} of them are not'
 
 
 def _partly(it: Compared) -> Iterator[tuple[int, str]]:
@@ -237,6 +240,13 @@ def rows(it: Compared) -> Iterator[tuple[int, str]]:
     for one in it.plan.arrangements:
         if one.kind in ("row", "side_by_side", "circle") and len({*one.objects, *one.of}) == 1:
             yield 0, f'not as said: "{one.kind.replace("_", " ")}" of "{one.objects[0]}" alone'
+    for row in (one for one in it.plan.arrangements if one.kind == "row" and len(one.objects) > 2):
+        for one in it.plan.arrangements:
+            # "Three cups in a row on the shelf, the red one in the middle": of the row, not of the shelf.
+            ends = {row.objects[0], row.objects[-1]} & set(one.objects)
+            if one.kind == "in_middle" and ends and set(one.objects) < set(row.objects):
+                name = min(ends)
+                yield 0, f'not as said: "{name}" is at the end of the row, and in the middle of "{one.of[0]}"'
     stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
     stands = stands or any(not rel.supports for rel in it.plan.relations)
     words = it.said.words
