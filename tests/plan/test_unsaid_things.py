@@ -215,3 +215,8 @@ def test_it_is_never_the_place_from_which_something_unknown_was_picked():
 def test_what_is_left_out_of_a_stack_or_of_the_middle_of_a_row_is_noted(prompt, said):
     notes = [note for note in PLANNER.plan(prompt).notes if "not as said" in note]
     assert any(said in note for note in notes) if said else not notes
+
+
+def test_a_note_names_everything_that_is_not_arranged():
+    notes = PLANNER.plan("The jar and the cup are inside the microwave.").notes
+    assert any('"The jar" and "the cup"' in note for note in notes)

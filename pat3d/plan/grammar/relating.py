@@ -31,7 +31,8 @@ class Relating:
     def relate(self, children: list[Item], link: Link, parents: list[Item]) -> None:
         """Record that `children` stand in relation `link` to `parents`."""
         world = self.world
-        said = f'"{children[0].group.words}" {{}} "{parents[0].group.words}"'
+        moved = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in children))
+        said = f'{moved} {{}} "{parents[0].group.words}"'
         if set(children) == set(parents):
             if link.kind in SUPPORT_KINDS:
                 raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
