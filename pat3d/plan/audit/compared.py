@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.text import Claim, Mention, Said, singulars
-from pat3d.plan.audit.words import Place
+from pat3d.plan.audit.words import HEADLESS, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
@@ -98,6 +98,11 @@ class Compared:
             or any(re.search(rf"\b{re.escape(word)}\b", obj.phrase.lower()) for word in words)
             or (not mention.new and heads & {obj.noun.split()[-1], obj.name.rstrip(" 0123456789").split()[-1]})
         ]  # fmt: skip
+
+    @staticmethod
+    def headless(obj: PlannedObject) -> bool:
+        """Whether the phrase of `obj` has no noun: "the largest", "a short one"."""
+        return obj.phrase.lower().split()[-1:] != [] and obj.phrase.lower().split()[-1] in HEADLESS | {"one", "ones"}
 
     def which(self, mention: Mention) -> list[PlannedObject]:
         """The objects that `mention` may name and that have its colours, where some have; else all that it may name."""

@@ -45,7 +45,8 @@ PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him
 ORDINALS = frozenset({"second", "third", "fourth", "fifth"})
 HEADLESS = ORDINALS | frozenset({
     "first", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
-    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest",
+    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest", "bigger",
+    "biggest",
 })  # fmt: skip
 """Words that name an object of which the noun is not said."""
 ENDING = frozenset({"one", "ones", "and", "but", "while", "is", "are", "or"})

@@ -150,6 +150,8 @@ class GrammarPlanner:
 
         Second is the next likely reading where it is nearly as likely.
         """
+        if clause.first:
+            world.settled = len(world.groups)
         for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
             spans = find(clause.tokens)
             for start, end in spans:
@@ -248,7 +250,8 @@ class GrammarPlanner:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
-        chunks = completed(_trimmed(sentence.chunks), self._nouns)
+        known = [group.phrase for group in world.groups if not group.replaced]
+        chunks = completed(_trimmed(sentence.chunks), self._nouns, known)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):
