@@ -13,7 +13,7 @@ from pat3d.plan.grammar.chunks import MAX_CHUNKS, Chunk, Sentence
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import LINKS, LONGEST_LINK, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_colour_word, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import sense
 
@@ -333,6 +333,13 @@ class Cutter(Asides):
                 self._made.unread.append(read[0].words)
             self._at = read[1]
 
+    def _colours_go_on(self, ahead: int) -> bool:
+        """Whether a list of colours goes on to the end of the clause."""
+        while is_colour_word(self._word(ahead)) or self._word(ahead) == "and":
+            ahead += 1
+            ahead += self._word(ahead) == ","
+        return self._word(ahead - 1) != "," and self._tokens[self._at + ahead].mark
+
     def _quality(self) -> None:
         """Read "(is) plain white": modifiers without a noun."""
         start = self._at
@@ -356,6 +363,10 @@ class Cutter(Asides):
             else:
                 words.append(token.text)
             size += 1
+            colours = words and all(is_colour_word(word) for word in words)
+            if colours and self._word(size) == "," and self._colours_go_on(size + 1):
+                # "are red, green and blue"
+                size += 1
         if {"as", "than", "like"} & set(words):
             last = max(at for at, word in enumerate(words) if word in ("as", "than", "like"))
             self._add("rel", last + 1, link=Link(manner="than", said=" ".join(words[: last + 1])))

@@ -15,7 +15,7 @@ from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
-from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
+from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell, tell_colours
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.world import Item, Step, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -253,7 +253,10 @@ class Interpreter(Placing):
             self._world.note(f'not understood: how "{said}" is described')
         for group in dict.fromkeys(item.group for item in items):
             self._maker.note_adjectives(self._world, group.phrase, told)
-            if all(item in items for item in group.items):
+            shared = len(told.colours) > 2 or 1 < len(told.colours) == len(group.items)
+            if shared and len(group.items) > 1 and all(item in items for item in group.items):
+                tell_colours(self._world, group, told)
+            elif all(item in items for item in group.items):
                 describe(group, told)
             else:
                 for item in items:

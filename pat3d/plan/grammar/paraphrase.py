@@ -23,6 +23,7 @@ from pat3d.plan.grammar.displaced import (
     in_place,
     stateless,
 )
+from pat3d.plan.grammar.enumerated import enumerated
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
@@ -60,6 +61,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
+    tokens = enumerated(text, tokens, nouns)
     tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
@@ -69,7 +71,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
+    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
 
 
 def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
@@ -277,26 +279,6 @@ def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
                 size, head = size + 1, head[:-1]
             return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
-    return list(tokens)
-
-
-def _kinds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "three cans: soup, tuna and corn" as "a soup can, a tuna can and a corn can"."""
-    words = [token.text for token in tokens]
-    for colon in (n for n in range(2, len(words)) if words[n] == ":"):
-        count, noun = lexicon.NUMBERS.get(words[colon - 2], 0), tokens[colon - 1]
-        end = next((n for n in range(colon, len(words)) if tokens[n].mark and words[n] not in (",", ":")), len(words))
-        inside = list(tokens[colon + 1 : end])
-        kinds = [token for token in inside if token.text not in (",", "and")]
-        single = next((guess for guess in singulars(noun.text) if nouns.match([guess])), None)
-        if not 2 <= count == len(kinds) or single is None or "and" not in words[end - 2 : end]:
-            continue
-        if all(nouns.match([kind.text, single]) for kind in kinds):
-            article = replace(tokens[colon - 2], text="a")
-            for kind in kinds:
-                at = inside.index(kind)
-                inside[at : at + 1] = [article, kind, replace(noun, text=single)]
-            return [*tokens[: colon - 2], *inside, *tokens[end:]]
     return list(tokens)
 
 

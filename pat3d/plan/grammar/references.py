@@ -63,8 +63,8 @@ class References(Contrast):
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
-            self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            self._note_adjectives(replace(phrase, noun=next((i.group.noun for i in self.known[at]), "")))
             shape = tuple(word for word in phrase.modifiers.adjectives if word in lexicon.HONOURED)
             for item in self.known[at]:
                 told = item.told.marked_as(phrase.modifiers)
