@@ -49,3 +49,11 @@ def test_what_is_in_reach_is_in_nothing():
 )
 def test_a_robot_that_is_spoken_of_as_a_thing_is_one(prompt: str):
     assert "robot" in " ".join(obj.noun for obj in PLANNER.plan(prompt).objects)
+
+
+def test_two_of_a_kind_are_told_apart_by_the_side_of_the_robot_that_they_are_on():
+    plan = PLANNER.plan(
+        "Pick up the mug to the left of the robot and put it next to the mug to the right of the robot."
+    )
+    assert {str(relation) for relation in plan.relations} == {"mug 2 right_of mug 1"}
+    assert 'not modelled: "to the left of the robot"' in plan.notes

@@ -31,8 +31,8 @@ _VIEWS = (("as", "seen", "from"), ("seen", "from"), ("viewed", "from"), ("from",
 def without_actor(text: str, told: Sequence[Clause]) -> tuple[list[Clause], list[str], list[str]]:
     """The clauses `told` of `text` without the robot that acts, what a note is to name, and what it acts with.
 
-    Nothing changes where a robot is an object ("a robot", "the toy robot"), or nobody is told what to do and no reach or
-    view of it is spoken of.
+    Nothing changes where a robot is an object ("a robot", "the toy robot"), or nobody is told what to do and no
+    reach or view of it is spoken of.
     """
     tokens = [token for clause in told for token in clause.tokens]
     objects = any(
@@ -55,7 +55,12 @@ def without_actor(text: str, told: Sequence[Clause]) -> tuple[list[Clause], list
             said = text[min(token.start for token in away) : max(token.end for token in away)]
             (means if (away[0].text,) in _MEANS else named).append(said)
             plain[start:end] = between
-        if any(not token.mark for token in plain):
+            side = next((token for token in away if token.text in ("left", "right")), None)
+            noun = plain[start - 1].text if start > 1 else ""
+            if side is not None and plain[start - 2].text == "the" and [token.text for token in tokens].count(noun) > 1:
+                # "the bowl to the left of the robot" beside another bowl
+                plain.insert(start - 1, side)
+        if len(plain) == len(clause.tokens) or any(not token.mark for token in plain):
             kept.append(replace(clause, tokens=tuple(plain)))
     return kept, named, means
 
