@@ -193,6 +193,8 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its", "tow
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
             SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+        SIDES[tuple(f"{_word} {_side} end".split())] = _side
+        SIDES[tuple(f"{_word} far {_side} end".split())] = _side
 for _word in ("on", "at", "to"):
     for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
         SIDES[tuple(f"{_word} {_both}".split())] = "both"
@@ -238,4 +240,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
     }.items()
     for words in phrases
 }  # fmt: skip
+for _line in ("in a row", "in a line", "lined up"):
+    for _way, _how in (("from left to right", "order"), ("from right to left", "reverse")):
+        EACH_OTHER[tuple(f"{_line} {_way}".split())] = _how
 """Words that arrange the members of one group, or of one list."""

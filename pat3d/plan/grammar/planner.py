@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.amounts import worked_out
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
@@ -99,7 +100,10 @@ class GrammarPlanner:
         tokens = worked_out(chessmen(tokenise(text)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in reordered(_sentences(tokens)) for clause in self._clauses(text, sentence)]
+        told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
+        world.notes += [f'not modelled: "{said}"' for said in beside_robot]
+        world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
             if other is not None:
