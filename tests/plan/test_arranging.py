@@ -34,6 +34,13 @@ def held(plan: ScenePlan) -> set[str]:
         ("A can in the corner of the table.", {"can in_corner table"}),
         ("A lamp stands at the corner of a desk.", {"lamp in_corner desk"}),
         ("There is a mug on the corner of the tray.", {"mug in_corner tray"}),
+        ("A bottle stands in each of the four corners of a tray.",
+         {"bottle 1, bottle 2, bottle 3, bottle 4 in_corners tray"}),
+        ("A bench with a box at each corner.", {"box 1, box 2, box 3, box 4 in_corners bench"}),
+        ("Three cans are in the corners of a desk.", {"can 1, can 2, can 3 in_corners desk"}),
+        ("Four dice, one in each corner of a tray.", {"dice 1, dice 2, dice 3, dice 4 in_corners tray"}),
+        # under, several at once
+        ("A stool and a box are under a desk.", {"stool, box under desk"}),
         ("A bowl in the middle of the table.", {"bowl in_middle table"}),
         ("A vase stands in the centre of a desk.", {"vase in_middle desk"}),
         ("A vase is on a table, in the middle.", {"vase in_middle table"}),
