@@ -23,10 +23,11 @@ _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left
 _ABSENT = re.compile(r"not (in the scene|understood|modelled|arranged): |.* is left out|.*(which|how many) is not said")
 _QUOTED = re.compile(r'"([^"]*)"')
 KINDS: dict[Place, frozenset[str]] = {
-    "on": frozenset({"on", "in", "over", "hangs_from", "across", "at_edge", "in_corner", "in_middle",
+    "on": frozenset({"on", "in", "over", "hangs_from", "across", "at_edge", "in_corner", "in_corners",
+                     "in_middle",
                      "leaning_against"}),
     "on top": frozenset({"on", "across", "in_middle"}),
-    "in": frozenset({"in", "on", "in_corner", "in_middle"}),
+    "in": frozenset({"in", "on", "in_corner", "in_corners", "in_middle"}),
     "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
                          "side_by_side"}),
     "against": frozenset({"leaning_against"}),

@@ -93,7 +93,7 @@ ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
 PARTS: dict[str, frozenset[str]] = {
     **dict.fromkeys(("edge", "rim", "lip", "border"), frozenset({"at_edge"})),
-    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner"}),
+    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner", "in_corners"}),
     **dict.fromkeys(("middle", "center", "centre"), frozenset({"in_middle", "between"})),
     "bottom": frozenset({"under"}), **dict.fromkeys(("foot", "handle", "leg", "arm", "armrest", "spout"), frozenset()),
 }  # fmt: skip
@@ -206,7 +206,7 @@ seen should must need i'd give following features color immediate amidst belongs
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like several animals want see imagine show create make
+like several animals want see imagine show create make corners
 """
 _POSTURES = """
 hidden else cover

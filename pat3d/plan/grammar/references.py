@@ -267,6 +267,11 @@ class References(Contrast):
                 return self._one_like(beside[0].items, phrase)
         if (like := self._partner(at, phrase)) is not None:
             return self._one_like(like, phrase)
+        if where and words.colours:
+            # "Four cans in a line, the second one blue"
+            line = next((group for group in groups if len(group.items) > 1 and group.height == 1), None)
+            if line is not None and not any(words.colours[0] in colours_of(item) for item in line.items):
+                return self._at(line.items, where, phrase)
         compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
         if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)
