@@ -18,7 +18,9 @@ _REACH = 6
 """Words of "two of them in each of"."""
 _STEMS = frozenset({"larg", "bigg", "small", "tall", "short", "long", "wid", "thick", "thinn", "tini", "high", "low"})
 """Of comparatives."""
-_AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
+_AS_MANY = re.compile(
+    r"(?<!half )(?<!twice )(?<!times )\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)"
+)
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
 

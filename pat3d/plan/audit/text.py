@@ -108,7 +108,9 @@ def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
     prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
     prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
+    prompt = re.sub(r"\b(?:twice|half|[a-z]+ times) (?=as many\b)", "", prompt)
     prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
+    prompt = re.sub(r"\bas many\b", "several", prompt)
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
     prompt = re.sub(rf"\b(is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", r"\1", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
@@ -189,7 +191,7 @@ def _mention(
 def _elliptic(words: Sequence[str], ahead: Sequence[int]) -> bool:
     """Whether the noun is said of more than the words before it: "a red and a blue cup"."""
     at = ahead[-1] - 1 if ahead else -1
-    return at > 0 and words[at] in ("and", ",") and (
+    return at > 0 and words[at] in ("and", ",") and words[at - 2] not in ("is", "are") and (
         find_colour(words[at - 1]) is not None or words[at - 1] in ADJECTIVES
     )  # fmt: skip
 

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier, looks_like_adjective
@@ -26,7 +27,8 @@ Item = list[Token]
 
 def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
-    return _oranges(_kinds(_in_brackets(text, _set_off_colours(text, list(tokens)), nouns), nouns), nouns)
+    tokens = _all_alike(_set_off_colours(list(tokens)), nouns)
+    return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
 
 
 def _items(tokens: Sequence[Token]) -> list[Item]:
@@ -150,7 +152,7 @@ def _joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
     return made
 
 
-def _set_off_colours(text: str, tokens: list[Token]) -> list[Token]:
+def _set_off_colours(tokens: list[Token]) -> list[Token]:
     """`tokens` with "three mugs, red, green and blue, stand" as "three red, green and blue mugs stand"."""
     words = [token.text for token in tokens]
     for at in range(2, len(tokens) - 3):
@@ -165,6 +167,24 @@ def _set_off_colours(text: str, tokens: list[Token]) -> list[Token]:
             colours = [one for item in listed for one in (item[0], tokens[at])][:-1]
             return [*tokens[: at - 1], *colours, tokens[at - 1], *tokens[end:]]
     return tokens
+
+
+def _all_alike(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "everything on the shelf is red: a cup, a vase" as "a red cup and a red vase are on the shelf"."""
+    words = [token.text for token in tokens]
+    colon = words.index(":") if ":" in words else 0
+    verb = next((n for n in range(1, colon) if words[n] in ("is", "are")), 0)
+    told = tokens[verb + 1 : colon]
+    alike = bool(told) and all(is_modifier(token.text) for token in told)
+    if words[0] not in ("everything", "all", "both") or not verb or not alike:
+        return tokens
+    named = []
+    for item in _items(tokens[colon + 1 : -1]):
+        lead = next((n for n, token in enumerate(item) if token.text not in _LEADING), 0)
+        named.append([*item[:lead], *told, *item[lead:]])
+    where = next((n for n in range(1, verb) if link_at(tokens, n)), verb)
+    are = [replace(tokens[verb], text="are")] if where < verb else []
+    return [*_joined(named, False, tokens[colon]), *are, *tokens[where:verb], tokens[-1]]
 
 
 def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:

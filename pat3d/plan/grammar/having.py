@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.judging import HEADLESS, Judging
 from pat3d.plan.grammar.links import Link
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 
 class Having(Judging):
@@ -47,6 +48,9 @@ class Having(Judging):
                 placed |= set(fact[2])
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
+                if len(fact[2]) > 1 and self._carried(fact[2][0], owners[0]):
+                    # "A plate with a bun and a fork next to it": the bun is on it.
+                    cost += 0.9 * (self._link(fact[1]).kind in LATERAL_KINDS)
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
                 placed |= set(fact[2])
             facts.append(fact)
@@ -89,6 +93,17 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _carried(self, head: int, owner: int) -> bool:
+        """Whether a dish named at or before `owner` carries what `head` names rather than has it beside it."""
+        dishes = (self._noun(at) for at in range(owner, -1, -1) if self._chunks[at].phrase is not None)
+        dish, thing = next(filter(None, dishes), ""), self._noun(head)
+        small = lexicon.SLENDER + lexicon.NOT_ON_DISH + ("napkin", "saucer")
+        return (
+            self._likely.is_a(dish, lexicon.DISHES, lexicon.HOLLOW)
+            and self._likely.having(Link(manner="with"), dish, thing) < 0.3
+            and not self._likely.is_a(thing, small)
+        )
 
     def _has_again(self, named: Node, modifier: Node) -> bool:
         """Whether `named` has things "with" it, and behind them more "with" it that is placed nowhere."""

@@ -52,6 +52,8 @@ class Maker:
             pyramid=phrase.pyramid, proxy=proxy,
         )  # fmt: skip
         group.items = [Item(group=group) for _ in range(count)]
+        if count > 1 and phrase.said in ("grape", "grapes"):
+            world.note(f'"{phrase.words}": every one of the {count} is made as a bunch.')
         if phrase.left_out:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:

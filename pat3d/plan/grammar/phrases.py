@@ -139,7 +139,9 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
-        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+        whole = phrase.kind == "object" and bool(phrase.noun) and not phrase.plural
+        if flags.get("vague") and whole and (phrase.said in lexicon.PLURAL_ONLY or phrase.said in lexicon.BUNCHES):
+            # "Some scissors" are one, and "a few grapes" one bunch.
             count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
