@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexicon import SIZES, TELLING
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier
+from pat3d.plan.grammar.lexicon import SIZES
+from pat3d.plan.grammar.likes import likes_named, with_noun
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
+from pat3d.plan.grammar.parallels import told_alike
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -15,9 +17,13 @@ _SIDES = {"left": "left", "right": "right", "centre": "middle", "on top": "top"}
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
-def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
-    """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(_full(chunks)))), nouns)))
+def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] = ()) -> list[Chunk]:
+    """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower.
+
+    `known` are the phrases of what was named before them.
+    """
+    told = likes_named(_from_below(_described(_gapped(_full(chunks)))), nouns, known)
+    return _towers(_alike(told_alike(_with_nouns(told, nouns), nouns)))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -158,67 +164,10 @@ def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
             continue
         follower = _neighbour(chunks, at, 1)
         if follower is not None and _lends(follower, phrase) and not _tells_apart(chunks, at):
-            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, follower, nouns))
+            chunks[at] = replace(chunks[at], phrase=with_noun(phrase, follower, nouns))
         elif (owner := _owner(chunks, at)) is not None and phrase.modifiers.colours:
-            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, owner, nouns))
-    for at, piece in enumerate(chunks):
-        if piece.phrase is not None and (owner := _told_alike(chunks, at)) is not None:
-            told = replace(piece.phrase, definite=piece.phrase.definite and _told_by(piece.phrase)[0] != "other")
-            chunks[at] = replace(piece, phrase=_with_noun(told, owner, nouns))
+            chunks[at] = replace(chunks[at], phrase=with_noun(phrase, owner, nouns))
     return chunks
-
-
-def _told_by(phrase: Phrase) -> tuple[str, object]:
-    """By what `phrase` tells its object from its like, and how: by colour, by size, by its place among them."""
-    words = phrase.modifiers
-    if words.colours:
-        return "colour", words.colours
-    if words.size_word:
-        return "size", words.size_word
-    places = set(words.adjectives) & TELLING
-    return ("place", min(places)) if places and phrase.definite else ("other" if phrase.other else "", "")
-
-
-def _told_alike(chunks: Sequence[Chunk], at: int) -> Phrase | None:
-    """The object of which "the second", "a blue one" at chunk `at` is another: told in the same way, and otherwise.
-
-    Of two that may be, it is the one of which as much is said: "the red box holds two cups, the blue one ...". What is
-    several and told in no way may have it as a member: "a red box with two cups, a blue one and a white one".
-    """
-    phrase = chunks[at].named
-    (by, how), ends = _told_by(phrase), phrase.words.lower().split()[-1:]
-    headless = phrase.kind == "pieces" and not phrase.said and (ends in (["one"], ["ones"]) or by in ("place", "other"))
-    opens = at > 0 and chunks[at - 1].kind in ("joint", "clause")
-    if not (headless and by and opens):
-        return None
-    listed = _neighbour(chunks, at, -1) if at < 3 or chunks[at - 3].kind != "rel" else None
-    if listed is not None and listed.kind == "object" and not listed.plural and str(how).endswith("er"):
-        # "a vase and two smaller ones"
-        return listed
-    before = [(n, one.phrase) for n, one in enumerate(chunks[:at]) if one.phrase and one.phrase.kind == "object"]
-    alike = [(n, one) for n, one in reversed(before) if _otherwise(one, by, how)]
-    for n, one in alike:
-        several = any(other.plural and not _told_by(other)[0] for m, other in before if m > n)
-        if _as_much(chunks, n, at) or not several:
-            return one
-    return None
-
-
-def _otherwise(one: Phrase, by: str, how: object) -> bool:
-    """Whether `one` is told in the manner of `by`, and otherwise than `how`."""
-    if by == "other":
-        return one.count == 1 and one.words.lower().split()[0] == "one"
-    return _told_by(one)[0] == by and _told_by(one)[1] != how
-
-
-def _as_much(chunks: Sequence[Chunk], one: int, other: int) -> bool:
-    """Whether the same kind of words follows chunks `one` and `other`: a verb, or "with" behind both."""
-    if max(one, other) + 1 >= len(chunks):
-        return False
-    ours, theirs = chunks[one + 1], chunks[other + 1]
-    if ours.link is not None and theirs.link is not None and ours.link == theirs.link:
-        return True
-    return all(piece.kind == "verb" or (piece.link is not None and piece.link.finite) for piece in (ours, theirs))
 
 
 def _headless(phrase: Phrase) -> bool:
@@ -266,16 +215,6 @@ def _owner(chunks: Sequence[Chunk], at: int) -> Phrase | None:
     if phrase is None or phrase.kind != "object" or phrase.plural or not ends_in_one:
         return None
     return phrase if phrase.modifiers.colours else None
-
-
-def _with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:
-    words = owner.said.split()
-    while len(words) > 1 and is_modifier(words[0]) and nouns.match(words[1:]):
-        words = words[1:]
-    found = nouns.match(words) if words != owner.said.split() else None
-    noun, said = (found.noun, found.said) if found else (owner.noun, owner.said)
-    plural = phrase.count is not None and phrase.count > 1
-    return replace(phrase, kind=owner.kind, noun=noun, said=said, head=owner.head, cycle=owner.cycle, plural=plural)
 
 
 def _towers(chunks: list[Chunk]) -> list[Chunk]:
