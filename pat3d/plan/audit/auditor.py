@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
@@ -203,6 +203,7 @@ class _Auditor(Compared):
             least = max(least, listed if listed > 1 else 0)
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
+            endless = endless or any(had_by_each(self, mention) for mention in mentions)
             members = [mention for mention in known if self._member(mention, mentions)]
             # "An apple in one and a pear in the other": one of each.
             endless = endless and not any(self.said.words[m.end : m.end + 2] in (["in", "one"], ["on", "one"]) and

@@ -150,6 +150,12 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
         if kind in kinds and parent in below and child in above:
             return True
+    had = [claim.end for claim in it.said.claims if claim.place in ("with", "holding")]
+    for one, other in pairwise(it.said.mentions):
+        # "The tray holds a cup and the plate a bun": the verb is left out.
+        gap = one.end == other.first and any(end <= one.first for end in had)
+        if gap and parent in _names(it, [one]) and child in _names(it, [other]):
+            return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
         before, behind = ([mention for mention in it.said.mentions if (mention.start < at) is first]
                           for first in (True, False))  # fmt: skip

@@ -113,6 +113,8 @@ FINITE = frozenset({
     "sat", "stood", "lay",
 })  # fmt: skip
 """Verbs that say where the subject of a clause is."""
+HAS = frozenset({"has", "have", "holds", "hold", "contains", "contain", "carries", "carry", "supports", "bears"})
+"""Verbs that say what the subject of a clause has."""
 POSED = FINITE | frozenset({
     "sitting", "standing", "lying", "resting", "placed", "located", "positioned", "situated", "set", "laid", "seated",
     "hanging", "leaning", "perched", "balanced", "displayed", "arranged", "just", "right", "directly", "also",

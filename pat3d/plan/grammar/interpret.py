@@ -11,6 +11,7 @@ from pat3d.plan.grammar.account import holds_already, learned, miscounted, words
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
+from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
@@ -318,11 +319,17 @@ class Interpreter(Placing):
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
-        several = self._said.speaks_of_each(child_heads) or self._said.speaks_of_each(parent_heads, carrying=True)
+        having = self._is_had(at, parent_heads)
+        of_all = self._said.speaks_of_each(parent_heads, carrying=True)
+        had = share(self._world, link, parents, children, all_of=of_all, having=having)
+        if had == "each" and (having or link.kind in SUPPORT_KINDS):
+            self._relating.relate(for_each(self._world, parents, children), link, parents)
+            return
+        several = self._said.speaks_of_each(child_heads) or (of_all and had != "together")
         one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
         if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
-        elif self._said.for_each(parent_heads, children, parents) or (
+        elif (had != "together" and self._said.for_each(parent_heads, children, parents)) or (
             several and len(children) < len(parents) and not set(children) & set(parents)
         ):
             whole_group = group.counted and len(group.items) == len(parents) and len(children) == 1
@@ -335,6 +342,14 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+
+    def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
+        """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
+        if not all(head in self._said.bound for head in parent_heads):
+            return False
+        owners = [inner for head in parent_heads for inner in self._said.bound[head]]
+        links = [chunk.link for chunk in self._chunks[max(owners) : at]]
+        return any(link is not None and link.finite and link.inverse for link in links)
 
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
@@ -395,14 +410,13 @@ class Interpreter(Placing):
             else:
                 self._relating.flanked(children, owners, sides)
             return
-        every = self._said.speaks_of_each(owner_heads) and not any(item.group.multiplied for item in children)
-        every = every and not any(phrase is not None and phrase.definite for _, phrase in ordered)
-        if (each and len(children) < len(owners)) or every:
-            multiply(world, children, len(owners))
+        had = share(world, link, owners, children, all_of=each, having=link.manner == "hold" or link.finite)
+        if had == "each":
+            for_each(world, owners, children)
             for head in things:
-                self._said.known[head] = [
-                    item for group in dict.fromkeys(i.group for i in self._said.ref(head)) for item in group.items
-                ]
+                self._said.known[head] = all_like(self._said.ref(head))
+        elif hand_out(self._relating, link, owners, children, had):
+            return
         for head in things:
             items = [item for item in self._said.ref(head) if item not in owners]
             if items:

@@ -24,6 +24,7 @@ from pat3d.plan.grammar.displaced import (
     stateless,
 )
 from pat3d.plan.grammar.enumerated import enumerated
+from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
@@ -67,7 +68,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
