@@ -122,6 +122,11 @@ def _table() -> dict[tuple[str, ...], Link]:
         for part in ("edge", "corner", "end", "rim", "border"):
             place = f"{near} the {part} of"
             add(Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge"), place)
+    whichever = ("each", "every", "each of the", "each of the four", "the", "the four", "all four", "all the",
+                 "all of the", "all four of the", "opposite", "two")  # fmt: skip
+    corners = (f"{near} {which} corner{'' if which in ('each', 'every') else 's'} of"
+               for near in ("at", "on", "in") for which in whichever)  # fmt: skip
+    add(Link(manner="edge", kind="on", says="in_corners"), *corners)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
