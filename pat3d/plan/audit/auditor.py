@@ -111,7 +111,7 @@ def _shapes(it: Compared) -> frozenset[str]:
     return (
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles"} if stacked else ())
+        | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat"} if lying else ())
     )

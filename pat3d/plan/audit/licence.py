@@ -67,9 +67,16 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
 def _stacked(words: Sequence[str]) -> bool:
     """Whether a word says that likes stand on one another, or something on one of which the noun is not said."""
     upon = (at for at, word in enumerate(words) if word in _UPON)
-    return bool(_STACKING & set(words)) or any(
-        _ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon
+    return (
+        bool(_STACKING & set(words))
+        or {"bottom", "top"} <= set(words)
+        or any(_ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon)
     )
+
+
+def _from_below(words: Sequence[str]) -> bool:
+    """Whether the sentence says who is at the bottom and who on top."""
+    return any(each <= set(words) for each in ({"bottom", "top"}, {"from", "top", "down"}, {"from", "bottom", "up"}))
 
 
 def _told_of(it: Compared, claim: Claim) -> set[str]:
@@ -132,7 +139,7 @@ def _flanked(it: Compared, rel: Relation) -> bool:
 def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
-    if inside or not {child, parent} <= named:
+    if inside or (kind == "on" and _from_below(it.said.words)) or not {child, parent} <= named:
         return True
     for claim in it.said.claims:
         below, above = _landmarks(it, claim), _said_of(it, claim)

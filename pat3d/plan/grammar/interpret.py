@@ -51,7 +51,8 @@ class Interpreter(Placing):
             if fact[0] == "extra":
                 where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
                 self._world.note(f'not modelled: "{where}"')
-                self._clause = replace(self._clause, manner="other")
+                if not self._ends_on_something(facts):
+                    self._clause = replace(self._clause, manner="other")
         self._said.bound = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
         clauses = {fact[2]: fact[1] for fact in facts if fact[0] == "subject"}
         self._said.clauses = {**clauses} or {0: reading.heads}
@@ -114,6 +115,13 @@ class Interpreter(Placing):
             self._relating.cost += self._loose()
         self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
+        """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
+        links = [self._chunks[fact[1]].link for fact in facts if fact[0] == "goal"]
+        return all(
+            link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
+        )
 
     def _form(self, at: int, heads: Sequence[int]) -> None:
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
@@ -197,7 +205,7 @@ class Interpreter(Placing):
                 phrase is not None
                 and phrase.determined
                 and not phrase.definite
-                and phrase.kind in ("object", "unknown")
+                and (phrase.kind in ("object", "unknown") or phrase.words.lower().startswith(("a ", "an ")))
                 and not phrase.superlative.size_word
                 for phrase in phrases
             )

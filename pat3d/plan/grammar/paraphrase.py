@@ -34,6 +34,7 @@ from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
+from pat3d.plan.grammar.towers import from_below, of_things
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _MIDDLES = ("centre", "center", "middle")
@@ -53,7 +54,23 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
-_MANY_COLOURED = frozenset({"different", "differently", "colored", "coloured", "colorful", "colourful"})
+_MANY_COLOURED = frozenset(
+    {
+        "rainbow-coloured",
+        "rainbow-colored",
+        "rainbow",
+        "multicolored",
+        "multicoloured",
+        "different",
+        "differently",
+        "colored",
+        "coloured",
+        "colorful",
+        "colourful",
+    }
+)
+_NUMBER_WORDS = {count: word for word, count in lexicon.NUMBERS.items() if count > 1 and word.isalpha()
+                 and word not in ("both", "pair", "couple", "trio", "dozen")}  # fmt: skip
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
@@ -63,7 +80,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = enumerated(text, tokens, nouns)
+    tokens = enumerated(text, of_things(from_below(tokens, nouns), nouns), nouns)
     tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
@@ -143,12 +160,18 @@ def _in_colours(tokens: Sequence[Token], colours: Sequence[Token], nouns: Nouns)
     """`tokens`, which end in "three boxes of different colors", as "three red, blue and green boxes"; else empty."""
     words = [token.text for token in tokens]
     end = len(words) - 3 if words[-3:-1] == ["of", "different"] else len(words)
-    size = next((n for n in (3, 2, 1) if n < end and nouns.match(words[end - n : end])), 0)
+    size = next((n for n in (3, 2, 1) if n <= end and nouns.match(words[end - n : end])), 0)
     first = end - size
-    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in ("differently", "different")):
+    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in _MANY_COLOURED):
         first -= 1
     number = words[first - 1] if first else ""
-    if not size or str(lexicon.NUMBERS.get(number, number)) != str(len(colours)):
+    told = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
+    alone = not first or tokens[first - 1].mark or number in ("the", "stack", "pile", "place", "put", "and", "with")
+    if size and not told and alone and singulars(words[end - 1]) and len(colours) in _NUMBER_WORDS:
+        # "blocks (red, blue, green)"
+        number_word = replace(tokens[end - size], text=_NUMBER_WORDS[len(colours)])
+        return _in_colours([*tokens[:first], number_word, *tokens[first:]], colours, nouns)
+    if not size or told != len(colours):
         return []
     listed = [token for colour in colours for token in (colour, replace(colour, text=",", mark=True))][:-1]
     kept = [token for token in tokens[first : end - size] if token.text not in _MANY_COLOURED]
