@@ -14,7 +14,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.commands import allowed
+from pat3d.plan.grammar.commands import allowed, with_articles
 from pat3d.plan.grammar.displaced import (
     absolute,
     asked,
@@ -60,7 +60,8 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
+    tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
+    tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
@@ -176,7 +177,8 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
             continue
         end = next(n for n in range(comma + 1, len(tokens)) if tokens[n].mark)
         named = tokens[comma + 1 : end]
-        if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
+        plain = (each.text == "of" or not link_at(named, n) for n, each in enumerate(named))
+        if all(plain) and not any(each.text in _FINITE or each.text == "and" for each in named):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
     return list(tokens)
 
