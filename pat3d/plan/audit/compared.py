@@ -12,7 +12,8 @@ from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import carriers_of
 
 _MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
-             "next_to": "next_to", "on": "under", "far_from": "far_from", "side_by_side": "side_by_side"}  # fmt: skip
+             "next_to": "next_to", "on": "under", "under": "over", "far_from": "far_from",
+             "side_by_side": "side_by_side"}  # fmt: skip
 _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
 """Notes that say how a thing is made, not that it is missing."""
 _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
@@ -22,7 +23,8 @@ _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left
 _ABSENT = re.compile(r"not (in the scene|understood|modelled|arranged): |.* is left out|.*(which|how many) is not said")
 _QUOTED = re.compile(r'"([^"]*)"')
 KINDS: dict[Place, frozenset[str]] = {
-    "on": frozenset({"on", "in", "hangs_from", "across", "at_edge", "in_corner", "in_middle", "leaning_against"}),
+    "on": frozenset({"on", "in", "over", "hangs_from", "across", "at_edge", "in_corner", "in_middle",
+                     "leaning_against"}),
     "on top": frozenset({"on", "across", "in_middle"}),
     "in": frozenset({"in", "on", "in_corner", "in_middle"}),
     "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
@@ -33,7 +35,7 @@ KINDS: dict[Place, frozenset[str]] = {
     "front": frozenset({"in_front_of"}),
     "behind": frozenset({"behind"}),
     "under": frozenset({"under"}),
-    "above": frozenset({"on", "above"}),
+    "above": frozenset({"on", "over", "above"}),
     "between": frozenset({"between", "right_of", "left_of", "in_front_of", "behind"}),
     "around": frozenset({"around", "circle"}),
     "far": frozenset({"far_from"}),

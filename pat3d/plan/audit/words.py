@@ -166,7 +166,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "hanging": ("hanging from", "hangs from", "hang from", "hanging on", "hangs on", "suspended from", "hung from"),
         "holding": ("holding", "holds", "hold", "contains", "containing", "contain", "carries", "carry", "carrying",
                     "supports", "supporting", "wearing", "wears", "bearing", "bears", "filled with",
-                    "full of", "topped with", "topped by", "occupied by"),
+                    "full of", "topped with", "topped by", "covered by", "occupied by"),
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
@@ -208,7 +208,7 @@ upper topmost leftmost rightmost lower pieces piece very quite just really only 
 like want see imagine show create make build
 """
 _POSTURES = """
-hidden else
+hidden else cover
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 served scattered spread kept stored wedged tucked

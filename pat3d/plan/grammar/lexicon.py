@@ -276,6 +276,10 @@ STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage b
 OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley")  # fmt: skip
 """What stands on legs, so that things can stand below it."""
+COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler", "teacup", "basket", "bucket", "pot",
+    "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
+    "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
+"""Vessels that, upside down, stand around what they cover."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")

@@ -32,7 +32,8 @@ class Link:
     side: Side | None = None
     """For manner "half": which part of the parent."""
     said: str = ""
-    """For manner "than": the comparison, as written; for "half" words that may as well mean beside it."""
+    """For manner "than": the comparison, as written; for "half" words that may as well mean beside it; "over" where
+    something may be put over it."""
     says: ArrangementKind | None = None
     """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
 
@@ -54,8 +55,9 @@ def _table() -> dict[tuple[str, ...], Link]:
 
     add(
         Link(kind="on"),
-        "on", "atop", "atop of", "on top of", "on top", "upon", "over", "on to", "on the top of", "up on",
+        "on", "atop", "atop of", "on top of", "on top", "upon", "on to", "on the top of", "up on",
     )  # fmt: skip
+    add(Link(kind="on", said="over"), "over")
     add(Link(kind="on", says="above"), "above")
     add(Link(kind="in"), "in", "inside", "within", "in the inside of")
     add(
@@ -158,6 +160,7 @@ def _table() -> dict[tuple[str, ...], Link]:
         "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
         "stacked with", "dotted with", "piled with", "piled high with", "heaped with", "heaped high with",
         "stacked high with", "loaded high with", "littered with", "scattered with", "laid with")  # fmt: skip
+    add(Link(manner="with", kind="on", said="over"), "covered by")
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip

@@ -145,6 +145,8 @@ class World:
         self.laterals: list[Edge] = []
         self.sided: list[Sided] = []
         self.arranged: list[Arranged] = []
+        self.over: list[tuple[Item, Item]] = []
+        """What is said to be over or to cover what, which a vessel turned over does around it."""
         self.steps: list[Step] = []
         """What an instruction asks for."""
         self.aside: list[str] = []
