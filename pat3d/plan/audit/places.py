@@ -187,7 +187,9 @@ def insides(it: Compared) -> Iterator[tuple[int, str]]:
     words = it.said.words
     for at, word in enumerate(words):
         led = {"in", "inside", "into", "from", "out", "within"} & set(words[max(at - 4, 0) : at])
-        holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(words[at + 1 : at + 5])
+        holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(
+            words[at + 1 : at + 5]
+        )
         if not {word, *singulars(word)} & CLOSED or not (led or holds):
             continue
         of = {obj.name for obj in it.plan.objects if word in (*obj.phrase.lower().split(), *obj.name.split())}

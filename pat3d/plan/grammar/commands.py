@@ -22,7 +22,9 @@ _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull",
 _TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
 _PUTTING = frozenset({"put", "place", "set", "lay", "hang", "bring", "move", "take", "drop", "stack"})
 _SIDES = frozenset({"left", "right", "top", "bottom", "middle", "upper", "lower"})
-_LEADING = frozenset({"in", "into", "on", "onto", "to", "from", "and", "under", "behind", "pick", "grab", "grasp", "open"})
+_LEADING = frozenset(
+    {"in", "into", "on", "onto", "to", "from", "and", "under", "behind", "pick", "grab", "grasp", "open"}
+)
 _NO_THINGS = lexicon.PARTS - {"shelf", "drawer", "door", "compartment"}
 _TURNING = frozenset({"turn", "rotate", "spin", "twist", "tilt", "roll", "flip", "swivel"})
 _WAYS = frozenset({"clockwise", "counterclockwise", "anticlockwise"})
@@ -38,13 +40,18 @@ def commanded(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _put_back(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the cup back on the tray" as "put the cup on the tray"."""
+    """`tokens` with "put the cup back on the tray" as "put the cup onto the tray"."""
     made: list[Token] = []
+    dropped = False
     for at, token in enumerate(tokens):
         back = token.text == "back" and any(each.text in _PUTTING for each in made) and not link_at(tokens, at)
         behind = back and made[-1].text not in (*lexicon.DETERMINERS, *lexicon.POSSESSIVES, "in", "at", "on")
-        if not (behind and (link_at(tokens, at + 1) or tokens[at + 1].mark)):
-            made.append(token)
+        if behind and (link_at(tokens, at + 1) or tokens[at + 1].mark):
+            dropped = True
+            continue
+        plain = dropped and token.text in ("on", "in") and link_at(tokens, at) == 1
+        made.append(replace(token, text=f"{token.text}to") if plain else token)
+        dropped = False
     return made
 
 
@@ -86,9 +93,7 @@ def with_articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
-def end_state(
-    body: list[Token], verb: str, manner: str | None
-) -> tuple[list[Token], Token | None]:
+def end_state(body: list[Token], verb: str, manner: str | None) -> tuple[list[Token], Token | None]:
     """`body` of an instruction without how the thing is to be turned, and the words for that where a task is left.
 
     Before "turn the bottle on its side" it stands, and "put the mug upside down on the tray" finds it upright. What is

@@ -170,6 +170,15 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
     words = [token.text for token in tokens]
+    for at in range(1, len(words) - 6):
+        comma = at + 2 + link_at(tokens, at + 1) if words[at] == "and" else at
+        second = next((n for n in range(comma + 3, len(words) - 2) if tokens[n].mark), 0)
+        on_it = words[comma] == "," and words[comma - 1] in ("it", "them") and link_at(tokens, comma + 1)
+        if on_it and second and words[second] == "," and words[second + 1] in ("a", "an", "the"):
+            # "and on it, next to a lamp, a clock": on it a clock next to a lamp
+            end = next(n for n in range(second + 1, len(words)) if tokens[n].mark)
+            if not any(link_at(tokens, n) for n in range(second + 1, end)):
+                return [*tokens[:comma], *tokens[second + 1 : end], *tokens[comma + 1 : second], *tokens[end:]]
     for at in range(1, len(words) - 4):
         size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
         comma = at + 3 + size

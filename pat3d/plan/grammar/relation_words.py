@@ -12,7 +12,9 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
-_PRINTED = frozenset({"printed", "engraved", "embroidered", "etched", "inscribed", "embossed", "patterned", "emblazoned"})
+_PRINTED = frozenset(
+    {"printed", "engraved", "embroidered", "etched", "inscribed", "embossed", "patterned", "emblazoned"}
+)
 _ORNATE = frozenset({"decorated", "adorned"})
 _GARNISHED = ("cake", "cupcake", "pie", "pizza", "pancake", "waffle", "tree", "bread", "salad", "ice cream")
 """What is decorated by what lies or hangs on it, besides furniture."""

@@ -14,7 +14,16 @@ _MIDDLES = frozenset({"middle", "center", "centre"})
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
 """What may follow a place that nothing is said of, beside marks."""
-_OTHERS = (("the", "other"), ("the", "opposite"), ("the", "far"), ("the", "next"), ("a", "second"), ("the", "second"), ("a", "third"), ("the", "third"))
+_OTHERS = (
+    ("the", "other"),
+    ("the", "opposite"),
+    ("the", "far"),
+    ("the", "next"),
+    ("a", "second"),
+    ("the", "second"),
+    ("a", "third"),
+    ("the", "third"),
+)
 
 
 def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -44,7 +53,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _other_places(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a cup in one corner and a pen in the opposite one" as "a cup in the corner and a pen in the corner".
+    """`tokens` with "a cup in one corner, a pen in another" as "a cup in the corner, a pen in the corner".
 
     What stands in one corner leaves the others, so they need not be told apart; of ends there are two.
     """
