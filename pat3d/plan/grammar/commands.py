@@ -8,115 +8,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar import lexicon, postures
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.links import LINKS
-from pat3d.plan.grammar.measures import is_measure
-from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.outcomes import TAKING, brought, put_back
 from pat3d.plan.grammar.unmade import base_verb
-from pat3d.plan.grammar.vocabulary import Nouns
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
-_TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
-_PUTTING = frozenset({"put", "place", "set", "lay", "hang", "bring", "move", "take", "drop", "stack"})
-_SIDES = frozenset({"left", "right", "top", "bottom", "middle", "upper", "lower"})
-_LEADING = frozenset(
-    {"in", "into", "on", "onto", "to", "from", "and", "under", "behind", "pick", "grab", "grasp", "open"}
-)
-_NO_THINGS = lexicon.PARTS - {"shelf", "drawer", "door", "compartment"}
-_TURNING = frozenset({"turn", "rotate", "spin", "twist", "tilt", "roll", "flip", "swivel"})
-_WAYS = frozenset({"clockwise", "counterclockwise", "anticlockwise"})
-_BEFORE = ("lying", "lies", "lie", "laid", "turned", "tipped", "toppled", "knocked", "overturned", "flipped", "facing",
-           "tilted", "slanted", "rotated", "leaning", "inverted")  # fmt: skip
-"""Beginnings of postures that say how a thing is already."""
-_FORBIDDING = (("do", "not"), ("don't",), ("never",))
+_FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
+               ("don't",), ("never",))  # fmt: skip
+_STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck"})
+_PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
+_SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
+_HANDING = (["give"], ["hand"], ["pass"])
+_SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
+_PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
+_RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "operator"}
 
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    return _handed(_fronted(_sideways(_ordered(_brought(_put_back(tokens))))))
-
-
-def _put_back(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the cup back on the tray" as "put the cup onto the tray"."""
-    made: list[Token] = []
-    dropped = False
-    for at, token in enumerate(tokens):
-        back = token.text == "back" and any(each.text in _PUTTING for each in made) and not link_at(tokens, at)
-        behind = back and made[-1].text not in (*lexicon.DETERMINERS, *lexicon.POSSESSIVES, "in", "at", "on")
-        if behind and (link_at(tokens, at + 1) or tokens[at + 1].mark):
-            dropped = True
-            continue
-        plain = dropped and token.text in ("on", "in") and link_at(tokens, at) == 1
-        made.append(replace(token, text=f"{token.text}to") if plain else token)
-        dropped = False
-    return made
-
-
-def _brought(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "take the egg out of the pot and onto the plate" as "move the egg ...": it ends on the plate."""
-    words = [token.text for token in tokens]
-    if words[0] == "take" and words[1] in (*lexicon.DETERMINERS, "it", "them"):
-        # "Take the cup to the table"
-        end = next(n for n in range(len(words)) if tokens[n].mark or words[n] == "and")
-        links = [n for n in range(2, end) if link_at(tokens, n)]
-        if links and _leads_to(tokens, links[0]):
-            return [replace(tokens[0], text="move"), *tokens[1:]]
-    for joint in (n for n in range(3, len(words) - 2) if words[n] in ("and", "then") and _leads_to(tokens, n + 1)):
-        begin = max((n for n in range(joint) if words[n] in _TAKING), default=-1)
-        from_there = any(
-            (link := LINKS.get(tuple(words[n : n + link_at(tokens, n)]))) is not None and link.manner == "source"
-            for n in range(begin + 1, joint)
-        )
-        if begin >= 0 and from_there:
-            body = [token for token in tokens[begin + 1 : joint] if token.text != "up"]
-            return [*tokens[:begin], replace(tokens[begin], text="move"), *body, *tokens[joint:]]
-    return list(tokens)
-
-
-def _leads_to(tokens: Sequence[Token], at: int) -> bool:
-    link = LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
-    return link is not None and link.manner == "goal"
-
-
-def with_articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "put red block in left bowl" as "put red block in the left bowl": one of several."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        before, follower = (tokens[at - 1].text if at else ""), tokens[min(at + 1, len(tokens) - 1)].text
-        bare = token.text in _SIDES and nouns.match([follower]) and (before in _LEADING or before in _PUTTING)
-        if bare and not nouns.match([token.text, follower]) and follower not in _NO_THINGS:
-            made.append(replace(token, text="the"))
-        made.append(token)
-    return made
-
-
-def end_state(body: list[Token], verb: str, manner: str | None) -> tuple[list[Token], Token | None]:
-    """`body` of an instruction without how the thing is to be turned, and the words for that where a task is left.
-
-    Before "turn the bottle on its side" it stands, and "put the mug upside down on the tray" finds it upright. What is
-    made by "put a mug upside down on a tray" is so, and "the bottle lying on its side" lies before.
-    """
-    words = [token.text for token in body]
-    made_up = words[:1] and (words[0] in ("a", "an", "some") or words[0] in lexicon.NUMBERS or words[0].isdecimal())
-    if verb in _TURNING and manner == "other":
-        amount = (n for n in range(2, len(body)) if words[n] in _WAYS or is_measure(words[n]) or
-                  (words[n : n + 2] == ["to", "the"] and words[n + 2 :] in (["left"], ["right"])))  # fmt: skip
-        end = next(amount, len(body))
-        body = body[: end - (words[end - 1] == "by")]
-    if manner not in ("make", "move", "other", "stack") or (made_up and manner != "other"):
-        return body, None
-    for at in range(1, len(body)):
-        said = postures.read_posture(words[at]) if postures.is_posture(words[at]) else ""
-        before = words[at - 1]
-        told = before in lexicon.COPULAS | lexicon.DETERMINERS | lexicon.POSSESSIVES or is_modifier(before)
-        if said and not told and not said.startswith(_BEFORE):
-            rest = [*body[:at], *body[at + 1 :]]
-            goes = manner != "other" and any(link_at(rest, n) for n in range(1, len(rest)))
-            return rest, body[at] if goes else None
-    return body, None
+    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(brought(put_back(tokens)))))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -124,7 +37,7 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
     made: list[Token] = []
     at = 0
     while at < len(tokens):
-        words = [token.text for token in tokens[at : at + 4]]
+        words = [token.text for token in tokens[at : at + 6]]
         opens = not made or made[-1].text in (".", ",", "and", "but", "please")
         size = next((len(no) for no in _FORBIDDING if tuple(words[: len(no)]) == no), 0) if opens else 0
         if size and base_verb(words[size]) == words[size] and len(words) > size + 1:
@@ -136,9 +49,60 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "swap the positions of the cup and the can" as "swap the cup and the can", "trade places" too."""
+    words = [token.text for token in tokens]
+    verb = next((at for at, word in enumerate(words[:-2]) if word in _SWAPPING), None)
+    if verb is None:
+        return tokens
+    place = next((at for at in range(verb + 1, min(verb + 4, len(words))) if words[at] in _PLACES), 0)
+    if place and words[place + 1] in ("of", "between"):
+        return [*tokens[: verb + 1], *tokens[place + 2 :]]
+    if place and tokens[place + 1].mark and verb > 2 and "and" in words[:verb]:
+        # "Have the cup and the can trade places."
+        first = 1 if words[0] in ("have", "let", "make") else 0
+        asked = replace(tokens[verb], start=tokens[0].start, end=tokens[0].end)
+        last = replace(tokens[verb - 1], end=tokens[place].end)
+        return [asked, *tokens[first : verb - 1], last, *tokens[place + 1 :]]
+    return tokens
+
+
+def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf", "lay out" as "lay"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3):
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        follower = words[at + 2] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.POSSESSIVES
+        if led and follower and words[at] in ("lay", "set", "spread") and words[at + 1] == "out":
+            return [*tokens[: at + 1], *tokens[at + 2 :]]
+        if not (led and follower and words[at : at + 2] == ["line", "up"]):
+            continue
+        end = next(n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n))
+        row = [replace(tokens[at + n // 2], text=word) for n, word in enumerate(("in", "a", "row"))]
+        return [*tokens[:at], replace(tokens[at], text="arrange"), *tokens[at + 2 : end], *row, *tokens[end:]]
+    return tokens
+
+
+def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "push and close the drawer" as "close the drawer", of which both are said."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4):
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        both = all(base_verb(word) == word for word in (words[at], words[at + 2])) and words[at + 1] == "and"
+        taken = words[at + 3] in ("up", "out")
+        follower = words[at + 3 + taken] if at + 3 + taken < len(words) else "."
+        if led and both and (follower in lexicon.DETERMINERS | lexicon.POSSESSIVES):
+            return [*tokens[:at], replace(tokens[at + 2], start=tokens[at].start), *tokens[at + 3 :]]
+    return tokens
+
+
 def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
     words = [token.text for token in tokens]
+    belongs = next((at for at in range(2, len(words) - 3) if words[at] in ("belongs", "belong")), 0)
+    if belongs and words[0] in ("that", "this", "these", "those") and link_at(tokens, belongs + 1):
+        # "That cup belongs on the shelf."
+        return [replace(tokens[0], text="put"), *tokens[:belongs], *tokens[belongs + 1 :]]
     for at in range(1, len(words) - 3):
         asks = words[at] in ("should", "must", "shall")
         asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
@@ -166,7 +130,7 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
     if words[0] not in ("in", "on", "from", "inside", "at") or words[1] not in lexicon.DETERMINERS:
         return tokens
     mark = next(n for n in range(len(tokens)) if tokens[n].mark)
-    verb = next((n for n in range(3, mark - 1) if words[n] in _TAKING), 0)
+    verb = next((n for n in range(3, mark - 1) if words[n] in TAKING), 0)
     if not verb or words[verb + 1] not in lexicon.DETERMINERS or lexicon.COPULAS & set(words[:verb]):
         return tokens
     return [*tokens[verb:mark], *tokens[:verb], *tokens[mark:]]
@@ -175,9 +139,23 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
 def _handed(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "hand me the cup" as "fetch the cup", and "make sure" as "ensure"."""
     made: list[Token] = []
+    told = {token.text for token in tokens}
     given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
+        if token.text == "away" and told & _STOWING and follower in _PLACING:
+            continue
+        sorted_by = "sort" in told and any(each.text == "into" for each in made)
+        if sorted_by and (
+            (token.text == "by" and follower in _SORTS) or (token.text in _SORTS and tokens[at - 1].text == "by")
+        ):
+            continue
+        given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING
+        if given_to and follower in lexicon.DETERMINERS:
+            # "Give the robot the cup"
+            made.pop()
+            made[-1] = replace(made[-1], text="fetch")
+            continue
         if token.text in ("me", "us") and before in _GIVING:
             made[-1] = replace(made[-1], text="fetch")
             continue

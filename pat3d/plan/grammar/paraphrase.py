@@ -14,7 +14,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.amounts import counted
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.commands import allowed, with_articles
+from pat3d.plan.grammar.commands import allowed
 from pat3d.plan.grammar.displaced import (
     absolute,
     asked,
@@ -28,6 +28,7 @@ from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
+from pat3d.plan.grammar.outcomes import with_articles
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
@@ -43,6 +44,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 }
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
+_STANDING = frozenset({"stand", "sit", "lie", "hang", "rest", "lean"})
 _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
@@ -321,7 +323,7 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
-        if token.text in _MODALS and follower == "be":
+        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and before not in (".", ","))):
             continue
         if token.text == "'s" and before not in plain and not nouns.match([before]):
             kept.pop()
