@@ -87,8 +87,9 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
          "the instruction is several tasks, of which the environment has one at a time: place:red cube:crate 1, "
          "place:blue cube:crate 2."),
         ("Empty the crate.", '"the crate": what is in it is not said; it is made empty.'),
-        ("Line the two jars up on the bench.",
-         'not modelled: "line": a task asks where each thing is put, not how they stand together.'),
+        ("Line the two jars up on the bench.", 'not modelled: "in a row" in what is to be done'),
+        ("Scatter the two jars on the bench.",
+         'not modelled: "scatter": a task asks where each thing is put, not how they stand together.'),
         ("Take one lemon from each of the two baskets.",
          'not modelled: "Take one lemon from each of the two baskets": no task does that.'),
         ("The drawer holds two socks.", 'not arranged: "sock 1" inside "drawer"; it is placed on it'),

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.outcomes import TAKING, brought, put_back
+from pat3d.plan.grammar.outcomes import TAKING, brought, put_back, together
 from pat3d.plan.grammar.unmade import base_verb
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
@@ -29,7 +29,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(brought(put_back(tokens)))))))))
+    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(brought(put_back(together(tokens))))))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:

@@ -60,7 +60,7 @@ _ASKING = (
     ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
     ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
-_FORMING = frozenset({"line", "pile", "cluster", "scatter", "spread"})
+_FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
 SHUTTING = frozenset({"open", "close", "shut"})
 """Verbs of doors, drawers and lids."""
