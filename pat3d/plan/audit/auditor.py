@@ -21,6 +21,7 @@ from pat3d.plan.audit.places import (
     insides,
     middles,
     on_the_other,
+    opposite,
     others,
     parts,
     shared_out,
@@ -114,6 +115,7 @@ def _shapes(it: Compared) -> frozenset[str]:
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat"} if lying else ())
+        | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())
     )
 
 
@@ -154,6 +156,7 @@ class _Auditor(Compared):
         ]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
+        made += opposite(self)
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
                 made.append((claim.at, note))

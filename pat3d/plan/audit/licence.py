@@ -28,6 +28,8 @@ _WITHIN = 4
 """Words from a relation word to the like without a noun that it leads to."""
 _FEATURING = frozenset({"decorated", "including", "includes", "features", "featuring"})
 """Words by which what is first named has all that follows."""
+_PLACES = ("in_corner", "at_edge")
+"""Places on something, which only words for them give."""
 _SO = frozenset({"is", "are", "does", "do", "was", "were"})
 _HEADLESS_INSIDE = re.compile(
     r"\b(in|inside|into|within|contains?|containing|holds?|holding) ((?!and\b)[a-z]+ ){0,3}"
@@ -163,6 +165,8 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         gap = one.end == other.first and any(end <= one.first for end in had)
         if gap and parent in _names(it, [one]) and child in _names(it, [other]):
             return True
+    if any(one.kind in _PLACES and child in one.objects and parent in one.of for one in it.plan.arrangements):
+        return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
         before, behind = ([mention for mention in it.said.mentions if (mention.start < at) is first]
                           for first in (True, False))  # fmt: skip

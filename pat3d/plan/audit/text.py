@@ -154,7 +154,13 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     while at < len(words):
         for size in range(min(_LONGEST_NAME, len(words) - at), 0, -1):
             whole = words[at : at + size]
-            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (["of"], ["made"], ["built"])
+            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (
+                ["of"],
+                ["made"],
+                ["built"],
+                ["with"],
+                ["from"],
+            )
             if size == 1 and (whole[0] in UNSURE or whole[0] in SHADES or formed):
                 continue
             name = find(" ".join(whole))

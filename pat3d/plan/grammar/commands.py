@@ -11,11 +11,11 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.outcomes import TAKING, brought, put_back, together
 from pat3d.plan.grammar.unmade import base_verb
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
-_TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
 _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck"})
@@ -29,7 +29,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(tokens)))))))
+    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(brought(put_back(together(tokens))))))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -130,7 +130,7 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
     if words[0] not in ("in", "on", "from", "inside", "at") or words[1] not in lexicon.DETERMINERS:
         return tokens
     mark = next(n for n in range(len(tokens)) if tokens[n].mark)
-    verb = next((n for n in range(3, mark - 1) if words[n] in _TAKING), 0)
+    verb = next((n for n in range(3, mark - 1) if words[n] in TAKING), 0)
     if not verb or words[verb + 1] not in lexicon.DETERMINERS or lexicon.COPULAS & set(words[:verb]):
         return tokens
     return [*tokens[verb:mark], *tokens[:verb], *tokens[mark:]]

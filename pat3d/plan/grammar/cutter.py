@@ -375,7 +375,7 @@ class Cutter(Asides):
         size = 0
         while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
             if token.text in ("and", "or"):
-                if not is_modifier(self._word(size + 1)):
+                if not is_modifier(self._word(size + 1)) or link_at(self._tokens, self._at + size + 1):
                     break
             elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
                 break

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
@@ -15,6 +16,7 @@ from pat3d.plan.grammar.commands import commanded
 from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Item, Manner, Step, World
@@ -59,6 +61,10 @@ _ASKING = (
     ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
     ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
+_FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
+"""Verbs of placing that say how several things stand together."""
+SHUTTING = frozenset({"open", "close", "shut"})
+"""Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
 _PARTICLES = frozenset({"up", "down", "away", "back", "out", "over", "off", "on", "close"})
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
@@ -131,9 +137,11 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             # "Leave the mug on the table and move the plate": the mug is there.
             made.append(Clause(tokens=(*left_alone(body), stop)))
             continue
+        manner = _VERBS.get(word, "other")
+        body, turned = end_state(body, word, manner)
+        aside = (*aside, *((text[turned.start : turned.end],) if turned is not None else ()))
         begun = max(start, 0)
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
-        manner = _VERBS.get(word, "other")
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
 
@@ -304,6 +312,7 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     specs: list[str] = []
     for step in wanted:
         made = _specs(step, world, names)
+        notes += _unsaid(step, world)
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
@@ -312,6 +321,19 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
         return None, notes
     return (specs[0] if specs else None), notes
+
+
+def _unsaid(step: Step, world: World) -> list[str]:
+    """What `step` asks beyond its task, and what it leaves open."""
+    notes: list[str] = []
+    verb = next((word for word in step.said.lower().split() if _base(word) in _VERBS), "")
+    if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
+        named = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in step.items))
+        if not any(item in world.supports for item in step.items):
+            notes.append(f"{named}: what is in it is not said; it is made empty.")
+    if verb in _FORMING and step.manner == "make":
+        notes.append(f'not modelled: "{verb}": a task asks where each thing is put, not how they stand together.')
+    return notes
 
 
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
@@ -347,4 +369,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"
     moved = [item for item in items if item is not goal and world.support(item) is not goal]
+    if step.manner == "stack" and step.link.kind == "on":
+        # "Stack the three cubes on the tray": the second on the first.
+        upper = [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(moved)]
+        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + upper
     return [f"{kind}:{names[item]}:{names[goal]}" for item in moved]

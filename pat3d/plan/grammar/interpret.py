@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
 from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
-from pat3d.plan.grammar.instructions import Clause
+from pat3d.plan.grammar.instructions import SHUTTING, Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
@@ -25,6 +25,8 @@ _UNHEARD = 0.8
 """What a reading costs in which nothing is said of so many of them."""
 _COUNTING = ("rows", "stacks", "stack", "tower")
 """Forms that may say how many there are, and so are read before all relations."""
+_SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift", "roll", "sweep"})
+"""Verbs that leave a thing on what it is on."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -196,6 +198,9 @@ class Interpreter(Placing):
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         if not parent_heads:
             parents = [item for item in before if item not in children]
+            if link.kind == "in" and children and parents:
+                # "Take the lid off the pot and put an egg inside": inside the pot.
+                parents = self._that_holds(children[0], parents)
         phrases = [self._chunks[head].phrase for head in child_heads]
         taken = any(chunk.link is not None and chunk.link.manner == "source" for chunk in self._chunks)
         made_up = (
@@ -234,10 +239,23 @@ class Interpreter(Placing):
             link = Link(kind="hangs_from")
         if link.manner == "half" and link.side != "centre":
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
+        ends = any(phrase.part in _ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
+        level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
+        if self._clause.verb in _SLIDING and level and (ends or link.says == "across"):
+            # "Slide the plate to the edge of the table": it is on the table.
+            children = [item for item in children if not self._world.on_floor(item)]
+            if children and all(self._world.support(item) is None for item in children):
+                self._relating.relate(children, Link(kind="on"), parents[:1])
+            self._clause = replace(self._clause, manner="other")
         self._step(children, link, parents)
 
     def _done(self, heads: Sequence[int]) -> None:
         children = self._said.refs_of(heads)
+        if self._clause.verb in SHUTTING and [self._chunks[head].text.lower() for head in heads] == ["it"]:
+            # "Get the spoon from the drawer and close it": the drawer.
+            likely, world = self._world.likely, self._world
+            below = [world.support(item) for item in children]
+            children = [item for item in below if item is not None and likely.closet(world.noun(item))] or children
         out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
         if out and children and all(self._world.support(item) is None for item in children):
             named = f'"{children[0].group.words}"'
@@ -254,6 +272,9 @@ class Interpreter(Placing):
         manner = self._clause.manner
         if manner is None:
             raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
+        if manner == "pick" and len(children) == 1 and children[0].group.multiplied:
+            # "Take one apple from each of two bowls"
+            children = list(children[0].group.items)
         self._world.steps.append(
             Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
         )
@@ -350,6 +371,7 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+        self._landmarks[at] = self._relating.landmark
 
     def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
         """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""

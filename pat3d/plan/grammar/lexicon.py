@@ -138,8 +138,8 @@ DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"}
 COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful",
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
-    "kinds", "types", "bit"})  # fmt: skip
-ROWS = frozenset({"row", "line", "series"})
+    "kinds", "types", "bit", "series"})  # fmt: skip
+ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""

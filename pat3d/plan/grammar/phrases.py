@@ -326,7 +326,7 @@ class PhraseReader:
         if head in lexicon.PICTURES:
             return None
         rows = any(word in lexicon.ROWS for word in singular)
-        if rows and plural and head != "series":
+        if rows and plural:
             number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
             return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip

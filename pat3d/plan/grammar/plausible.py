@@ -96,11 +96,11 @@ class Plausible:
             if child != parent and self.is_a(parent, lexicon.BOWLS):
                 return 1.3 if self._vessel(child) or self.is_a(child, lexicon.LEVEL, lexicon.NOT_ON_DISH) else 0.0
             return 0.0
-        if self.closet(parent):
+        if self.closet(parent) or self.is_a(parent, tuple(lexicon.OPENED)):
             return 0.3
         if self.level(parent):
             return 0.5 + self.on(child, parent)
-        return 1.7
+        return 2.0 if self.level(child) else 1.7
 
     def beside(self, child: str, parent: str) -> float:
         """Of the two standing next to each other."""

@@ -238,6 +238,12 @@ class References(Contrast):
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
+        if phrase.words.lower().startswith("both ") and (pair := self._listed_before(at)):
+            # "A mug and a cup, both red"
+            self.all.add(at)
+            for item in pair:
+                tell(item, words)
+            return pair
         if phrase.head == "each":
             self.each.add(at)
             plural = self._plural_before(at)

@@ -175,6 +175,7 @@ class Grammar(Goals):
             kind == "link"
             and (self._link(at).manner == "of" or self._link(at).filling)
             and not modifier.flags & {"finite", "which"}
+            and not (modifier.cat == "CM" and "finite" in named.flags)
             and named.heads != (at - 1,)
         ):
             # "a bowl of oranges": of what stands directly before.
@@ -340,6 +341,10 @@ class Grammar(Goals):
         if whole is None:
             return None
         first = modifier.heads[:1] if link is not None else ()
+        if link is not None and link.kind in SUPPORT_KINDS and len(named.heads) > 1:
+            # "On the bench are a vise, a drill and six screws in a dish": the bench carries the vise.
+            inner = (f for f in named.facts if f[0] == "rel" and f[2] == named.heads)
+            cost += 0.25 * any(self._link(f[1]).kind in SUPPORT_KINDS for f in inner)
         facts = (*whole.facts, ("subject", named.heads, modifier.start), *((("front", first),) if first else ()))
         if named.cat == "CL" and not named.joints.startswith(":"):
             facts = (*facts, ("comma front", modifier.start))
