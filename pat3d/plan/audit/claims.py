@@ -62,12 +62,19 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
     near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
     child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
     child |= {obj.name for mention in _before(it, claim.at)[-1:] if mention.end == claim.at for obj in it.of(mention)}
+    # "A cup and a bowl are on a table. A spoon is between them."
+    near |= {obj.name for mention in _before(it, claim.at) if mention.part < claim.part for obj in it.of(mention)}
     return set(names) <= near and not set(names) & child
 
 
 def _opens(it: Compared, claim: Claim) -> bool:
     """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
-    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+    words = it.said.words
+    if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
+        return True
+    # "On the desk next to the laptop is a mug"
+    ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
+    return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:

@@ -80,6 +80,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)
     if leading is None:
         return listed(it, near), finite
+    if not finite and (leading.at == 0 or words[leading.at - 1] in (".", ";", "!", "?")):
+        # "On the desk next to the clock is a mug": of the desk, or of the mug.
+        return [], False
     before, _ = said_of(it, leading)
     # "A cup on a saucer on a table": of the saucer, or of the cup; of the cup where a verb stands between.
     return (before, False) if finite else ([near, *before], False)

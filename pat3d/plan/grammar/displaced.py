@@ -252,8 +252,20 @@ def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def fronted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
+    tokens = _places_ahead(tokens)
     verb = next((n for n, token in enumerate(tokens) if token.text in ("is", "are")), 0)
     if verb < 3 or tokens[0].text not in ("stacked", "piled") or not link_at(tokens, 1):
         return list(tokens)
     end = next(n for n in range(verb, len(tokens)) if tokens[n].mark)
     return [*tokens[1:end], replace(tokens[0], text="stacked"), *tokens[end:]]
+
+
+def _places_ahead(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "on the desk, next to the clock, is a cup" as "on the desk, next to the clock is a cup"."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, 0)
+    verb = next((n for n, word in enumerate(words) if word in _FINITE or word == "there"), 0)
+    first = words.index(",") if "," in words else 0
+    if size and size < first < verb - 2 and words[verb - 1] == "," and link_at(tokens, first + 1):
+        return [*tokens[: verb - 1], *tokens[verb:]]
+    return tokens

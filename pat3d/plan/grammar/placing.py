@@ -323,6 +323,12 @@ class Placing:
         for group in groups:
             if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
                 group.height = len(group.items)
+                first = self._world.supports.get(group.items[0])
+                for item in group.items[1:]:
+                    # "Two crates are on a cart. They are stacked.": of the two only the lowest is on it.
+                    edge = self._world.supports.get(item)
+                    if first is not None and edge is not None and edge.parent is first.parent:
+                        del self._world.supports[item]
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
                 self._world.place(upper.items, "on", lower.items)

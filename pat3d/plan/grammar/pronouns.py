@@ -87,7 +87,9 @@ class Pronouns:
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
         before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
-        before += [self._world.subject]
+        groups = {item.group for item in other}
+        together = [item for item in self._world.together if item.group not in groups]
+        before += [together if plural and len(together) > 1 else self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
             together = [item for each in reversed(before) for item in each if item not in other]
@@ -133,8 +135,8 @@ class Pronouns:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
             # A stack is "it".
-            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
-                cost += 0.4
+            if plural != (len(self._world.bases(items)) > 1):
+                cost += 0.7 if plural else 0.4
             if not plural and other and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box.
                 cost += 0.6

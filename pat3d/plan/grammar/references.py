@@ -192,6 +192,10 @@ class References(Contrast):
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             return single[0] if single else []
+        together = words == NO_MODIFIERS and not any(head < at for head in self.known)
+        if together and phrase.definite and phrase.count == len(world.together) > 1:
+            # "A cup and a jar are on the desk. Put both in the box."
+            return list(world.together)
         counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.

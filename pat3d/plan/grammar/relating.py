@@ -288,6 +288,10 @@ class Relating:
     def _on_half(self, children: list[Item], side: str, parents: list[Item], said: str) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         world, parent = self.world, parents[0]
+        if side == "centre" and len(parents) > 1:
+            # "In the middle of the plates"
+            self._between(children, parents)
+            return
         level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         on_it = level and not world.on_floor(children[0])

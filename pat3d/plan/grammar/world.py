@@ -153,6 +153,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.together: list[Item] = []
+        """What "they" of the next sentence are: all that the sentence before is about, or the sentences before are."""
         self.front: list[Item] = []
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
