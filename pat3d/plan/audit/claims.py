@@ -135,6 +135,8 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         return any(kind in kinds and {a, b} & here for a, kind, b in it.edges)
     if claim.said.startswith(("on the left", "on the right")):
         kinds |= {"on"}
+    if "middle of" in claim.said and len(of) > 1:
+        kinds |= {"between"}
     if claim.said.startswith("off ") and not (it.tasks.strip() or it.undone or "is read as the scene" in it.quoted):
         kinds = {"next_to", "far_from", "hangs_from"}
     if claim.of.noun in CLOSED and claim.place in ("in", "from"):

@@ -45,7 +45,7 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
     if not of or any(it.missing(mention) for mention in subjects):
         return None
     named = [{obj.name for obj in it.which(mention)} - (set() if back else of) for mention in subjects]
-    kinds = KINDS[claim.place]
+    kinds = KINDS[claim.place] | ({"between"} if "middle of" in claim.said and len(of) > 1 else set())
     held = [any(a in names and b in of and kind in kinds for a, kind, b in it.edges) for names in named]
     for mention, names, holds in reversed(list(zip(subjects, named, held, strict=True))):
         told = any(obj.phrase.lower() in nowhere for obj in it.which(mention))

@@ -266,6 +266,7 @@ def _places_ahead(tokens: Sequence[Token]) -> Sequence[Token]:
     size = link_at(tokens, 0)
     verb = next((n for n, word in enumerate(words) if word in _FINITE or word == "there"), 0)
     first = words.index(",") if "," in words else 0
-    if size and size < first < verb - 2 and words[verb - 1] == "," and link_at(tokens, first + 1):
+    place = tuple(words[first + 1 : first + 1 + link_at(tokens, first + 1)]) in LINKS
+    if size and size < first < verb - 2 and words[verb - 1] == "," and place:
         return [*tokens[: verb - 1], *tokens[verb:]]
     return tokens

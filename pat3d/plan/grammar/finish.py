@@ -44,6 +44,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     covers.settle(world)
     _open_boxes(world, nouns)
     _widen_bowls(world, nouns)
+    arranging.order_rows(world)
     _pair_sides(world)
     _share_supports(world)
     arranging.settle(world, prompt)

@@ -388,7 +388,9 @@ class Interpreter(Placing):
             elif phrase is not None and phrase.kind == "pieces" and link.manner not in ("include", "with") and owners:
                 things.append(head)
         told = bool(owners) and link.manner != "include"
-        children = self._said.refs_of(sorted(things), other=owner_heads) if told else []
+        # "Stir the pot with it": the pot does not have it before.
+        besides = owner_heads if self._clause.manner is None else ()
+        children = self._said.refs_of(sorted(things), other=besides) if told else []
         if not children:
             return
         if link.manner == "flank":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import arranging, lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
@@ -301,6 +301,10 @@ class Placing:
                 world.beside([right], "next_to", [left])
         else:
             ordered = items[::-1] if chunk.text == "reverse" else items
+            if any(each.kind == "row" and set(each.items) == set(items) for each in world.arranged):
+                # "In a row from right to left"
+                arranging.in_order(world, ordered)
+                return
             world.arrange("row", ordered)
             for left, right in zip(ordered, ordered[1:], strict=False):
                 world.beside([left], "left_of", [right])

@@ -145,6 +145,8 @@ class Plausible:
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
+        if self.is_a(child, lexicon.SEATS[-4:]) and self.is_a(parent, lexicon.SEATS[:6]):
+            return 0.1
         if self.floor(child):
             return 0.7
         inside = self.within(child, parent) if self.hollow(parent) or self.closet(parent) else 9.0

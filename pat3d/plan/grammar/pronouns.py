@@ -12,6 +12,7 @@ from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
+from pat3d.scene.relations import OPPOSITE
 
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
@@ -118,7 +119,12 @@ class Pronouns:
         if self._relating.landmark[0] and not near:
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values()
-            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
+            landmark = self._relating.landmark[0]
+            across = link is not None and any(
+                edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals
+            )
+            # "A lamp is left of the sofa and a plant right of it": across the sofa from the lamp.
+            candidates.append((-0.6 if across and aside else -0.15 if aside else 0.1, landmark))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
@@ -154,6 +160,10 @@ class Pronouns:
             raise PromptError(
                 f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
             )
+        pair = best[1][0].group
+        one = len(best[1]) == 1 and pair.height == 1 and not pair.phrase.plural
+        if plural and one and pair.said not in lexicon.PLURAL_ONLY:
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}", which is one.')
         if not which and rival is not None and rival[0] - best[0] < _CLOSE and not set(rival[1]) & set(best[1]):
             read, other_words = (each[1][0].group.words for each in (best, rival))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')

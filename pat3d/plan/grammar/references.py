@@ -10,7 +10,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.matching import ALONG, OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
@@ -57,7 +57,7 @@ class References(Contrast):
                 world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
-            if position(phrase) in ("left", "right") and len(group.items) == 1:
+            if position(phrase) in ALONG and len(group.items) == 1:
                 line_up(self._world, group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
