@@ -92,7 +92,7 @@ def _spots(kind: str, item: Item, surface: Surface) -> list[Array]:
 
 
 def place_holds(kind: str, bodies: Sequence[Placed], carrier: Placed) -> tuple[bool, str]:
-    """Whether `bodies`, together, are at the edge, in the corner or in the middle of `carrier`, and what was measured."""
+    """Whether `bodies`, together, are at the edge, in a corner or in the middle of `carrier`, and what was measured."""
     region = _region(bodies[0], carrier)
     half = np.array(region.half_size)
     points = np.concatenate([body.vertices for body in bodies])

@@ -78,7 +78,7 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
         on_it=True,
     ),
     "in_corners": ArrangementRule(
-        words="each in a corner of its own of",
+        words="in different corners of",
         objects=(2, 4),
         of=(1, 1),
         holds="each is in_corner, and no two are in the same one",

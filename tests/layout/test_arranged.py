@@ -17,6 +17,7 @@ from pat3d.layout.postures import posture_rotation
 from pat3d.layout.predicates import check_arranged, check_relations
 from pat3d.layout.spans import crossing
 from pat3d.scene.arrangements import Arrangement, Posture
+from pat3d.scene.asset import Region
 from pat3d.scene.model import Relation
 from tests.layout.things import asset, ball, block, mug, pen, shelf, table, vessel
 
@@ -213,6 +214,15 @@ def test_layouts_put_things_into_the_corners_they_are_asked_for(seed):
     ):
         poses = arrange(assets, on, seed=seed, arrangements=(asked,)).poses
         assert [result for result in check_arranged((asked,), (), assets, poses) if not result.holds] == []
+
+
+def test_a_round_table_has_no_corner():
+    round_table = asset("table", shapes.cylinder(0.5, 0.7, sides=32),
+                        Region(kind="on", shape="disc", floor=(0, 0, 0.7), half_size=(0.5, 0.5)))  # fmt: skip
+    on = (Relation(child="a", kind="on", parent="table"),)
+    asked = (Arrangement(kind="in_corner", objects=("a",), of=("table",)),)
+    with pytest.raises(LayoutError, match='a corner of "table", which is round'):
+        arrange({"table": round_table, "a": block()}, on, seed=0, arrangements=asked)
 
 
 def test_a_circle_around_several_things_has_all_of_them_inside():

@@ -245,7 +245,8 @@ def rows(it: Compared) -> Iterator[tuple[int, str]]:
             # "Three cups in a row on the shelf, the red one in the middle": of the row, not of the shelf.
             ends = {row.objects[0], row.objects[-1]} & set(one.objects)
             if one.kind == "in_middle" and ends and set(one.objects) < set(row.objects):
-                name, of = min(ends), f' of "{one.of[0]}"' if one.of else ""
+                name = min(ends)
+                of = f' of "{one.of[0]}"' if one.of else ""
                 yield 0, f'not as said: "{name}" is at the end of the row, and in the middle{of}'
     stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
     stands = stands or any(not rel.supports for rel in it.plan.relations)

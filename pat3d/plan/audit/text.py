@@ -111,6 +111,7 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
     prompt = re.sub(rf"\b(is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", r"\1", prompt)
+    prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
     prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)

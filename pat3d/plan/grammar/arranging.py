@@ -64,21 +64,6 @@ def settle(world: World, prompt: str) -> None:
                 world.beside(each.items, "next_to", each.of)
 
 
-def order_rows(world: World) -> None:
-    """Let what is said to be on the left, on the right or in the middle of a row stand there."""
-    for row in [each for each in world.arranged if each.kind in _LINES and len(each.items) > 1]:
-        told = {one.items[0]: one for one in world.sided if len(one.items) == 1 and one.items[0] in row.items}
-        first, middle, last = ([item for item, one in told.items() if one.side == side]
-                               for side in ("left", "centre", "right"))  # fmt: skip
-        if max(map(len, (first, middle, last))) != 1 or (middle and len(row.items) % 2 == 0):
-            continue
-        rest = [item for item in row.items if item not in (*first, *middle, *last)]
-        half = len(row.items) // 2 - len(first)
-        in_order(world, [*first, *rest[:half], *middle, *rest[half:], *last])
-        used = [told[item] for item in (*first, *middle, *last)]
-        world.sided = [one for one in world.sided if one not in used]
-
-
 def in_order(world: World, row: Sequence[Item]) -> None:
     """Let the objects of a row stand in the order of `row` from left to right."""
     own, group = set(row), row[0].group

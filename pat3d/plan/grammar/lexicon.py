@@ -394,6 +394,12 @@ SUPERLATIVES = {
     "thickest": ("thick", 1.0), "thinnest": ("thin", 1.0), "longest": ("long", 1.0), "widest": ("wide", 1.0),
     "thicker": ("thick", 1.0), "thinner": ("thin", 1.0), "longer": ("long", 1.0), "wider": ("wide", 1.0),
 }  # fmt: skip
+OPPOSITES = tuple(frozenset(pair.split()) for pair in (
+    "dirty clean", "full empty", "open closed", "heavy light", "old new", "tall short", "long short", "wide narrow",
+    "thick thin", "soft hard", "wet dry", "round square", "hot cold", "broken intact", "ripe unripe", "deep shallow",
+    "filled empty", "used unused", "folded unfolded", "sharp blunt", "smooth rough", "opened closed", "hot iced",
+))  # fmt: skip
+"""Looks of which a thing has one."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,

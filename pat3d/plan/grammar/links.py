@@ -122,6 +122,11 @@ def _table() -> dict[tuple[str, ...], Link]:
         for part in ("edge", "corner", "end", "rim", "border"):
             place = f"{near} the {part} of"
             add(Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge"), place)
+    whichever = ("each", "every", "each of the", "each of the four", "the", "the four", "all four", "all the",
+                 "all of the", "all four of the", "opposite", "two")  # fmt: skip
+    corners = (f"{near} {which} corner{'' if which in ('each', 'every') else 's'} of"
+               for near in ("at", "on", "in") for which in whichever)  # fmt: skip
+    add(Link(manner="edge", kind="on", says="in_corners"), *corners)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
@@ -193,6 +198,8 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its", "tow
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
             SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+        SIDES[tuple(f"{_word} {_side} end".split())] = _side
+        SIDES[tuple(f"{_word} far {_side} end".split())] = _side
 for _word in ("on", "at", "to"):
     for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
         SIDES[tuple(f"{_word} {_both}".split())] = "both"
@@ -238,4 +245,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
     }.items()
     for words in phrases
 }  # fmt: skip
+for _line in ("in a row", "in a line", "lined up"):
+    for _way, _how in (("from left to right", "order"), ("from right to left", "reverse")):
+        EACH_OTHER[tuple(f"{_line} {_way}".split())] = _how
 """Words that arrange the members of one group, or of one list."""

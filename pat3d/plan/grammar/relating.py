@@ -20,6 +20,10 @@ _HALVES: dict[str, LateralKind] = {
 """What stands in for a half of what has no surface."""
 
 
+_CORNERS = 4
+"""Of a surface: "a candle in each corner"."""
+
+
 class Relating:
     """Relates objects of one world."""
 
@@ -61,9 +65,13 @@ class Relating:
             self._on_half(children, link.side or "centre", parents, link.said)
         elif link.manner == "edge" and link.says is not None:
             level = world.likely.level(world.noun(parents[0]))
+            if link.says == "in_corners" and len(children) == 1 and level:
+                own = children[0].group.items
+                children = multiply(world, children, _CORNERS) if len(own) == 1 else list(own)
             where = (
                 link.says.replace("_", " ")
                 .replace("at edge", "at the edge of")
+                .replace("in corners", "in the corners of")
                 .replace("in corner", "in the corner of")
             )
             self.relate(children, Link(kind="on" if level else "next_to"), parents)

@@ -159,6 +159,8 @@ class World:
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What "to the left of" was last said of, and whether it was "on the left side of"."""
+        self.settled = 0
+        """Groups that the sentences before this one have named."""
         self.telling: list[Item] = []
         """Members of the group told of one by one that were not told of yet."""
 
