@@ -31,6 +31,9 @@ class Having(Judging):
                 facts.append(("place", fact[1], fact[2], owners))
                 placed |= set(fact[2])
                 said = self._chunks[fact[1]].link
+                if self._chunks[fact[1]].text == "centre" and self._likely.level(self._noun(owners[0])):
+                    # "A table with four chairs and a vase in the middle": no chair is.
+                    cost += 0.9 * any(self._likely.on(self._noun(h), self._noun(owners[0])) > 1.0 for h in fact[2])
                 if said is not None:
                     near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
@@ -69,6 +72,10 @@ class Having(Judging):
         placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        owner = self._noun(owners[0])
+        if link.manner == "hold" and owner and not (self._likely.hollow(owner) or self._likely.level(owner)):
+            # "A statue holding a book on a bench": it holds no bench.
+            cost += 0.8 * any(carriers[head] != head for head in modifier.heads)
         lateral = [
             fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS
         ]

@@ -16,7 +16,7 @@ from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.shapes import grid_rows
-from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.grammar.world import UNUSUAL, Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
@@ -100,8 +100,10 @@ class Placing:
         if owners:
             world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
             level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
-            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
-                world.place(children, world.containment(owners[0]), owners, weak=True)
+            child, owner = children[0], owners[0]
+            stays = not world.on_floor(child) or world.likely.on(world.noun(child), world.noun(owner)) < UNUSUAL
+            if level and world.support(child) is None and stays:
+                world.place(children, world.containment(owner), owners, weak=True)
             return
         landmark, surface = (
             self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark

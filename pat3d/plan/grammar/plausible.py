@@ -74,6 +74,8 @@ class Plausible:
             return 0.7
         if self.level(parent):
             return 0.0
+        if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
+            return 1.5
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
         if self.is_a(parent, _SUPPORTING):
