@@ -261,5 +261,7 @@ def _said_of(it: Compared, claim: Claim) -> set[str]:
     others = [mention for mention in it.said.mentions if mention is not claim.of]
     said = it.said.words[: claim.at]
     start = next((at + 1 for at in range(len(said) - 1, -1, -1) if said[at] in (".", ";", "!", "?")), 0)
-    reaches = bool(REACHING & set(said[start:])) or claim.of is None
+    # "Both hold a nut": of what the sentence before names.
+    reaches = bool(REACHING & set(said[start:]) or {"both", "each", "all"} & set(said[start : start + 1]))
+    reaches = reaches or claim.of is None
     return _names(it, [mention for mention in others if mention.part == claim.part or reaches])

@@ -234,6 +234,9 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         start = next((mention for mention in it.said.mentions if mention.end == at - 2), None)
         if words[at - 2 : at] != ["in", "the"] or words[at + 1 : at + 2] == ["of"] or start is None:
             continue
+        if any(mention.first <= at < mention.end for mention in it.said.mentions):
+            # "the fork in the middle drawer"
+            continue
         own = {obj.name for obj in it.which(start)}
         rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]
         held = {name for one in rows or it.plan.arrangements for name in _middle(one)}

@@ -45,7 +45,7 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
     if not of or any(it.missing(mention) for mention in subjects):
         return None
     named = [{obj.name for obj in it.which(mention)} - (set() if back else of) for mention in subjects]
-    kinds = KINDS[claim.place]
+    kinds = KINDS[claim.place] | ({"between"} if "middle of" in claim.said and len(of) > 1 else set())
     held = [any(a in names and b in of and kind in kinds for a, kind, b in it.edges) for names in named]
     for mention, names, holds in reversed(list(zip(subjects, named, held, strict=True))):
         told = any(obj.phrase.lower() in nowhere for obj in it.which(mention))
@@ -80,6 +80,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)
     if leading is None:
         return listed(it, near), finite
+    if not finite and (leading.at == 0 or words[leading.at - 1] in (".", ";", "!", "?")):
+        # "On the desk next to the clock is a mug": of the desk, or of the mug.
+        return [], False
     before, _ = said_of(it, leading)
     # "A cup on a saucer on a table": of the saucer, or of the cup; of the cup where a verb stands between.
     return (before, False) if finite else ([near, *before], False)

@@ -99,6 +99,7 @@ class Cutter(Asides):
             follower in (*lexicon.COPULAS, "of", "and", "or")
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
+            or is_marked(follower)
         )
         of_them = follower == "of" and self._word(2) in (*lexicon.PRONOUNS, "these", "those")
         if word in ("each", "both", "all") and of_them:

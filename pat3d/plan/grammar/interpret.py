@@ -111,6 +111,7 @@ class Interpreter(Placing):
         if len(world.subject) == 1 and world.subject[0].group.multiplied:
             # "A mug stands at each end of the shelf. Between them ..."
             world.subject = list(world.subject[0].group.items)
+        world.together = self._told_of(reading.heads)
         world.landmark = self._relating.landmark
         world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:
@@ -124,6 +125,16 @@ class Interpreter(Placing):
         return all(
             link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
         )
+
+    def _told_of(self, heads: Sequence[int]) -> list[Item]:
+        """All that the sentence tells of; where that is one thing, also what the sentences before tell of."""
+        world = self._world
+        told = self._said.ref_all([*heads, *(head for each in self._said.clauses.values() for head in each)])
+        told = list(dict.fromkeys(told)) or world.subject
+        if len(told) != 1:
+            return told
+        below = {below for item in (*world.together, *told) for below in world.ancestors(item)}
+        return [*(item for item in world.together if item not in (*told, *below)), *told]
 
     def _form(self, at: int, heads: Sequence[int]) -> None:
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
@@ -281,9 +292,9 @@ class Interpreter(Placing):
 
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
-        if not items and [self._chunks[head].text.lower() for head in heads] in (["it"], ["they"]):
+        if not items and all(self._said.is_open(head) for head in heads):
             # "A mug is on a table. It is red."
-            items = list(self._world.subject)
+            items = self._said.refs_of(heads)
         if not items and told != NO_MODIFIERS:
             said = " ".join(self._chunks[head].text for head in heads)
             self._world.note(f'not understood: how "{said}" is described')
@@ -430,7 +441,10 @@ class Interpreter(Placing):
                 continue
             elif phrase is not None and phrase.kind == "pieces" and link.manner not in ("include", "with") and owners:
                 things.append(head)
-        children = self._said.refs_of(sorted(things)) if owners and link.manner != "include" else []
+        told = bool(owners) and link.manner != "include"
+        # "Stir the pot with it": the pot does not have it before.
+        besides = owner_heads if self._clause.manner is None else ()
+        children = self._said.refs_of(sorted(things), other=besides) if told else []
         if not children:
             return
         if link.manner == "flank":

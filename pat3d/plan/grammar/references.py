@@ -12,7 +12,7 @@ from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.matching import ALONG, OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
@@ -61,7 +61,7 @@ class References(Contrast):
                 world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
-            if position(phrase) in ("left", "right") and len(group.items) == 1:
+            if position(phrase) in ALONG and len(group.items) == 1:
                 line_up(self._world, group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
@@ -219,6 +219,10 @@ class References(Contrast):
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             return single[0] if single else []
+        together = words == NO_MODIFIERS and not any(head < at for head in self.known)
+        if together and phrase.definite and phrase.count == len(world.together) > 1:
+            # "A cup and a jar are on the desk. Put both in the box."
+            return list(world.together)
         counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
