@@ -20,7 +20,8 @@ def broken(it: Compared, claim: Claim) -> str | None:
     if claim.place == "far" and it.tasks.strip() and any(b in of and kind in ("on", "in") for _, kind, b in it.edges):
         # "Take the cup away from the table": before the task it is there.
         return None
-    turned = any(each.kind == "upside_down" for each in it.plan.postures)
+    around = any(kind == "over" for _, kind, _ in it.edges)
+    turned = not around and any(each.kind == "upside_down" for each in it.plan.postures)
     if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
     whose = whose_of(it, claim)
@@ -110,7 +111,9 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
         owners = (here & before) | (here - named)
-        return claim.of is None or any(a in of and b in owners and kind in ("on", "in") for a, kind, b in it.edges)
+        return claim.of is None or any(
+            a in of and b in owners and kind in ("on", "in", "over") for a, kind, b in it.edges
+        )
     kinds = set(KINDS[claim.place])
     if claim.place == "between" and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
         # "between two dolls": between no other things.

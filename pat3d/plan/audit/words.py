@@ -45,7 +45,8 @@ PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him
 ORDINALS = frozenset({"second", "third", "fourth", "fifth"})
 HEADLESS = ORDINALS | frozenset({
     "first", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
-    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest",
+    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest", "bigger",
+    "biggest",
 })  # fmt: skip
 """Words that name an object of which the noun is not said."""
 ENDING = frozenset({"one", "ones", "and", "but", "while", "is", "are", "or"})
@@ -92,7 +93,7 @@ ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
 PARTS: dict[str, frozenset[str]] = {
     **dict.fromkeys(("edge", "rim", "lip", "border"), frozenset({"at_edge"})),
-    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner"}),
+    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner", "in_corners"}),
     **dict.fromkeys(("middle", "center", "centre"), frozenset({"in_middle", "between"})),
     "bottom": frozenset({"under"}), **dict.fromkeys(("foot", "handle", "leg", "arm", "armrest", "spout"), frozenset()),
 }  # fmt: skip
@@ -166,7 +167,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "hanging": ("hanging from", "hangs from", "hang from", "hanging on", "hangs on", "suspended from", "hung from"),
         "holding": ("holding", "holds", "hold", "contains", "containing", "contain", "carries", "carry", "carrying",
                     "supports", "supporting", "wearing", "wears", "bearing", "bears", "filled with",
-                    "full of", "topped with", "topped by", "occupied by"),
+                    "full of", "topped with", "topped by", "covered by", "occupied by"),
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
@@ -205,10 +206,10 @@ seen should must need i'd give following features color immediate amidst belongs
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like want see imagine show create make
+like want see imagine show create make corners
 """
 _POSTURES = """
-hidden else
+hidden else cover
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 served scattered spread kept stored wedged tucked

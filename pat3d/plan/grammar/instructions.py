@@ -80,6 +80,8 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
+    first: bool = True
+    """Whether the sentence begins with it."""
     aside: tuple[str, ...] = ()
     """What was left out of the sentence before it was read, piece by piece."""
 
@@ -126,7 +128,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         begun = max(start, 0)
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
         manner = _VERBS.get(word, "other")
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, aside=aside))
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.amounts import worked_out
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
@@ -101,7 +102,10 @@ class GrammarPlanner:
         tokens = worked_out(chessmen(tokenise(text)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in sentences(tokens) for clause in self._clauses(text, sentence)]
+        told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
+        world.notes += [f'not modelled: "{said}"' for said in beside_robot]
+        world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
             if other is not None:
@@ -156,6 +160,8 @@ class GrammarPlanner:
 
         Second is the next likely reading where it is nearly as likely.
         """
+        if clause.first:
+            world.settled = len(world.groups)
         for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
             spans = find(clause.tokens)
             for start, end in spans:
@@ -262,7 +268,8 @@ class GrammarPlanner:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
-        chunks = completed(_trimmed(sentence.chunks), self._nouns)
+        known = [group.phrase for group in world.groups if not group.replaced]
+        chunks = completed(_trimmed(sentence.chunks), self._nouns, known)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):
