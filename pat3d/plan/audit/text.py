@@ -37,6 +37,7 @@ from pat3d.plan.audit.words import (
 
 _WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _EMPTY = "(?:empty|bare|clear|free|clean)"
+_PICTURE = "(?:picture|photo|image|photograph|scene)"
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
 _HEADS = PRONOUNS | {"another", "other"}
@@ -111,6 +112,10 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
     prompt = re.sub(rf"\b(is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", r"\1", prompt)
+    prompt = re.sub(r"\bnot far (?:away )?from\b", "near", prompt)
+    prompt = re.sub(r"\bthere (?:appear|seem|happen)s? to be\b", "there is", prompt)
+    prompt = re.sub(r"\breach for\b", "take", prompt)
+    prompt = re.sub(rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", "", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
     prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))

@@ -95,23 +95,6 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
 
 
-def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
-    """`sentences` with "there are three plates" before the "every plate" of which it gives the number."""
-    made = list(sentences)
-    for at, sentence in enumerate(made):
-        words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
-            continue
-        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
-        for before in range(at):
-            told = [token.text for token in made[before]]
-            follows = (two for one, two in zip(told, told[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
-                made.insert(before, made.pop(at))
-                break
-    return made
-
-
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
     kept: list[Token] = []
     at = 0
