@@ -100,7 +100,7 @@ def _drawn(found: tuple[nouns.Entry, ...], seed: int, progress: Progress) -> Ite
 
 def shipped_sizes() -> Path:
     """Extents of every noun for seed 0 [m], measured when the package was made; see `measure_shipped`."""
-    return Path(__file__).with_name("catalogue_sizes.json")
+    return Path(nouns.__file__).with_name("sizes.json")
 
 
 def measure_shipped() -> None:

@@ -16,7 +16,7 @@ from pat3d.geometry.polygons import contains, outline, polygon_gap, polygon_marg
 from pat3d.layout.bodies import Array, Placed, distance
 from pat3d.layout.formations import FAR, pairs, reach_of_beside
 from pat3d.layout.leaning import covered
-from pat3d.layout.places import place_holds
+from pat3d.layout.places import offset_on, place_holds
 from pat3d.layout.spans import overhang
 from pat3d.scene.arrangements import Arrangement
 
@@ -51,19 +51,22 @@ def arrangement_holds(one: Arrangement, bodies: Mapping[str, Placed], touch: flo
     if one.kind == "side_by_side":
         return _side_by_side(objects)
     if one.kind == "circle":
-        return _circle(objects, of[0] if of else None)
+        return _circle(objects, of)
     if one.kind == "facing":
         targets = of * len(objects) if of else objects[::-1]
         return _every(_faces(body, target) for body, target in zip(objects, targets, strict=True))
     if one.kind == "leaning_against":
         return _leans(objects[0], of[0], touch)
     if one.kind == "under":
-        below = covered(objects[0], of[0], 0.0)
-        return below, f"{'below' if below else 'not below'} its underside"
+        return _every(_under(body, of[0]) for body in objects)
     if one.kind == "across":
         beyond = overhang(objects[0], of[0])
         return beyond >= 0.0, f"its ends are at least {1e3 * beyond:.0f} mm beyond the rim"
-    return _every(place_holds(one.kind, body, of[0]) for body in objects)
+    if one.kind == "in_corner":
+        return place_holds(one.kind, objects, of[0])
+    if one.kind == "in_corners":
+        return _in_own_corners(objects, of[0])
+    return _every(place_holds(one.kind, [body], of[0]) for body in objects)
 
 
 def _every(results: Iterable[tuple[bool, str]]) -> tuple[bool, str]:
@@ -124,6 +127,18 @@ def _row(bodies: Sequence[Placed]) -> tuple[bool, str]:
     return holds, detail if steps.min() > 0.0 else f"{detail}, not in order"
 
 
+def in_grid(cells: Mapping[str, tuple[int, int]], bodies: Mapping[str, Placed]) -> tuple[bool, str]:
+    """Whether all of `cells`, by column and row, are at the crossings of equally spaced lines at right angles."""
+    at = np.column_stack([np.ones(len(cells)), np.array(list(cells.values()), dtype=np.float64)])
+    middles = np.stack([_middle(bodies[name]) for name in cells])
+    fitted = np.linalg.lstsq(at, middles, rcond=None)[0]
+    off = float(np.linalg.norm(middles - at @ fitted, axis=1).max())
+    allowed = max(UNEVEN[0], UNEVEN[1] * float(np.linalg.norm(fitted[1:], axis=1).min()))
+    askew = abs(90.0 - _angle(fitted[1], fitted[2]))
+    detail = f"{1e3 * off:.0f} mm off the grid (at most {1e3 * allowed:.0f}), {askew:.0f} degrees from right angles"
+    return off <= allowed and askew <= ALIKE, detail
+
+
 def _turned(first: Placed, second: Placed) -> float:
     """How far two things are turned about the vertical from one another [degrees], however they lie."""
     # The twist about z of the rotation from one to the other, of which a round thing has none that anybody sees.
@@ -154,9 +169,9 @@ def _side_by_side(bodies: Sequence[Placed]) -> tuple[bool, str]:
     return holds and near, f"{detail}, at most {1e3 * max(gaps):.0f} mm apart"
 
 
-def _circle(bodies: Sequence[Placed], centre: Placed | None) -> tuple[bool, str]:
+def _circle(bodies: Sequence[Placed], of: Sequence[Placed]) -> tuple[bool, str]:
     middles = np.stack([_middle(body) for body in bodies])
-    ways = middles - (middles.mean(axis=0) if centre is None else _middle(centre))
+    ways = middles - (_joint_middle(of) if of else middles.mean(axis=0))
     radii = np.linalg.norm(ways, axis=1)
     angles = np.arctan2(ways[:, 1], ways[:, 0])
     steps = np.mod(np.diff([*angles, angles[0]]), 2 * math.pi)
@@ -166,8 +181,15 @@ def _circle(bodies: Sequence[Placed], centre: Placed | None) -> tuple[bool, str]
     out = float(np.abs(radii - radii.mean()).max())
     allowed = max(UNEVEN[0], UNEVEN[1] * float(radii.mean()))
     turned = float(np.abs(steps - equal).max())
+    outside = sum(not contains(outline(middles), _middle(one)) for one in of)
     detail = f"{1e3 * out:.0f} mm off the circle, angles uneven by {math.degrees(turned):.0f} degrees"
-    return out <= allowed and turned <= UNEVEN_ANGLE * equal, detail
+    detail += f", {outside} of {len(of)} that it goes around outside" if outside else ""
+    return out <= allowed and turned <= UNEVEN_ANGLE * equal and not outside, detail
+
+
+def _joint_middle(bodies: Sequence[Placed]) -> Array:
+    low, high = (np.min([one.low for one in bodies], axis=0), np.max([one.high for one in bodies], axis=0))
+    return ((low + high) / 2)[:2]
 
 
 def _faces(body: Placed, target: Placed) -> tuple[bool, str]:
@@ -185,6 +207,19 @@ def _leans(body: Placed, on: Placed, touch: float) -> tuple[bool, str]:
     high = (float(closest.first[2]) - float(body.low[2])) / float(body.high[2] - body.low[2])
     detail = f"touches at {high:.0%} of its height, centre of mass {'beside' if falls else 'over'} its foot"
     return falls and high > _HIGH, detail
+
+
+def _under(body: Placed, cover: Placed) -> tuple[bool, str]:
+    below = covered(body, cover, 0.0)
+    return below, f"{'below' if below else 'not below'} its underside"
+
+
+def _in_own_corners(bodies: Sequence[Placed], carrier: Placed) -> tuple[bool, str]:
+    """Each in a corner, and all in different ones."""
+    holds, detail = _every(place_holds("in_corner", [body], carrier) for body in bodies)
+    corners = {tuple(np.sign(offset_on(body, carrier))) for body in bodies}
+    shared = len(corners) < len(bodies)
+    return holds and not shared, f"{detail}, two in one corner" if shared else detail
 
 
 def _angle(first: Array, second: Array) -> float:

@@ -37,8 +37,8 @@ class Formation:
 
     members: tuple[str, ...]
     """In order."""
-    centre: str | None = None
-    """What a ring goes around."""
+    centre: tuple[str, ...] = ()
+    """What a ring goes around, in a line or a lattice."""
     ring: bool = False
     fixed: Mapping[str, Array] = field(default_factory=dict)
     """Offsets of the members' middles [m], shape (2,) each, where they are given."""
@@ -54,7 +54,7 @@ class Formation:
     @property
     def names(self) -> tuple[str, ...]:
         """Everything whose place belongs to it."""
-        return self.members if self.centre is None else (*self.members, self.centre)
+        return (*self.members, *self.centre)
 
     def offsets(self, items: Mapping[str, Item], laterals: Sequence[Lateral], gap: Gap) -> dict[str, Array]:
         """Where the middle of every member is, relative to a common point [m], shape (2,) each.
@@ -170,18 +170,36 @@ def _agrees(lat: Lateral, offsets: Mapping[str, Array]) -> bool:
     return float((offsets[lat.child] - offsets[lat.parent])[axis]) * sign > 0.0
 
 
-def _ring(members: Sequence[str], centre: str | None, items: Mapping[str, Item], gap: Gap) -> dict[str, Array]:
-    """At equal angles on the smallest ring where all keep their gaps."""
+def _ring(members: Sequence[str], centre: Sequence[str], items: Mapping[str, Item], gap: Gap) -> dict[str, Array]:
+    """At equal angles on the smallest ring around `centre` where all keep their gaps."""
     angles = [start_angle(len(members)) + 2 * math.pi * k / len(members) for k in range(len(members))]
     ways = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
+    inner = _clustered([items[name] for name in centre], gap)
     radius = 0.25 * max(float(items[name].size.max()) for name in members)
     while True:
-        found = {name: radius * way for name, way in zip(members, ways, strict=True)}
-        if centre is not None:
-            found[centre] = np.zeros(2)
+        found = {name: radius * way for name, way in zip(members, ways, strict=True)} | inner
         if all(_apart(items[a], found[a], items[b], found[b]) >= gap(items[a], items[b]) for a, b in pairs(found)):
             return found
         radius *= 1.02
+
+
+def _clustered(items: Sequence[Item], gap: Gap) -> dict[str, Array]:
+    """`items` near each other [m], shape (2,) each, the middle of all of them at zero."""
+    if len(items) < 2:
+        return {item.name: np.zeros(2) for item in items}
+    cells = (
+        lattice([item.name for item in items]) if len(items) > 3 else {one.name: (k, 0) for k, one in enumerate(items)}
+    )
+    found = _lattices(cells, items, gap)[0]
+    low = np.min([found[item.name] + item.low - item.middle for item in items], axis=0)
+    high = np.max([found[item.name] + item.high - item.middle for item in items], axis=0)
+    return {name: at - (low + high) / 2 for name, at in found.items()}
+
+
+def lattice(names: Sequence[str]) -> dict[str, tuple[int, int]]:
+    """Column and row of each of `names`, where they stand in about as many rows as columns."""
+    columns = math.ceil(math.sqrt(len(names)))
+    return {name: (k % columns, k // columns) for k, name in enumerate(names)}
 
 
 def start_angle(count: int) -> float:
@@ -226,7 +244,7 @@ def ring_of_carriers(carriers: Sequence[Item], load: Array) -> dict[str, Array]:
         outer = _reach(carriers[0], np.array([-1.0, 0.0])) + _reach(carriers[1], np.array([1.0, 0.0]))
         wide = 0.96 * float(load.max()) - outer
         return {carriers[0].name: np.zeros(2), carriers[1].name: np.array([max(apart, wide), 0.0])}
-    near = _ring([item.name for item in carriers], None, items, _close_by)
+    near = _ring([item.name for item in carriers], (), items, _close_by)
     radius = float(np.linalg.norm(next(iter(near.values()))))
     wide = 0.5 * float(load.min()) - 0.5 * max(float(item.size.max()) for item in carriers)
     return {name: at * max(1.0, wide / radius) for name, at in near.items()}

@@ -15,17 +15,18 @@ import numpy as np
 
 from pat3d.layout.bodies import Array
 from pat3d.layout.flat import Lateral, natural_gap
-from pat3d.layout.formations import Formation, Sight, Wishes, close_row, pairs, ring_of_carriers, start_angle
+from pat3d.layout.formations import Formation, Sight, Wishes, close_row, lattice, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
-from pat3d.layout.leaning import leaning_offset, under_offset
+from pat3d.layout.leaning import leaning_offset, under_offsets
 from pat3d.layout.shelved import holds_books
 from pat3d.layout.tops import item_of
-from pat3d.scene.arrangements import Arrangement, crossing
+from pat3d.scene.arrangements import LINES, Arrangement, crossing
 from pat3d.scene.relations import GROUND, SIDES
 
 _AHEAD = 17.0
 """Angle [degrees] at which the ends of a row see what all of it faces."""
-_LINES = ("row", "side_by_side")
+_PLACES = {"in_corners": "in_corner"}
+"""Where the layout puts each single thing, of which it finds no two a place where another is."""
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 """Where the first, second, ... of several that face one thing have it."""
 
@@ -75,11 +76,20 @@ class Intents:
         self.targets: list[tuple[str, str]] = []
         """Who faces what."""
         # Who faces what depends on the circles and rows that they stand in.
-        for one in sorted(arrangements, key=lambda one: one.kind == "facing"):
+        audiences = [row for one in arrangements if (row := self._audience(one, arrangements)) is not None]
+        for one in sorted([*arrangements, *audiences], key=lambda one: one.kind == "facing"):
             intent = self._placed(one, kinds)
             if intent is not None:
                 self.by_surface.setdefault(intent.support, []).append(intent)
                 self._turn(intent)
+
+    def _audience(self, one: Arrangement, others: Sequence[Arrangement]) -> Arrangement | None:
+        """The row in which several stand that face one thing, where nothing else is said of their places."""
+        if one.kind != "facing" or not one.of or len(one.objects) < 2:
+            return None
+        beside = [name for lats in self.laterals.values() for lat in lats for name in (lat.child, lat.parent)]
+        said = {*beside, *(name for other in others if other is not one for name in other.objects)}
+        return None if said & {*one.objects} else Arrangement(kind="row", objects=one.objects)
 
     def wishes(self, support: str, groups: Mapping[str, Group], build: Callable[[str], Group], gap: float) -> Wishes:
         """What is asked for on `support`.
@@ -93,7 +103,8 @@ class Intents:
         Raises:
             LayoutError: something has no room under, or nothing to lean on.
         """
-        lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in _LINES]
+        lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in LINES]
+        below: dict[str, list[str]] = {}
         grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
         formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
         rows = [one for one in self._rows(lines, groups, gap) if not any(set(one.members) <= set(c) for c in grids)]
@@ -104,31 +115,37 @@ class Intents:
                 intent.moved(intent.arrangement.objects),
                 intent.moved([] if intent.arrangement.rule.on_it else intent.arrangement.of),
             )
-            if not {*objects, *of} <= set(groups) or one.kind in _LINES or _within(one.kind, objects, of, rows):
+            if not {*objects, *of} <= set(groups) or one.kind in LINES or _within(one.kind, objects, of, rows):
                 continue
             if one.kind == "between" and len(of) == 2:
                 formations.append(Formation(members=(of[0], *objects, of[1])))
             elif one.kind == "between":
-                formations.append(Formation(members=of, centre=objects[0], ring=True))
+                formations.append(Formation(members=of, centre=objects, ring=True))
             elif one.kind == "circle":
-                formations.append(Formation(members=objects, centre=of[0] if of else None, ring=True))
+                formations.append(Formation(members=objects, centre=of, ring=True))
             elif one.kind == "far_from":
                 far |= {frozenset(pair) for pair in ([(a, b) for a in objects for b in of] if of else pairs(objects))}
             elif one.kind == "leaning_against":
                 away = leaning_offset(groups[objects[0]], groups[of[0]], self.leaning[objects[0]], gap)
                 formations.append(_pair(objects[0], of[0], away))
             elif one.kind == "under":
-                away = under_offset(groups[objects[0]], groups[of[0]], gap)
-                formations.append(_pair(objects[0], of[0], away))
+                below.setdefault(of[0], []).extend(name for name in objects if name not in below.get(of[0], ()))
             elif one.rule.on_it:
-                places |= dict.fromkeys(objects, one.kind)
+                places |= dict.fromkeys(objects, _PLACES.get(one.kind, one.kind))
+                together = one.kind == "in_corner" and len(objects) > 1
+                if together and not any({*objects} & {*other.names} for other in formations):
+                    formations.append(Formation(members=objects, cells=lattice(objects)))
+        for cover, names in below.items():
+            away = under_offsets([groups[name] for name in names], groups[cover], gap)
+            fixed = {cover: np.zeros(2), **dict(zip(names, away, strict=True))}
+            formations.append(Formation(members=tuple(fixed), fixed=fixed, overlapping=True))
         for name, carriers in self.spans.items():
-            below = self._carriers_on(support, name)
-            laid = any(one.fixed and set(below) <= set(one.members) for one in formations)
-            if len(below) == len(carriers) and set(below) <= set(groups) and not laid:
-                items = [item_of(groups[one], turnable=False) for one in below]
+            feet = self._carriers_on(support, name)
+            laid = any(one.fixed and set(feet) <= set(one.members) for one in formations)
+            if len(feet) == len(carriers) and set(feet) <= set(groups) and not laid:
+                items = [item_of(groups[one], turnable=False) for one in feet]
                 fixed = ring_of_carriers(items, build(name).size[:2])
-                formations.append(Formation(members=tuple(below), fixed=fixed))
+                formations.append(Formation(members=tuple(feet), fixed=fixed))
         sights = tuple(
             replace(one, gap=self._back(one, support, groups))
             for one in self._sights.get(support, [])
@@ -170,7 +187,7 @@ class Intents:
 
     def _back(self, sight: Sight, support: str, groups: Mapping[str, Group]) -> float:
         """How far from its target the row of an observer stands [m], so that its ends too have it nearly ahead."""
-        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in _LINES]
+        rows = [one for one in self.by_surface.get(support, []) if one.arrangement.kind in LINES]
         for row in (one.moved(one.arrangement.objects) for one in rows):
             if sight.observer in row and set(row) <= set(groups):
                 sizes = [groups[name].size[:2] for name in row]
@@ -201,7 +218,7 @@ class Intents:
         if support != GROUND and any(kinds[name] != "on" for name in moved.values()):
             self.notes.append(f'"{one}" is left aside: things inside "{support}" lie as they fit.')
             return None
-        if one.kind in ("leaning_against", "under") and moved[one.objects[0]] != one.objects[0]:
+        if one.kind in ("leaning_against", "under") and any(moved[name] != name for name in one.objects):
             self.notes.append(f'"{one}" is left aside: they do not stand on the same thing.')
             return None
         return Intent(arrangement=one, support=support, stands_for=moved)
@@ -211,7 +228,7 @@ class Intents:
         one = intent.arrangement
         if one.rule.on_it:
             self.yaws.setdefault(intent.support, 0.0)
-        elif one.kind in _LINES:
+        elif one.kind in LINES:
             self.yaws |= {name: self.yaws.get(name, 0.0) for name in one.objects}
         elif one.kind == "leaning_against":
             way = self._way(intent, one.objects[0], one.of[0]) or (0.0, 1.0)
@@ -242,7 +259,7 @@ class Intents:
         """The row in which all objects of `intent` stand, if there is one."""
         for other in self.by_surface.get(intent.support, []):
             one = other.arrangement
-            if one.kind in _LINES and set(intent.arrangement.objects) <= set(one.objects):
+            if one.kind in LINES and set(intent.arrangement.objects) <= set(one.objects):
                 return tuple(name for name in one.objects if name in intent.arrangement.objects)
         return ()
 
@@ -259,7 +276,7 @@ class Intents:
     def _ring_angle(self, intent: Intent, name: str, centre: str) -> float | None:
         """Angle [rad] of `name` in a ring around `centre`, if there is one."""
         rings = [one for one in self.by_surface.get(intent.support, []) if one.arrangement.kind == "circle"]
-        members = next((one.arrangement.objects for one in rings if one.arrangement.of == (centre,)), ())
+        members = next((one.arrangement.objects for one in rings if centre in one.arrangement.of), ())
         if not members:
             around = [lat for lat in self.laterals.get(intent.support, ()) if lat.kind == "around"]
             members = tuple(lat.child for lat in around if lat.parent == centre)

@@ -9,13 +9,17 @@ not beyond its lower edge, which thick things only have at a large tilt.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from pat3d.errors import LayoutError
 from pat3d.geometry.rotations import turn
 from pat3d.layout.bodies import Array, Body, Placed, Witness, distance
+from pat3d.layout.containers import listed
 from pat3d.layout.drop import clear
+from pat3d.layout.flat import natural_gap
 from pat3d.layout.group import Group
 from pat3d.layout.heightmap import bottom_map
 from pat3d.layout.shelved import BOUND, STOOD
@@ -134,26 +138,55 @@ def _met(start: Group, wall: Group, way: Array, gap: float) -> tuple[float, Arra
     return None
 
 
-def under_offset(group: Group, cover: Group, gap: float) -> Array:
-    """Where the middle of `group` is from that of `cover` so that it has room below it [m], shape (2,).
+def under_offsets(groups: Sequence[Group], cover: Group, gap: float) -> list[Array]:
+    """Where the middle of each of `groups` is from that of `cover` so that all have room below it [m], shape (2,) each.
+
+    Side by side along the longer way of the cover, or where that does not do, each as near to its middle as it can be.
 
     Raises:
-        LayoutError: it has none.
+        LayoutError: one has none.
     """
     over = cover.shifted(np.array([0.0, 0.0, gap - float(cover.low[2])]))
-    middle, half = (over.root.low + over.root.high) / 2, (over.root.high - over.root.low) / 2
-    own = (group.root.low + group.root.high) / 2
-    start = group.shifted(np.array([*(middle - own)[:2], gap - float(group.low[2])]))
-    steps = np.stack(np.meshgrid(*[np.linspace(-0.8, 0.8, _TRIED)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
-    for step in steps[np.argsort(np.linalg.norm(steps, axis=1), kind="stable")]:
-        offset = step * half[:2]
-        here = start.shifted(np.array([*offset, 0.0]))
-        if covered(here.root, over.root, AIR) and all(clear(one, over.members, AIR) for one in here.members):
-            return offset
+    middle, half = ((over.root.low + over.root.high) / 2)[:2], ((over.root.high - over.root.low) / 2)[:2]
+    starts = [
+        one.shifted(np.array([*(middle - ((one.root.low + one.root.high) / 2)[:2]), gap - float(one.low[2])]))
+        for one in groups
+    ]
+    steps = np.stack(np.meshgrid(*[np.linspace(-0.8, 0.8, _TRIED)] * 2, indexing="ij"), axis=-1).reshape(-1, 2) * half
+    most = 0
+    for homes in (_abreast(groups, half), np.zeros((len(groups), 2))):
+        found: list[Array] = []
+        standing: list[Placed] = []
+        for start, home in zip(starts, homes, strict=True):
+            nearest = np.argsort(np.linalg.norm(steps - home, axis=1), kind="stable")
+            for offset in (home, *steps[nearest]):
+                here = start.shifted(np.array([*offset, 0.0]))
+                free = all(clear(one, [*over.members, *standing], AIR) for one in here.members)
+                if covered(here.root, over.root, AIR) and free:
+                    found.append(offset)
+                    standing.extend(here.members)
+                    break
+            else:
+                break
+        if len(found) == len(groups):
+            return found
+        most = max(most, len(found))
+    last, before = groups[most], [one.name for one in groups[:most]]
+    beside = f" beside {listed(before)}" if before else ""
     raise LayoutError(
-        f'"{group.name}" ({group.size[0]:.2f} x {group.size[1]:.2f} x {group.size[2]:.2f} m) does not fit under '
-        f'"{cover.name}". Nothing was written.'
+        f'"{last.name}" ({last.size[0]:.2f} x {last.size[1]:.2f} x {last.size[2]:.2f} m) does not fit under '
+        f'"{cover.name}"{beside}. Nothing was written.'
     )
+
+
+def _abreast(groups: Sequence[Group], half: Array) -> Array:
+    """Middles of `groups` in a line along the longer of `half` [m], shape (groups, 2), around the middle of both."""
+    axis = int(half[1] > half[0])
+    sizes = np.array([one.size[axis] for one in groups])
+    free = max(2.0 * float(half[axis]) - float(sizes.sum()), 0.0) / (len(groups) + 1)
+    gaps = [min(free, natural_gap(a.size[:2], b.size[:2])) for a, b in pairwise(groups)]
+    along = np.cumsum([0.0, *(sizes[1:] + sizes[:-1]) / 2 + np.array(gaps)])
+    return np.outer(along - (along[-1] + (sizes[-1] - sizes[0]) / 2) / 2, np.eye(2)[axis])
 
 
 def covered(body: Placed, cover: Placed, air: float) -> bool:

@@ -91,18 +91,19 @@ def _spots(kind: str, item: Item, surface: Surface) -> list[Array]:
     return [room * one - centre for one in at]
 
 
-def place_holds(kind: str, body: Placed, carrier: Placed) -> tuple[bool, str]:
-    """Whether `body` is at the edge, in the corner or in the middle of what it lies on, and what was measured."""
-    region = _region(body, carrier)
+def place_holds(kind: str, bodies: Sequence[Placed], carrier: Placed) -> tuple[bool, str]:
+    """Whether `bodies`, together, are at the edge, in a corner or in the middle of `carrier`, and what was measured."""
+    region = _region(bodies[0], carrier)
     half = np.array(region.half_size)
-    local = ((body.vertices - carrier.position) @ carrier.rotation - np.array(region.floor))[:, :2]
+    points = np.concatenate([body.vertices for body in bodies])
+    local = ((points - carrier.position) @ carrier.rotation - np.array(region.floor))[:, :2]
     if kind == "in_middle":
         middle = (local.min(axis=0) + local.max(axis=0)) / 2
         off = np.abs(middle)
         holds = bool(np.all(off <= np.maximum(MIDDLE[0], MIDDLE[1] * half)))
         return holds, f"{1e3 * float(np.linalg.norm(off)):.0f} mm from the middle"
-    centre = ((body.centre_of_mass - carrier.position) @ carrier.rotation - np.array(region.floor))[:2] / half
-    if (np.linalg.norm(centre) if region.shape == "disc" else np.abs(centre).max()) > 1.0:
+    centres = np.stack([offset_on(body, carrier) for body in bodies]) / half
+    if (np.linalg.norm(centres, axis=1).max() if region.shape == "disc" else np.abs(centres).max()) > 1.0:
         return False, "centre of mass beyond the edge"
     near = np.maximum(NEAR[0], NEAR[1] * half)
     if region.shape == "disc":
@@ -111,7 +112,15 @@ def place_holds(kind: str, body: Placed, carrier: Placed) -> tuple[bool, str]:
     free = np.minimum(half + local.min(axis=0), half - local.max(axis=0))
     close = free <= near
     detail = f"{1e3 * free[0]:.0f} and {1e3 * free[1]:.0f} mm from the edges"
+    if kind == "in_corner" and len(np.unique(np.sign(centres), axis=0)) > 1:
+        return False, f"{detail}, in the corners of two quarters"
     return bool(close.all() if kind == "in_corner" else close.any()), detail
+
+
+def offset_on(body: Placed, carrier: Placed) -> Array:
+    """Where the centre of mass of `body` is from the middle of what it lies on, in that one's frame [m], shape (2,)."""
+    floor = np.array(_region(body, carrier).floor)
+    return ((body.centre_of_mass - carrier.position) @ carrier.rotation - floor)[:2]
 
 
 def _region(body: Placed, carrier: Placed) -> Region:

@@ -41,11 +41,11 @@ import numpy as np
 from pat3d.errors import SpecError
 from pat3d.geometry.polygons import contains, outline, polygon_gap
 from pat3d.geometry.pose import Pose
-from pat3d.layout.arranged import arrangement_holds
+from pat3d.layout.arranged import arrangement_holds, in_grid
 from pat3d.layout.bodies import Array, Placed, distance, place_all
 from pat3d.layout.formations import reach_of_beside
 from pat3d.layout.frames import column_of
-from pat3d.scene.arrangements import Arrangement, Posture
+from pat3d.scene.arrangements import LINES, Arrangement, Posture, crossing
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation
 from pat3d.scene.relations import SIDES, carriers_of
@@ -120,8 +120,14 @@ def check_arranged(
         return ()
     bodies = place_all(assets, poses)
     found = []
+    grids = crossing([one.objects for one in arrangements if one.kind in LINES])
     for one in arrangements:
         holds, detail = arrangement_holds(one, bodies, touch)
+        grid = next((cells for cells in grids if one.kind in LINES and set(one.objects) <= set(cells)), None)
+        if grid is not None:
+            # Rows that cross are a grid only together.
+            squared, how = in_grid(grid, bodies)
+            holds, detail = holds and squared, f"{detail}; {how}"
         found.append(RelationResult(relation=one, holds=holds, detail=detail))
     for one in postures:
         holds, tilt = one.holds(bodies[one.object].rotation[:, 2].tolist())

@@ -77,6 +77,12 @@ def spread(
     Raises:
         LayoutError: there is no free space.
     """
+    cornered = next((name for name, kind in top.wishes.places.items() if kind == "in_corner"), None)
+    if cornered is not None and all(region.surface.disc for region in top.regions):
+        raise LayoutError(
+            f'"{cornered}" cannot be in a corner of "{top.name}", which is round; "at_edge" would do. '
+            "Nothing was written."
+        )
     placed: list[Group] = []
     notes: list[str] = []
     waiting = _shares(top, groups, laterals)

@@ -16,12 +16,14 @@ from pat3d.errors import SpecError
 from pat3d.scene.relations import GROUND, Relation, carriers_of
 
 ArrangementKind = Literal[
-    "between", "far_from", "at_edge", "in_corner", "in_middle", "row", "circle", "facing", "side_by_side",
-    "leaning_against", "under", "across",
+    "between", "far_from", "at_edge", "in_corner", "in_corners", "in_middle", "row", "circle", "facing",
+    "side_by_side", "leaning_against", "under", "across",
 ]  # fmt: skip
 
 PostureKind = Literal["upright", "upside_down", "on_its_side"]
 
+LINES: tuple[ArrangementKind, ...] = ("row", "side_by_side")
+"""Kinds in which the objects stand in a line; such lines that cross are a grid."""
 MANY = 100
 
 
@@ -72,7 +74,14 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
         words="in the corner of",
         objects=(1, 4),
         of=(1, 1),
-        holds="it is at most 5 cm, or 15 % of half the surface, away from two edges that meet",
+        holds="it, or several together, are at most 5 cm, or 15 % of half the surface, away from two edges that meet",
+        on_it=True,
+    ),
+    "in_corners": ArrangementRule(
+        words="in different corners of",
+        objects=(2, 4),
+        of=(1, 1),
+        holds="each is in_corner, and no two are in the same one",
         on_it=True,
     ),
     "in_middle": ArrangementRule(
@@ -93,8 +102,8 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
         words="in a circle around",
         alone="in a circle",
         objects=(3, MANY),
-        of=(0, 1),
-        holds="the middles are on one circle, in order, at equal angles",
+        of=(0, MANY),
+        holds="the middles are on one circle, in order, at equal angles; of what it goes around all is inside",
     ),
     "facing": ArrangementRule(
         words="facing",
@@ -118,7 +127,7 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
     ),
     "under": ArrangementRule(
         words="under",
-        objects=(1, 1),
+        objects=(1, MANY),
         of=(1, 1),
         holds="its centre of mass is below the underside of the other, its top below that too",
     ),

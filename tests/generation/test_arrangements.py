@@ -108,6 +108,21 @@ SCENES = {
         "  - {kind: across, objects: [ruler], of: [bowl]}\n",
     ),
     "under": spec(objects("stool:stool", "cat:cat"), "", "  - {kind: under, objects: [cat], of: [stool]}\n"),
+    "two things under one": spec(
+        TABLE + objects("stool:stool", "basket:basket"),
+        "",
+        "  - {kind: under, objects: [stool, basket], of: [table]}\n",
+    ),
+    "covered": spec(
+        TABLE + objects("bowl:bowl:upside_down", "die:dice", "nut:walnut"),
+        on("bowl", "die", "nut"),
+        "  - {kind: under, objects: [die, nut], of: [bowl]}\n",
+    ),
+    "corners": spec(
+        TABLE + objects("a:candle", "b:candle", "c:candle", "d:candle", "vase:vase"),
+        on("a", "b", "c", "d", "vase"),
+        "  - {kind: in_corners, objects: [a, b, c, d], of: [table]}\n",
+    ),
 }
 
 
@@ -236,6 +251,8 @@ def test_a_carrier_that_only_seems_to_carry_is_found_out(made, tmp_path):
          "too thick to lean"),
         (spec(objects("box:box", "ball:ball"), "", "  - {kind: under, objects: [ball], of: [box]}\n"),
          "does not fit under"),
+        (spec(TABLE + objects("cup:cup:upside_down", "a:walnut", "b:walnut"), on("cup", "a", "b"),
+              "  - {kind: under, objects: [a, b], of: [cup]}\n"), 'does not fit under "cup" beside "a"'),
         (spec(TABLE + objects(*(f"m{k}:pot" for k in range(8))), on(*(f"m{k}" for k in range(8))),
               f"  - {{kind: row, objects: [{', '.join(f'm{k}' for k in range(8))}]}}\n"), "finds no room"),
     ],

@@ -1,6 +1,7 @@
 """When arrangements hold: blocks at given places, moved across the border of every definition."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +17,7 @@ from pat3d.layout.postures import posture_rotation
 from pat3d.layout.predicates import check_arranged, check_relations
 from pat3d.layout.spans import crossing
 from pat3d.scene.arrangements import Arrangement, Posture
+from pat3d.scene.asset import Region
 from pat3d.scene.model import Relation
 from tests.layout.things import asset, ball, block, mug, pen, shelf, table, vessel
 
@@ -154,6 +156,113 @@ def test_what_is_under_has_its_top_below_the_underside():
     assert not holds("under", {"t": (0, 0), "a": (0.7, 0.1)}, "a", "t", {"t": table()})
     assert not holds("under", {"t": (0, 0), "a": Pose(position=(0, 0, 0.65))}, "a", "t", {"t": table()})
     assert not holds("under", {"t": (0, 0), "a": Pose(position=(0, 0, 0.741))}, "a", "t", {"t": table()})
+
+
+def test_a_small_thing_under_a_vessel_that_is_upside_down_is_in_its_cavity():
+    """The vessel is 10 cm tall with a floor of 6 mm: inside it, 9.4 cm are free."""
+    over = {"v": Pose(position=(0.0, 0.0, 0.1), quat_wxyz=(0.0, 1.0, 0.0, 0.0))}
+    vessels = {"v": vessel(0.09, 0.1)}
+    assert holds("under", {**over, "a": (0.01, 0)}, "a", "v", vessels)
+    assert not holds("under", {**over, "a": (0.2, 0)}, "a", "v", vessels), "beside it"
+    assert not holds("under", {**over, "a": Pose(position=(0, 0, 0.1))}, "a", "v", vessels), "on it"
+    assert not holds("under", {**over, "a": (0, 0)}, "a", "v", {**vessels, "a": block(z=0.096)}), "through it"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_under_one_thing_stands_there_together(seed):
+    """Two under a table on the floor, two under a vessel that stands upside down on it; one more has no room."""
+    assets = {"table": table(), "pot": vessel(0.12, 0.1), **{name: block(0.05, 0.05, 0.05) for name in "ab"},
+              "c": block(0.4, 0.3, 0.4), "d": block(0.3, 0.3, 0.5)}  # fmt: skip
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in ("pot", "a", "b"))
+    asked = (
+        Arrangement(kind="under", objects=("a", "b"), of=("pot",)),
+        Arrangement(kind="under", objects=("c",), of=("table",)),
+        Arrangement(kind="under", objects=("d",), of=("table",)),
+    )
+    poses = arrange(assets, on, seed=seed, arrangements=asked, postures={"pot": "upside_down"}).poses
+    assert [result for result in check_arranged(asked, (), assets, poses) if not result.holds] == []
+    more = (replace(asked[0], objects=("a", "b", "e")), *asked[1:])
+    further = Relation(child="e", kind="on", parent="table")
+    with pytest.raises(LayoutError, match=r'"e" .* does not fit under "pot" beside "a", "b"'):
+        arrange({**assets, "e": block(0.05, 0.15, 0.05)}, (*on, further), seed=seed, arrangements=more,
+                postures={"pot": "upside_down"})  # fmt: skip
+
+
+def test_in_corners_is_one_in_each_and_in_a_corner_is_all_in_one():
+    """On 1.2 x 0.8 m; blocks of 6 cm."""
+    tops = {"t": table()}
+    corner = {"a": (0.53, 0.33), "b": (-0.53, 0.33), "c": (0.44, 0.33), "d": (0.53, -0.33)}
+
+    def at(kind: str, names: str) -> bool:
+        poses = {name: Pose(position=(*corner[name], 0.74)) for name in names}
+        return holds(kind, {**poses, "t": (0, 0)}, names, "t", tops)
+
+    assert at("in_corners", "abd")
+    assert not at("in_corners", "ac"), "both in the same corner"
+    assert at("in_corner", "ac")
+    assert not at("in_corner", "ab"), "in two corners"
+    assert not at("in_corner", "bd"), "in opposite corners"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_layouts_put_things_into_the_corners_they_are_asked_for(seed):
+    assets = {"table": table(), **{name: block() for name in "abcdefg"}}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in "abcdefg")
+    for asked in (
+        Arrangement(kind="in_corners", objects=tuple("abcd"), of=("table",)),
+        Arrangement(kind="in_corner", objects=tuple("efg"), of=("table",)),
+    ):
+        poses = arrange(assets, on, seed=seed, arrangements=(asked,)).poses
+        assert [result for result in check_arranged((asked,), (), assets, poses) if not result.holds] == []
+
+
+def test_a_round_table_has_no_corner():
+    round_table = asset("table", shapes.cylinder(0.5, 0.7, sides=32),
+                        Region(kind="on", shape="disc", floor=(0, 0, 0.7), half_size=(0.5, 0.5)))  # fmt: skip
+    on = (Relation(child="a", kind="on", parent="table"),)
+    asked = (Arrangement(kind="in_corner", objects=("a",), of=("table",)),)
+    with pytest.raises(LayoutError, match='a corner of "table", which is round'):
+        arrange({"table": round_table, "a": block()}, on, seed=0, arrangements=asked)
+
+
+def test_a_circle_around_several_things_has_all_of_them_inside():
+    ring = {
+        name: (0.3 * math.cos(k * math.tau / 5), 0.3 * math.sin(k * math.tau / 5)) for k, name in enumerate("abcde")
+    }
+    assert holds("circle", {**ring, "m": (-0.05, 0), "n": (0.05, 0)}, "abcde", "mn")
+    assert not holds("circle", {**ring, "m": (-0.35, 0), "n": (0.35, 0)}, "abcde", "mn"), "around neither"
+    assert not holds("circle", {**ring, "m": (0.05, 0), "n": (0.15, 0)}, "abcde", "mn"), "their middle is elsewhere"
+
+
+@pytest.mark.parametrize("inside", [2, 4])
+def test_layouts_have_a_circle_around_several_things(inside):
+    assets = {"table": table(), **{name: block() for name in "abcdefg"}, **{name: mug() for name in "wxyz"[:inside]}}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in assets if name != "table")
+    asked = (Arrangement(kind="circle", objects=tuple("abcdefg"), of=tuple("wxyz"[:inside])),)
+    poses = arrange(assets, on, seed=0, arrangements=asked).poses
+    assert check_arranged(asked, (), assets, poses)[0].holds
+
+
+def test_rows_that_cross_are_a_grid_only_at_right_angles():
+    """2 x 2 blocks 20 cm apart: any two things are a row, four need their lines to cross at 75 degrees at least."""
+    rows = tuple(Arrangement(kind="row", objects=tuple(names)) for names in ("ab", "cd", "ac", "bd"))
+    for askew, expected in ((0.0, True), (10.0, True), (20.0, False)):
+        shift = 0.2 * math.tan(math.radians(askew))
+        places = {"a": (0, 0), "b": (0.2, 0), "c": (shift, 0.2), "d": (0.2 + shift, 0.2)}
+        poses = {name: Pose(position=(*at, 0.0)) for name, at in places.items()}
+        found = check_arranged(rows, (), dict.fromkeys(places, block()), poses)
+        assert {result.holds for result in found} == {expected}
+    poses["c"], poses["d"] = Pose(position=(0, 0.2, 0)), Pose(position=(0.36, 0.2, 0))
+    assert not any(result.holds for result in check_arranged(rows, (), dict.fromkeys(places, block()), poses))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_several_that_face_one_thing_stand_in_a_row_before_it(seed):
+    assets = {"tv": block(0.8, 0.2, 0.6), **{name: block(0.4, 0.4, 0.9, noun="chair") for name in "abc"}}
+    asked = (Arrangement(kind="facing", objects=("a", "b", "c"), of=("tv",)),)
+    poses = arrange(assets, (), seed=seed, arrangements=asked).poses
+    row = Arrangement(kind="row", objects=("a", "b", "c"))
+    assert [result for result in check_arranged((*asked, row), (), assets, poses) if not result.holds] == []
 
 
 def test_what_leans_would_fall_without():

@@ -37,7 +37,7 @@ def rectangle(item: Item, middle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return middle - item.size / 2, middle + item.size / 2
 
 
-@pytest.mark.parametrize("centre", [None, "a"])
+@pytest.mark.parametrize("centre", [(), ("a",)])
 @pytest.mark.parametrize("count", [3, 5, 8])
 def test_a_ring_is_even_keeps_all_gaps_and_is_hardly_larger_than_it_has_to_be(count, centre):
     def gap(first: Item, second: Item) -> float:
@@ -53,12 +53,12 @@ def test_a_ring_is_even_keeps_all_gaps_and_is_hardly_larger_than_it_has_to_be(co
         )
 
     things = items(count, seed=count)
-    members = tuple(name for name in things if name != centre)
+    members = tuple(name for name in things if name not in centre)
     offsets = Formation(members=members, centre=centre, ring=True).offsets(things, (), gap)
     around = np.array([offsets[name] for name in members]) @ [1, 1j]
     np.testing.assert_allclose(np.abs(around), abs(around[0]))
     np.testing.assert_allclose(np.roll(around, -1) / around, np.exp(2j * np.pi / len(members)), atol=1e-9)
-    assert centre is None or not offsets[centre].any()
+    assert not any(offsets[name].any() for name in centre)
     # Rings grow by steps of 2 %.
     assert least_excess(offsets) >= -1e-12
     assert least_excess({name: at / 1.02 for name, at in offsets.items()}) < 0.0

@@ -73,6 +73,12 @@ def _leads(words: Sequence[str]) -> bool:
     return all(word == "of" or (word[0].isalnum() and word not in BREAKING) for word in words)
 
 
+def _named_so(mention: Mention, before: Sequence[Mention]) -> bool:
+    """Whether one of those `before` has the name of `mention`: no hamper is called a laundry basket."""
+    named = {name for other in before for name in (other.text, *singulars(other.text))}
+    return bool({mention.text, *singulars(mention.text)} & named)
+
+
 def _without_remarks(plan: ScenePlan) -> str:
     """The prompt without what a note names as a remark that nothing is made of: so it was read."""
     prompt = plan.prompt
@@ -230,7 +236,7 @@ class _Auditor(Compared):
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [mention for mention, before in zip(mentions, leads, strict=True)
                      if mention.new or mention.end in placed or mention.lead not in before
-                     or mention.text not in {one.text for one in mentions if one.start < mention.start}]  # fmt: skip
+                     or not _named_so(mention, mentions[: mentions.index(mention)])]  # fmt: skip
             bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
             listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
             least = max(least, listed if listed > 1 else 0)
@@ -306,7 +312,8 @@ class _Auditor(Compared):
 
     def _headless(self) -> bool:
         """Whether a phrase without a noun ("the two") names objects."""
-        return any(obj.phrase and set(obj.phrase.lower().split()) <= ARTICLES for obj in self.plan.objects)
+        return any(obj.phrase and (set(obj.phrase.lower().split()) <= ARTICLES or self.headless(obj))
+                   for obj in self.plan.objects)  # fmt: skip
 
     def _made_as(self) -> list[str]:
         """Objects that are told of in no word of their phrase, and what is poured or spread and made in its bottle."""

@@ -21,9 +21,8 @@ def broken(it: Compared, claim: Claim) -> str | None:
         # "Take the cup away from the table": before the task it is there.
         return None
     turned = {each.object for each in it.plan.postures if each.kind == "upside_down"}
-    if (claim.place == "above" and any(a in turned and b in of for a, _, b in it.edges)) or not _holds(
-        it, claim, _here(it, claim), of
-    ):
+    upset = any(a in turned and b in of and kind == "on" for a, kind, b in it.edges)
+    if (claim.place == "above" and upset) or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
     whose = whose_of(it, claim)
     if whose and not all(
@@ -118,14 +117,12 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
         owners = (here & before) | (here - named)
-        return claim.of is None or any(a in of and b in owners and kind in ("on", "in") for a, kind, b in it.edges)
+        return claim.of is None or any(
+            a in of and b in owners and kind in ("on", "in", "over") for a, kind, b in it.edges
+        )
     kinds = set(it.kinds(claim))
-    if (
-        claim.place == "between"
-        and not kinds & {"on"}
-        and claim.of is not None
-        and (claim.of.number or 1) == len(of) > 1
-    ):
+    single = claim.place == "between" and "on" not in kinds and claim.of is not None
+    if single and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
         # "between two dolls": between no other things.
         return any(one.kind == "between" and set(one.of) <= set(of) for one in it.plan.arrangements)
     if claim.of is None and claim.place == "between":

@@ -7,12 +7,13 @@ from collections.abc import Collection
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.text import Claim, Mention, Said, singulars
-from pat3d.plan.audit.words import FALLEN, PARTS, SHARED, Place
+from pat3d.plan.audit.words import FALLEN, HEADLESS, PARTS, SHARED, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import Relation, carriers_of
 
 _MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
-             "next_to": "next_to", "on": "under", "far_from": "far_from", "side_by_side": "side_by_side"}  # fmt: skip
+             "next_to": "next_to", "on": "under", "under": "over", "far_from": "far_from",
+             "side_by_side": "side_by_side"}  # fmt: skip
 _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
 """Notes that say how a thing is made, not that it is missing."""
 _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
@@ -22,9 +23,11 @@ _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left
 _ABSENT = re.compile(r"not (in the scene|understood|modelled|arranged): |.* is left out|.*(which|how many) is not said")
 _QUOTED = re.compile(r'"([^"]*)"')
 KINDS: dict[Place, frozenset[str]] = {
-    "on": frozenset({"on", "in", "hangs_from", "across", "at_edge", "in_corner", "in_middle", "leaning_against"}),
+    "on": frozenset({"on", "in", "over", "hangs_from", "across", "at_edge", "in_corner", "in_corners",
+                     "in_middle",
+                     "leaning_against"}),
     "on top": frozenset({"on", "across", "in_middle"}),
-    "in": frozenset({"in", "on", "in_corner", "in_middle"}),
+    "in": frozenset({"in", "on", "in_corner", "in_corners", "in_middle"}),
     "beside": frozenset({"next_to", "left_of", "right_of", "in_front_of", "behind", "leaning_against", "around",
                          "side_by_side"}),
     "against": frozenset({"leaning_against"}),
@@ -33,7 +36,7 @@ KINDS: dict[Place, frozenset[str]] = {
     "front": frozenset({"in_front_of"}),
     "behind": frozenset({"behind"}),
     "under": frozenset({"under"}),
-    "above": frozenset({"on", "above"}),
+    "above": frozenset({"on", "over", "above"}),
     "between": frozenset({"between", "right_of", "left_of", "in_front_of", "behind"}),
     "around": frozenset({"around", "circle"}),
     "far": frozenset({"far_from"}),
@@ -101,6 +104,11 @@ class Compared:
             or any(re.search(rf"\b{re.escape(word)}\b", obj.phrase.lower()) for word in words)
             or (not mention.new and heads & {obj.noun.split()[-1], obj.name.rstrip(" 0123456789").split()[-1]})
         ]  # fmt: skip
+
+    @staticmethod
+    def headless(obj: PlannedObject) -> bool:
+        """Whether the phrase of `obj` has no noun: "the largest", "a short one"."""
+        return obj.phrase.lower().split()[-1:] != [] and obj.phrase.lower().split()[-1] in HEADLESS | {"one", "ones"}
 
     def which(self, mention: Mention) -> list[PlannedObject]:
         """The objects that `mention` may name and that have its colours, where some have; else all that it may name."""

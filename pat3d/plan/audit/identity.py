@@ -109,7 +109,7 @@ def _multiplied(it: Compared) -> Iterator[tuple[int, str]]:
         alone = sum(other.noun == mention.noun for other in it.said.mentions) == 1
         if not alone or mention.plural or mention.number not in (None, 1):
             continue
-        there = sum(obj.noun == mention.noun for obj in it.plan.objects)
+        there = sum(obj.noun == mention.noun and not it.headless(obj) for obj in it.plan.objects)
         near = set(words[max(mention.first - 2, 0) : mention.first]) & (EACH | {"of"})
         # "A sofa with two cushions, each on its side": one sofa; "a fork beside each plate": as many as plates.
         one = words[mention.first] == "the" or (bool(led) and led == each and mention.end <= led[0])

@@ -181,6 +181,9 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
             return True
     # What stands by something on a table stands there too.
     beside = {b for a, k, b in it.edges if a == child and k not in ("on", "in", "under")}
+    beside |= {
+        cover for one in it.plan.arrangements if one.kind == "under" and child in one.objects for cover in one.of
+    }
     return any((b, k, parent) in it.edges for b in beside for k in ("on", "in"))
 
 

@@ -246,7 +246,8 @@ def rows(it: Compared) -> Iterator[tuple[int, str]]:
             ends = {row.objects[0], row.objects[-1]} & set(one.objects)
             if one.kind == "in_middle" and ends and set(one.objects) < set(row.objects):
                 name = min(ends)
-                yield 0, f'not as said: "{name}" is at the end of the row, and in the middle of "{one.of[0]}"'
+                of = f' of "{one.of[0]}"' if one.of else ""
+                yield 0, f'not as said: "{name}" is at the end of the row, and in the middle{of}'
     stands = any(len(one.objects) > 1 for one in it.plan.arrangements)
     stands = stands or any(not rel.supports for rel in it.plan.relations)
     words = it.said.words

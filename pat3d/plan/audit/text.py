@@ -116,6 +116,7 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\b\w+,? such as\b ?", "", prompt)
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
     prompt = re.sub(rf"\b(?:is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", "holds", prompt)
+    prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
     prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)

@@ -49,7 +49,8 @@ PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him
 ORDINALS = frozenset({"second", "third", "fourth", "fifth"})
 HEADLESS = ORDINALS | frozenset({
     "first", "last", "left", "right", "middle", "top", "bottom", "upper", "lower",
-    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest",
+    "other", "others", "former", "latter", "smaller", "larger", "smallest", "largest", "tallest", "shortest", "bigger",
+    "biggest",
 })  # fmt: skip
 """Words that name an object of which the noun is not said."""
 ENDING = frozenset({"one", "ones", "and", "but", "while", "is", "are", "or"})
@@ -97,7 +98,7 @@ ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
 PARTS: dict[str, frozenset[str]] = {
     **dict.fromkeys(("edge", "rim", "lip", "border"), frozenset({"at_edge"})),
-    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner"}),
+    "end": frozenset({"at_edge", "left_of", "right_of"}), "corner": frozenset({"in_corner", "in_corners"}),
     **dict.fromkeys(("middle", "center", "centre"), frozenset({"in_middle", "between"})),
     "bottom": frozenset({"under"}), **dict.fromkeys(("foot", "handle", "leg", "arm", "armrest", "spout"), frozenset()),
 }  # fmt: skip
@@ -181,7 +182,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "hanging": ("hanging from", "hangs from", "hang from", "hanging on", "hangs on", "suspended from", "hung from"),
         "holding": ("holding", "holds", "hold", "contains", "containing", "contain", "carries", "carry", "carrying",
                     "supports", "supporting", "held", "wearing", "wears", "bearing", "bears", "filled with",
-                    "full of", "topped with", "topped by", "occupied by"),
+                    "full of", "topped with", "topped by", "covered by", "occupied by"),
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
         "across": ("across", "spanning", "bridging"),
@@ -220,12 +221,12 @@ seen should must need i'd give following features color immediate amidst belongs
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like want see imagine show create make he she they namely whereas itself themselves himself herself now still already
-image possible sure ensure find finds generate remaining
+like want see imagine show create make corners he she they namely whereas itself themselves himself herself now still
+already image possible sure ensure find finds generate remaining
 yesterday today currently simply form forms forming appears appear x count slightly
 """
 _POSTURES = """
-hidden else
+hidden else cover
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 served scattered spread kept stored wedged tucked

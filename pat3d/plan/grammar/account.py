@@ -72,7 +72,8 @@ def _told(word: str, said: Sequence[Modifiers]) -> bool:
             return True
         if word in lexicon.SIZES and told.scale != 1.0:
             return True
-        superlative = word in lexicon.SUPERLATIVES and bool(told.size_word)
+        measured = lexicon.SUPERLATIVES.get(word, ("", 1.0))[0]
+        superlative = bool(measured) and (bool(told.size_word) or measured in told.adjectives)
         if superlative or any(find_colour(part) in told.colours for part in parts):
             return True
     return False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import covers, lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
 from pat3d.plan.grammar.world import Arranged, Edge, Group, Item, World
 from pat3d.scene.arrangements import ARRANGEMENTS
@@ -22,9 +22,12 @@ _ROW = 12
 
 
 def together(world: World) -> list[Edge]:
-    """What stands on the same surface because of an arrangement, as lateral relations of `world`."""
+    """What stands on the same surface because of an arrangement, as lateral relations of `world`.
+
+    What is under something may stand on a dish with it.
+    """
     return [
-        Edge(child=child, kind="next_to", parent=parent, weak=False)
+        Edge(child=child, kind="next_to", parent=parent, weak=each.kind == "under")
         for each in world.arranged
         if each.kind in _SHARED
         for child in each.items
@@ -150,7 +153,8 @@ def _holds(world: World, each: Arranged) -> bool:
     kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
     if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
         return False
-    if each.kind == "under" and not world.is_a(each.of[0], lexicon.OVERHANGING):
+    over = each.kind != "under" or world.is_a(each.of[0], lexicon.OVERHANGING)
+    if not over and not covers.stands_over(world, each.of[0], each.items[0]):
         return False
     within = len(supports) == 1 and "in" in kinds
     return not within and not any(everything & set(world.ancestors(item)) for item in everything)

@@ -16,12 +16,20 @@ from pat3d.plan.grammar.unmade import base_verb
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
 _TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
-_FORBIDDING = (("do", "not"), ("don't",), ("never",))
+_FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
+               ("don't",), ("never",))  # fmt: skip
+_STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck"})
+_PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
+_SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
+_HANDING = (["give"], ["hand"], ["pass"])
+_SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
+_PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
+_RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "operator"}
 
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    return _handed(_fronted(_sideways(_ordered(tokens))))
+    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(tokens)))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -29,7 +37,7 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
     made: list[Token] = []
     at = 0
     while at < len(tokens):
-        words = [token.text for token in tokens[at : at + 4]]
+        words = [token.text for token in tokens[at : at + 6]]
         opens = not made or made[-1].text in (".", ",", "and", "but", "please")
         size = next((len(no) for no in _FORBIDDING if tuple(words[: len(no)]) == no), 0) if opens else 0
         if size and base_verb(words[size]) == words[size] and len(words) > size + 1:
@@ -41,9 +49,60 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "swap the positions of the cup and the can" as "swap the cup and the can", "trade places" too."""
+    words = [token.text for token in tokens]
+    verb = next((at for at, word in enumerate(words[:-2]) if word in _SWAPPING), None)
+    if verb is None:
+        return tokens
+    place = next((at for at in range(verb + 1, min(verb + 4, len(words))) if words[at] in _PLACES), 0)
+    if place and words[place + 1] in ("of", "between"):
+        return [*tokens[: verb + 1], *tokens[place + 2 :]]
+    if place and tokens[place + 1].mark and verb > 2 and "and" in words[:verb]:
+        # "Have the cup and the can trade places."
+        first = 1 if words[0] in ("have", "let", "make") else 0
+        asked = replace(tokens[verb], start=tokens[0].start, end=tokens[0].end)
+        last = replace(tokens[verb - 1], end=tokens[place].end)
+        return [asked, *tokens[first : verb - 1], last, *tokens[place + 1 :]]
+    return tokens
+
+
+def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf", "lay out" as "lay"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3):
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        follower = words[at + 2] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.POSSESSIVES
+        if led and follower and words[at] in ("lay", "set", "spread") and words[at + 1] == "out":
+            return [*tokens[: at + 1], *tokens[at + 2 :]]
+        if not (led and follower and words[at : at + 2] == ["line", "up"]):
+            continue
+        end = next(n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n))
+        row = [replace(tokens[at + n // 2], text=word) for n, word in enumerate(("in", "a", "row"))]
+        return [*tokens[:at], replace(tokens[at], text="arrange"), *tokens[at + 2 : end], *row, *tokens[end:]]
+    return tokens
+
+
+def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "push and close the drawer" as "close the drawer", of which both are said."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4):
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        both = all(base_verb(word) == word for word in (words[at], words[at + 2])) and words[at + 1] == "and"
+        taken = words[at + 3] in ("up", "out")
+        follower = words[at + 3 + taken] if at + 3 + taken < len(words) else "."
+        if led and both and (follower in lexicon.DETERMINERS | lexicon.POSSESSIVES):
+            return [*tokens[:at], replace(tokens[at + 2], start=tokens[at].start), *tokens[at + 3 :]]
+    return tokens
+
+
 def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
     words = [token.text for token in tokens]
+    belongs = next((at for at in range(2, len(words) - 3) if words[at] in ("belongs", "belong")), 0)
+    if belongs and words[0] in ("that", "this", "these", "those") and link_at(tokens, belongs + 1):
+        # "That cup belongs on the shelf."
+        return [replace(tokens[0], text="put"), *tokens[:belongs], *tokens[belongs + 1 :]]
     for at in range(1, len(words) - 3):
         asks = words[at] in ("should", "must", "shall")
         asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
@@ -80,9 +139,23 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
 def _handed(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "hand me the cup" as "fetch the cup", and "make sure" as "ensure"."""
     made: list[Token] = []
+    told = {token.text for token in tokens}
     given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
+        if token.text == "away" and told & _STOWING and follower in _PLACING:
+            continue
+        sorted_by = "sort" in told and any(each.text == "into" for each in made)
+        if sorted_by and (
+            (token.text == "by" and follower in _SORTS) or (token.text in _SORTS and tokens[at - 1].text == "by")
+        ):
+            continue
+        given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING
+        if given_to and follower in lexicon.DETERMINERS:
+            # "Give the robot the cup"
+            made.pop()
+            made[-1] = replace(made[-1], text="fetch")
+            continue
         if token.text in ("me", "us") and before in _GIVING:
             made[-1] = replace(made[-1], text="fetch")
             continue

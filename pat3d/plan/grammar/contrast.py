@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.matching import line_up, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.phrases import Phrase
@@ -21,6 +22,26 @@ class Contrast(Pronouns):
             {word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other)
         )
         return bool(ours and theirs) and not ours & theirs
+
+    def _told_otherwise(self, group: Group, phrase: Phrase) -> bool:
+        """Whether `phrase` describes what is no member of `group`: "the plastic cup" after "the glass cup".
+
+        What is named twice in one sentence by other words is two things: "the hamper" and "the laundry basket".
+        """
+        ours, theirs = group.modifiers, phrase.modifiers
+        shades = [lexicon.SHADE_WORDS if each.colours or each.material else set() for each in (ours, theirs)]
+        looks = [{*each.adjectives} - lexicon.SAID_OTHERWISE - shade
+                 for each, shade in zip((ours, theirs), shades, strict=True)]  # fmt: skip
+        if ours.material and theirs.material and ours.material != theirs.material:
+            return True
+        if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
+            return True
+        if not group.phrase.definite or group not in self._world.groups[self._world.settled :]:
+            return False
+        names = {phrase.said or phrase.head, group.said}
+        part = names & (lexicon.STORAGE_PARTS | lexicon.DETACHED | lexicon.DRAWERS) or phrase.part or group.phrase.part
+        renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
+        return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
 
     def _elsewhere(self, at: int, group: Group) -> bool:
         """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""

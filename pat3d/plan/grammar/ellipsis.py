@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexicon import SIZES
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_modifier
+from pat3d.plan.grammar.likes import likes_named, with_noun
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -15,9 +16,13 @@ _SIDES = {"left": "left", "right": "right", "centre": "middle", "on top": "top"}
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
-def completed(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
-    """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower."""
-    return _towers(_alike(_with_nouns(_from_below(_described(_gapped(_full(chunks)))), nouns)))
+def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] = ()) -> list[Chunk]:
+    """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower.
+
+    `known` are the phrases of what was named before them.
+    """
+    told = likes_named(_from_below(_described(_gapped(_full(chunks)))), nouns, known)
+    return _towers(_alike(_with_nouns(told, nouns)))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -158,9 +163,9 @@ def _with_nouns(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
             continue
         follower = _neighbour(chunks, at, 1)
         if follower is not None and _lends(follower, phrase) and not _tells_apart(chunks, at):
-            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, follower, nouns))
+            chunks[at] = replace(chunks[at], phrase=with_noun(phrase, follower, nouns))
         elif (owner := _owner(chunks, at)) is not None and phrase.modifiers.colours:
-            chunks[at] = replace(chunks[at], phrase=_with_noun(phrase, owner, nouns))
+            chunks[at] = replace(chunks[at], phrase=with_noun(phrase, owner, nouns))
     return chunks
 
 
@@ -209,16 +214,6 @@ def _owner(chunks: Sequence[Chunk], at: int) -> Phrase | None:
     if phrase is None or phrase.kind != "object" or phrase.plural or not ends_in_one:
         return None
     return phrase if phrase.modifiers.colours else None
-
-
-def _with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:
-    words = owner.said.split()
-    while len(words) > 1 and is_modifier(words[0]) and nouns.match(words[1:]):
-        words = words[1:]
-    found = nouns.match(words) if words != owner.said.split() else None
-    noun, said = (found.noun, found.said) if found else (owner.noun, owner.said)
-    plural = phrase.count is not None and phrase.count > 1
-    return replace(phrase, kind=owner.kind, noun=noun, said=said, head=owner.head, cycle=owner.cycle, plural=plural)
 
 
 def _towers(chunks: list[Chunk]) -> list[Chunk]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from pat3d.errors import PromptError
-from pat3d.plan.grammar import arranging, lexicon
+from pat3d.plan.grammar import arranging, covers, lexicon, ranks
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, stands_on_edge
@@ -41,8 +41,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     there = set(world.items())
     world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
     world.laterals = [edge for edge in world.laterals if {edge.child, edge.parent} <= there]
+    covers.settle(world)
     _open_boxes(world, nouns)
     _widen_bowls(world, nouns)
+    ranks.settle(world)
     _pair_sides(world)
     _share_supports(world)
     arranging.settle(world, prompt)

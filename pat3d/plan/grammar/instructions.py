@@ -80,8 +80,10 @@ class Clause:
     manner: Manner | None = None
     """None for a description."""
     said: str = ""
-    aside: str = ""
-    """What was left out of the sentence before it was read."""
+    first: bool = True
+    """Whether the sentence begins with it."""
+    aside: tuple[str, ...] = ()
+    """What was left out of the sentence before it was read, piece by piece."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -111,13 +113,13 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         first = verb + 1
         while tokens[first].text in _PARTICLES and not (tokens[first].text == "on" and tokens[verb].text in _CERTAIN):
             first += 1
-        body, aside = list(tokens[first:end]), ""
+        body, aside = list(tokens[first:end]), ()
         for at, token in enumerate(body[:-1]):
             purpose = _is_deed(body[at + 1].text, nouns) and _VERBS.get(body[at + 1].text, "other") == "other"
             purpose = purpose or body[at + 1].text in _PURPOSES
             named = any(nouns.match([each.text]) for each in body[at + 2 :])
             if token.text == "to" and purpose and at and (not named or body[at + 1].text in _PURPOSES):
-                aside = text[token.start : body[-1].end].strip(" ,")
+                aside = (text[token.start : body[-1].end].strip(" ,"),)
                 body = body[:at]
                 break
         while body and (body[-1].text in (",", "and", "then") or body[-1].text in _PARTICLES - {"on", "off"}):
@@ -126,7 +128,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         begun = max(start, 0)
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
         manner = _VERBS.get(word, "other")
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, aside=aside))
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
 
 
@@ -209,7 +211,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         # "Stack of books", "plate full of carrots"
         return None
     leads = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.PRONOUNS | {"both", "either"}
-    if follower in leads or follower.isdecimal():
+    if follower in leads or follower.isdecimal() or (word == "avoid" and follower in ("anything", "everything")):
         return at
     if nouns.match([word, follower]):
         return None
@@ -262,14 +264,17 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
             if word in (".", ","):
                 break
         return 0
-    if words[0] == "the":
+    if words[0] in ("the", "a", "an", "your", "my", "our"):
         ahead = 1
         while ahead < len(words) and words[ahead] in _ACTORS:
             ahead += 1
         if ahead > 1:
-            while ahead < len(words) and words[ahead] in (*_MODALS, "needs", "has", "to", "go"):
+            named = ahead
+            while ahead < len(words) and words[ahead] in (*_MODALS, "needs", "need", "has", "is", "to", "go", "have"):
                 ahead += 1
-            if ahead < len(words) and _base(words[ahead]) in _VERBS:
+            # "A robot holding a cup stands" tells of a thing.
+            acts = ahead > named or (words[0] not in ("a", "an") and not words[min(ahead, 11)].endswith("ing"))
+            if acts and ahead < len(words) and _base(words[ahead]) in _VERBS:
                 return at + ahead
     return 0
 

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import LATERAL_SIDES
+from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
 from pat3d.plan.grammar.placing import Placing
@@ -155,6 +155,12 @@ class Interpreter(Placing):
                 continue
             pieces = chunk.phrase if chunk.phrase is not None and chunk.phrase.kind == "pieces" else None
             counted = pieces is not None and pieces.count is not None and pieces.modifiers == NO_MODIFIERS
+            # "the first and the last one red": of the first nothing is heard.
+            counted = counted or (
+                pieces is not None
+                and bool(position(pieces))
+                and pieces.modifiers == Modifiers(adjectives=pieces.modifiers.adjectives)
+            )
             if counted and at not in heard and at not in self._said.bound and at not in self._handled:
                 # "Five cans: two on a tray, three on a bench": that all five are on the bench leaves out the three.
                 self._world.note(f'not understood: "{chunk.text}"')

@@ -276,6 +276,10 @@ STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage b
 OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley")  # fmt: skip
 """What stands on legs, so that things can stand below it."""
+COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler", "teacup", "basket", "bucket", "pot",
+    "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
+    "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
+"""Vessels that, upside down, stand around what they cover."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
@@ -390,6 +394,12 @@ SUPERLATIVES = {
     "thickest": ("thick", 1.0), "thinnest": ("thin", 1.0), "longest": ("long", 1.0), "widest": ("wide", 1.0),
     "thicker": ("thick", 1.0), "thinner": ("thin", 1.0), "longer": ("long", 1.0), "wider": ("wide", 1.0),
 }  # fmt: skip
+OPPOSITES = tuple(frozenset(pair.split()) for pair in (
+    "dirty clean", "full empty", "open closed", "heavy light", "old new", "tall short", "long short", "wide narrow",
+    "thick thin", "soft hard", "wet dry", "round square", "hot cold", "broken intact", "ripe unripe", "deep shallow",
+    "filled empty", "used unused", "folded unfolded", "sharp blunt", "smooth rough", "opened closed", "hot iced",
+))  # fmt: skip
+"""Looks of which a thing has one."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,

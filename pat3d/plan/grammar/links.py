@@ -32,7 +32,8 @@ class Link:
     side: Side | None = None
     """For manner "half": which part of the parent."""
     said: str = ""
-    """For manner "than": the comparison, as written; for "half" words that may as well mean beside it."""
+    """For manner "than": the comparison, as written; for "half" words that may as well mean beside it; "over" where
+    something may be put over it."""
     says: ArrangementKind | None = None
     """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
 
@@ -54,8 +55,9 @@ def _table() -> dict[tuple[str, ...], Link]:
 
     add(
         Link(kind="on"),
-        "on", "atop", "atop of", "on top of", "on top", "upon", "over", "on to", "on the top of", "up on",
+        "on", "atop", "atop of", "on top of", "on top", "upon", "on to", "on the top of", "up on",
     )  # fmt: skip
+    add(Link(kind="on", said="over"), "over")
     add(Link(kind="on", says="above"), "above")
     add(Link(kind="in"), "in", "inside", "within", "in the inside of")
     add(
@@ -120,6 +122,11 @@ def _table() -> dict[tuple[str, ...], Link]:
         for part in ("edge", "corner", "end", "rim", "border"):
             place = f"{near} the {part} of"
             add(Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge"), place)
+    whichever = ("each", "every", "each of the", "each of the four", "the", "the four", "all four", "all the",
+                 "all of the", "all four of the", "opposite", "two")  # fmt: skip
+    corners = (f"{near} {which} corner{'' if which in ('each', 'every') else 's'} of"
+               for near in ("at", "on", "in") for which in whichever)  # fmt: skip
+    add(Link(manner="edge", kind="on", says="in_corners"), *corners)
     add(Link(kind="hangs_from"), "hanging from", "hung from", "suspended from", "dangling from", "hanging off",
         "hung on", "hanging on", "hung off", "hanging down from")  # fmt: skip
     add(Link(kind="hangs_from", finite=True), "hangs from", "dangles from", "hangs on", "hangs off", "hang from")
@@ -158,6 +165,7 @@ def _table() -> dict[tuple[str, ...], Link]:
         "covered in", "wearing", "set with", "strewn with", "crowned with", "capped with", "decorated by",
         "stacked with", "dotted with", "piled with", "piled high with", "heaped with", "heaped high with",
         "stacked high with", "loaded high with", "littered with", "scattered with", "laid with")  # fmt: skip
+    add(Link(manner="with", kind="on", said="over"), "covered by")
     add(Link(manner="with", kind="on", finite=True), "wears")
     add(Link(manner="hold"), "holding", "containing", "carrying", "bearing", "supporting", "housing", "laden with",
         "loaded with", "cradling", "hosting", "displaying")  # fmt: skip
@@ -190,6 +198,8 @@ for _word in ("on the", "to the", "at the", "from the", "on its", "to its", "tow
             SIDES[tuple(f"{_word} {_side}{_tail}".split())] = _side
             SIDES[tuple(f"{_word} far {_side}{_tail}".split())] = _side
         SIDES[tuple(f"{_word} {_side}-hand side".split())] = _side
+        SIDES[tuple(f"{_word} {_side} end".split())] = _side
+        SIDES[tuple(f"{_word} far {_side} end".split())] = _side
 for _word in ("on", "at", "to"):
     for _both in ("opposite sides", "both sides", "either side", "each side", "the left and right"):
         SIDES[tuple(f"{_word} {_both}".split())] = "both"
@@ -235,4 +245,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
     }.items()
     for words in phrases
 }  # fmt: skip
+for _line in ("in a row", "in a line", "lined up"):
+    for _way, _how in (("from left to right", "order"), ("from right to left", "reverse")):
+        EACH_OTHER[tuple(f"{_line} {_way}".split())] = _how
 """Words that arrange the members of one group, or of one list."""

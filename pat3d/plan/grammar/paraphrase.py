@@ -43,6 +43,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
 }
 """Places of what a pronoun names, in the words of a relation."""
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
+_STANDING = frozenset({"stand", "sit", "lie", "hang", "rest", "lean"})
 _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
@@ -311,7 +312,7 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
-        if token.text in _MODALS and follower == "be":
+        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and before not in (".", ","))):
             continue
         if token.text == "'s" and before not in plain and not nouns.match([before]):
             kept.pop()

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.amounts import worked_out
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_both_sides
 from pat3d.plan.grammar.cutter import Cutter
+from pat3d.plan.grammar.denials import without_denials
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
@@ -34,6 +36,7 @@ from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
+from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
 from pat3d.plan.scene_plan import ScenePlan
@@ -99,7 +102,10 @@ class GrammarPlanner:
         tokens = worked_out(chessmen(tokenise(text)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in reordered(_sentences(tokens)) for clause in self._clauses(text, sentence)]
+        told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
+        world.notes += [f'not modelled: "{said}"' for said in beside_robot]
+        world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
             if other is not None:
@@ -122,16 +128,20 @@ class GrammarPlanner:
         Raises:
             PromptError: the sentence leaves open what is to be there.
         """
+        sentence, denials = without_denials(varied(sentence, self._nouns), self._nouns)
+        denied = tuple(_quoted(text, span) for span in denials)
         try:
-            return clauses(text, plainer(text, sentence, self._nouns), self._nouns)
+            told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
+            return [replace(told[0], aside=(*denied, *told[0].aside)), *told[1:]]
         except UnreadError as error:
             failure = error
         for start, end in Tails(sentence, self._nouns, {}).around(failure.number):
             kept = _without(sentence, [(start, end)])
-            denied = sentence[start].text == "," and sentence[start + 1].text == "not"
-            if (denied or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
+            negated = sentence[start].text == "," and sentence[start + 1].text == "not"
+            if (negated or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
                 told = clauses(text, plainer(text, kept, self._nouns), self._nouns)
-                return [replace(told[0], aside=_quoted(text, sentence[start:end])), *told[1:]]
+                aside = (*denied, _quoted(text, sentence[start:end]), *told[0].aside)
+                return [replace(told[0], aside=aside), *told[1:]]
         raise failure
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
@@ -150,13 +160,15 @@ class GrammarPlanner:
 
         Second is the next likely reading where it is nearly as likely.
         """
+        if clause.first:
+            world.settled = len(world.groups)
         for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
             spans = find(clause.tokens)
             for start, end in spans:
                 world.note(f'not modelled: "{_quoted(text, clause.tokens[start:end]).strip(" ,")}"')
             clause = replace(clause, tokens=_without(clause.tokens, spans))
-        if clause.aside:
-            world.note(f'not modelled: "{clause.aside}"')
+        for aside in clause.aside:
+            world.note(f'not modelled: "{aside}"')
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
             world.note(f'not modelled: "{clause.said}": no task does that.')
             return world, None
@@ -188,6 +200,9 @@ class GrammarPlanner:
             done = ": no task does that." if clause.manner is not None else ""
             world.note(f'not modelled: "{clause.said or _quoted(text, clause.tokens[:-1])}"{done}')
             return world, None
+        tails = Tails(clause.tokens, self._nouns, _known(world))
+        if told := self._without_one(text, clause, world, company, tails, tails.loose(failure.number)):
+            return told
         raise self._fault(clause, failure)
 
     def _fault(self, clause: Clause, failure: UnreadError) -> PromptError:
@@ -205,17 +220,22 @@ class GrammarPlanner:
     def _without_tails(
         self, text: str, clause: Clause, world: World, company: Collection[str], failure: UnreadError
     ) -> tuple[World, World | None] | None:
-        """`world` with what `clause` says before and behind what names nothing at its word at fault; None without."""
-        known = {group.noun: group.words.lower() for group in world.groups}
-        tails = Tails(clause.tokens, self._nouns, known)
-        if known and clause.manner is None and tails.whole():
+        """`world` with what `clause` says around what names nothing at its word at fault; None without."""
+        tails = Tails(clause.tokens, self._nouns, _known(world))
+        if world.groups and clause.manner is None and tails.whole():
             world.note(f'not modelled: "{_quoted(text, clause.tokens[:-1])}"')
             return world, None
-        for start, end in tails.around(failure.number):
+        return self._without_one(text, clause, world, company, tails, tails.around(failure.number))
+
+    def _without_one(
+        self, text: str, clause: Clause, world: World, company: Collection[str], tails: Tails, spans: Sequence[Span]
+    ) -> tuple[World, World | None] | None:
+        """`world` with what `clause` says without the first of `spans` without which it is read; None without."""
+        for start, end in spans:
             lighter = _copied(world)
             lighter.note(f'not modelled: "{_quoted(text, clause.tokens[start:end])}"')
             kept = _without(clause.tokens, [(start, end)])
-            if not (known or Remarks(kept, self._nouns).things()):
+            if not (world.groups or Remarks(kept, self._nouns).things()):
                 continue
             try:
                 return self._told(text, replace(clause, tokens=kept), lighter, company)
@@ -248,7 +268,8 @@ class GrammarPlanner:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
-        chunks = completed(_trimmed(sentence.chunks), self._nouns)
+        known = [group.phrase for group in world.groups if not group.replaced]
+        chunks = completed(_trimmed(sentence.chunks), self._nouns, known)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):
@@ -337,6 +358,11 @@ def _without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...
 
 def _quoted(text: str, tokens: Sequence[Token]) -> str:
     return text[tokens[0].start : tokens[-1].end].replace('"', "").strip(" ,")
+
+
+def _known(world: World) -> dict[str, str]:
+    """The catalogue nouns of `world`, with the words they were in."""
+    return {group.noun: group.words.lower() for group in world.groups}
 
 
 def _copied(world: World) -> World:

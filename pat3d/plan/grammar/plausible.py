@@ -128,6 +128,8 @@ class Plausible:
             return min(self.on(child, parent), self.within(child, parent))
         if link.kind == "in":
             return self.within(child, parent)
+        if link.said == "over" and self.is_a(child, lexicon.COVERS):
+            return min(self.on(child, parent), 0.3)
         if link.kind == "on":
             return self.on(child, parent)
         if link.kind == "hangs_from":
@@ -140,6 +142,8 @@ class Plausible:
             return _NEUTRAL
         if link.manner in ("flank", "surround"):
             return self.beside(child, parent)
+        if link.said == "over" and self.is_a(child, lexicon.COVERS):
+            return 0.0
         if link.kind == "on":
             return self.on(child, parent)
         if self.floor(child):

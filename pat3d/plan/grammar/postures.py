@@ -13,7 +13,7 @@ POSTURE = (
     r"(?:rotated|turned|tilted|spun|inclined) (?:by |at )?\d+(?:[.]\d+)? ?(?:degrees|\u00b0)"
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:flat )?(?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
     r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down"
-    r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted"
+    r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted|upturned"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
     r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
@@ -21,7 +21,7 @@ POSTURE = (
 )
 """Pattern of a posture."""
 _HELD = re.compile(
-    r"upright|(?:turned )?upside[ -]down|bottom[ -]up|inverted|flipped(?: over)?|turned over"
+    r"upright|(?:turned )?upside[ -]down|bottom[ -]up|inverted|upturned|flipped(?: over)?|turned over"
     r"|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?|toppled(?: over)?|(?:tipped|knocked) over"
 )
 """Postures that a scene holds as they are said."""
@@ -61,7 +61,7 @@ def kind_of(posture: str) -> PostureKind:
     words = posture.lower()
     if "upright" in words or words == "on end" or "edge" in words:
         return "upright"
-    if re.search(r"upside|bottom|face[ -]?down|inverted|overturned|flipped|turned over|head", words):
+    if re.search(r"upside|bottom|face[ -]?down|inverted|upturned|overturned|flipped|turned over|head", words):
         return "upside_down"
     if re.search(r"side|lying|laid|lies|lie |toppled|tipped|knocked", words):
         return "on_its_side"

@@ -9,6 +9,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
@@ -99,6 +100,7 @@ class References(Contrast):
             return None
         besides = self._besides(at)
         likes = [group for group in world.groups if group.noun == phrase.noun and not group.replaced]
+        likes = [group for group in likes if not self._told_otherwise(group, phrase)]
         if len(likes) > 1 and self._all_of(at, phrase) and not any(
             group in besides or group.cycle or self._elsewhere(at, group) for group in likes
         ):  # fmt: skip
@@ -142,6 +144,8 @@ class References(Contrast):
 
     def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
         """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
+        if self._told_otherwise(group, phrase):
+            return []
         items, where = group.items, position(phrase)
         wanted = phrase.modifiers.colours
         if wanted:
@@ -162,9 +166,29 @@ class References(Contrast):
         size = phrase.modifiers.size_word
         if size and group.modifiers.size_word and size != group.modifiers.size_word:
             return []
+        if phrase.definite and not phrase.plural and len(items) > 1 and group.height == 1:
+            items = self._told_by_size(items, phrase)
         if phrase.plural or len(items) == 1 or group.height > 1:
             return list(items)
         return items[: phrase.count or 1] if wanted else list(items)
+
+    @staticmethod
+    def _told_by_size(items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that is "the small box", or "the tallest box"; all where `phrase` gives no size."""
+        words = measured(phrase.modifiers)
+        shape = {*words.adjectives} & SHAPES
+        if not words.size_word and not shape:
+            return items
+        own = items[0].group.modifiers
+        own_size = words.size_word if words.size_word else next(iter(shape))
+        if own_size in (own.size_word, *own.adjectives):
+            return items
+        told = [item for item in items if own_size in (item.told.size_word, *item.told.adjectives)]
+        free = [item for item in items if not item.told.size_word and not {*item.told.adjectives} & SHAPES]
+        for item in () if told else free[:1]:
+            tell(item, words)
+            item.told = replace(item.told, adjectives=(*item.told.adjectives, *shape))
+        return told[:1] or free[:1] or items
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
@@ -243,6 +267,11 @@ class References(Contrast):
                 return self._one_like(beside[0].items, phrase)
         if (like := self._partner(at, phrase)) is not None:
             return self._one_like(like, phrase)
+        if where and words.colours:
+            # "Four cans in a line, the second one blue"
+            line = next((group for group in groups if len(group.items) > 1 and group.height == 1), None)
+            if line is not None and not any(words.colours[0] in colours_of(item) for item in line.items):
+                return self._at(line.items, where, phrase)
         compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
         if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)

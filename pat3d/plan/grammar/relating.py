@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.covers import may_cover
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.objects import forget_count, multiply, recount
 from pat3d.plan.grammar.plausible import LARGE
@@ -16,6 +18,10 @@ _HALVES: dict[str, LateralKind] = {
     "left": "left_of", "right": "right_of", "back": "behind", "front": "in_front_of",
 }  # fmt: skip
 """What stands in for a half of what has no surface."""
+
+
+_CORNERS = 4
+"""Of a surface: "a candle in each corner"."""
 
 
 class Relating:
@@ -59,9 +65,13 @@ class Relating:
             self._on_half(children, link.side or "centre", parents, link.said)
         elif link.manner == "edge" and link.says is not None:
             level = world.likely.level(world.noun(parents[0]))
+            if link.says == "in_corners" and len(children) == 1 and level:
+                own = children[0].group.items
+                children = multiply(world, children, _CORNERS) if len(own) == 1 else list(own)
             where = (
                 link.says.replace("_", " ")
                 .replace("at edge", "at the edge of")
+                .replace("in corners", "in the corners of")
                 .replace("in corner", "in the corner of")
             )
             self.relate(children, Link(kind="on" if level else "next_to"), parents)
@@ -122,7 +132,14 @@ class Relating:
         elif world.is_a(owner, lexicon.RACKS):
             world.place(children, "in", owners, weak=weak)
         elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
-            world.place(children, "on", owners, weak=weak)
+            placed = world.supports.get(children[0])
+            if link.said == "over":
+                world.over += _paired(children, owners)
+            if link.said == "over" and placed is not None:
+                # "An egg is covered by a bowl on a tray"
+                world.place(owners, placed.kind, [placed.parent])
+            else:
+                world.place(children, "on", owners, weak=weak)
         elif (
             weak
             and world.is_a(children[0], lexicon.ON_HEAD)
@@ -182,6 +199,8 @@ class Relating:
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         self._settle(children, parents)
+        if link.said == "over":
+            world.over += _paired(children, parents)
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
         tops = world.tops(parents)
@@ -192,7 +211,8 @@ class Relating:
                     f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or '
                     "name one."
                 )
-            if exact and len(world.bases(children)) == 1:
+            over = link.said == "over" and world.is_a(children[0], lexicon.COVERS)
+            if exact and len(world.bases(children)) == 1 and not over:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
                 note = f'"{children[0].group.words}" {what} {names} together; it is placed on the first'
@@ -211,7 +231,9 @@ class Relating:
         table = world.is_a(child, ("table",)) and not world.on_floor(parent)
         rug = world.is_a(child, ("rug", "mat", "carpet", "blanket")) or not world.on_floor(parent)
         thin = world.is_a(child, lexicon.THIN) and not table and rug
-        if thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
+        if len(children) == len(parents) == 1 and may_cover(world, parent, child):
+            world.arrange("under", children, parents, said.format("under"))
+        elif thin or (world.is_a(child, lexicon.STACKABLE) and not world.on_floor(parent)):
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
         else:
@@ -287,3 +309,8 @@ class Relating:
             world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
         else:
             world.beside(children, _HALVES[side], parents)
+
+
+def _paired(one: Sequence[Item], other: Sequence[Item]) -> list[tuple[Item, Item]]:
+    """Each of `one` with its own of `other` where they are as many, else with all."""
+    return list(zip(one, other, strict=True) if len(one) == len(other) else product(one, other))

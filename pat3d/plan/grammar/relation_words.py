@@ -12,6 +12,8 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
+_LINED = frozenset({"row", "rows", "line", "lined", "side"})
+"""Words of what stands in a line."""
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
     "beneath", "between", "in between",
                           "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
@@ -41,7 +43,9 @@ class RelationWords(Cursor):
                 or self._tokens[self._at + size].mark
                 or not self._bounds.goes_on(self._at + size)
             )
-            if key in SIDES and whole and self._words(size + 2)[size:] != ("one", "of") and self._word(size) != "of":
+            # Ends are those of a row: "at the left end" of a shelf is a part of it.
+            told = key in SIDES and (key[-1] != "end" or key[-2] not in ("left", "right") or self._in_line())
+            if told and whole and self._words(size + 2)[size:] != ("one", "of") and self._word(size) != "of":
                 self._add("place", size, text=SIDES[key])
                 return True
         return False
@@ -57,6 +61,9 @@ class RelationWords(Cursor):
             self._add("form", size, text=EACH_OTHER[key])
             return True
         return False
+
+    def _in_line(self) -> bool:
+        return bool(_LINED & {token.text for token in self._tokens})
 
     def _chain(self) -> bool:
         """Read "one behind the other"."""

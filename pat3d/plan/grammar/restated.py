@@ -9,14 +9,16 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE, LINKS
-from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
+from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _EXCEPT = (("except", "for"), ("apart", "from"), ("but", "for"), ("aside", "from"), ("save", "for"), ("except",))
-_COVERING = frozenset({"cover", "covers", "litter", "litters", "clutter", "clutters", "cluttered", "occupy", "occupies",
+_COVERING = frozenset({"litter", "litters", "clutter", "clutters", "cluttered", "occupy", "occupies",
     "occupied", "adorn", "adorns", "adorned", "grace", "graces", "graced", "decorate", "decorates", "crowd", "crowds",
     "littered"})  # fmt: skip
 """Verbs of what is on something."""
+_OVER = frozenset({"cover", "covers"})
+"""Verbs of what is on something, or over it: a bowl upside down."""
 
 
 def _unshaded(tokens: Sequence[Token]) -> list[Token]:
@@ -78,10 +80,12 @@ def covering(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made: list[Token] = []
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
-        behind = at and nouns.match([tokens[at - 1].text])
+        behind = at and (nouns.match([tokens[at - 1].text]) or is_marked(tokens[at - 1].text))
         behind = behind or token.text.endswith(("ed", "aces", "orns", "pies"))
-        if at and token.text in _COVERING and behind and follower in ("the", "a", "an", "its", "this", "one"):
-            made += [replace(token, text="is" if token.text.endswith("s") else "are"), replace(token, text="on")]
+        leads = follower in ("the", "a", "an", "its", "this") or follower in lexicon.NUMBERS
+        if at and token.text in _COVERING | _OVER and behind and leads:
+            upon = replace(token, text="over" if token.text in _OVER else "on")
+            made += [replace(token, text="is" if token.text.endswith("s") else "are"), upon]
         else:
             made.append(token)
     return made

@@ -190,8 +190,10 @@ class Grammar(Goals):
         if kind != "link" or not self._link(at).inverse:
             flags |= {"placed"}
         if kind != "link":
+            if kind == "form":
+                flags |= {"formed"}
             if kind == "form" and len(named.heads) == 1 and not self._several(named.heads[0]):
-                cost += 0.6
+                cost += 0.85
             if kind == "form" and self._chunks[at].text == "tower" and len(named.heads) != self._chunks[at].size:
                 return None
             if kind == "form" and self._some_of(modifier.start - 1) and named.heads != (modifier.start - 1,):
@@ -287,6 +289,9 @@ class Grammar(Goals):
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         if any(headless) and not all(headless):
             cost += 0.4
+        if "formed" in rest.flags - first.flags and len(rest.heads) > 1:
+            # "a red cube, a blue cube and a green cube in a row": all three.
+            cost += 0.3
         if "placed" in rest.flags and "placed" not in first.flags:
             # "a mug and a plate on a table": what stands behind a list is said of all of it, or of its last.
             cost += 0.3 if len(rest.heads) == 1 else 0.6

@@ -29,7 +29,9 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made: list[Token] = []
     for at, token in enumerate(tokens):
         made.append(token)
-        bare = words[at - 2 : at - 1] and words[at - 2] in _NEAR and words[at - 1] in ("the", "a", "one")
+        bare = (
+            words[at - 2 : at - 1] and words[at - 2] in _NEAR and words[at - 1] in ("the", "a", "one", "each", "every")
+        )
         ends = at + 1 == len(tokens) or tokens[at + 1].mark or words[at + 1] in _BEHIND
         if at < 3 or not (bare and ends and _small(words[: at - 2], nouns)):
             continue

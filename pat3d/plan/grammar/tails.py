@@ -12,7 +12,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
-from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier
+from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.remarks import MOVING, Remarks, Span
 from pat3d.plan.grammar.unmade import base_verb, is_quality, makes_nothing
 from pat3d.plan.grammar.vocabulary import Nouns
@@ -26,6 +26,21 @@ _TELLING = lexicon.NUMBERS.keys() | lexicon.POSITIONS.keys() | lexicon.SUPERLATI
     "one", "ones", "other", "others", "each", "either", "rest", "neither", "none", "another",
 }  # fmt: skip
 """Words that may stand for an object."""
+_LEADING = frozenset({"in", "at", "with", "by", "for", "during"})
+"""What leads to a manner or a time."""
+_AGREEING = frozenset({"matching", "corresponding", "different", "various", "specific", "random", "similar", "certain",
+    "equal", "given"})  # fmt: skip
+_MARKED = frozenset({"line", "trail", "path", "goal", "zone", "spot", "mark", "level", "pile", "mixture", "end"})
+"""Qualities that are places too."""
+_LOOSE = frozenset({"away", "again", "altogether", "sideways", "outwards", "inwards", "outward", "inward", "upwards",
+    "downwards", "aside", "maybe", "perhaps", "somehow", "everywhere", "nowadays", "anew", "meanwhile", "indoors",
+    "outdoors", "overall", "backwards", "forwards"})  # fmt: skip
+"""Adverbs that place nothing."""
+_GOING = frozenset({"fall", "drop", "roll", "fly", "go", "run", "jump", "slide", "spill", "leave", "make", "form",
+    "build",
+    "miss", "lack", "have", "point", "face", "lean", "hang", "replace", "exchange", "divide", "split"})  # fmt: skip
+"""Verbs that say where something is, or how much of it."""
+_LEAVING = frozenset({"off", "from", "out", "of", "into", "onto", "to"})
 _ADVERBS = frozenset({"apart", "away", "aside", "back", "ago", "later", "before", "so"})
 _TRIED = 10
 """Spans without which a sentence is tried."""
@@ -50,6 +65,42 @@ class Tails(Remarks):
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
         return [span for span in made if self._says_nothing(*span)][:_TRIED]
+
+    def loose(self, number: int) -> list[Span]:
+        """Words around word `number` that name, count and relate nothing, fewest first: "away", "at random places"."""
+        fault = next((at for at, token in enumerate(self._tokens) if token.number == number and not token.mark), -1)
+        if fault < 0:
+            return []
+        made = [
+            (start, end)
+            for end in range(fault + 1, min(fault + 5, len(self._words)))
+            for start in range(max(1, fault - 4), fault + 1)
+            if self._is_loose(start, end)
+        ]
+        made.sort(key=lambda span: (span[1] - span[0], span))
+        return [span for span in made if self._says_nothing(*span)][:_TRIED]
+
+    def _is_loose(self, start: int, end: int) -> bool:
+        """Whether tokens `start` to `end` tell only how: an adverb, a verb before its relation, "at random places"."""
+        words, before, after = self._words[start:end], self._words[start - 1], self._words[end]
+        if any(token.mark for token in self._tokens[start:end]) or any(at in self._named for at in range(start, end)):
+            return False
+        if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
+            return False
+        if len(words) > 1:
+            head = {words[-1], *singulars(words[-1])}
+            how = is_quality(words[-1]) and not head & (lexicon.PARTS | _MARKED)
+            opens = words[0] in _LEADING or (words[0] == "of" and words[-2] in _AGREEING)
+            return how and opens and all(self._describes(at) for at in range(start + 1, end - 1))
+        if words[0] in _LOOSE or (words[0].endswith("ly") and len(words[0]) > 4):
+            return before not in lexicon.DETERMINERS | _LEADING or self._leads(end)
+        acts = base_verb(words[0]) is not None and base_verb(words[0]) not in _GOING and self._behind_noun(start)
+        return acts and words[0] not in MOVING and self._placing(end) and after not in _LEAVING
+
+    def _describes(self, at: int) -> bool:
+        """Whether the word at `at` stands before the name of a quality: "at the same random places"."""
+        word = self._words[at]
+        return word in lexicon.DETERMINERS | _AGREEING or is_modifier(word) or looks_like_adjective(word)
 
     def unknown(self) -> list[Token]:
         """Words of things that the catalogue lacks: heads of phrases with a determiner or a number, and plurals."""

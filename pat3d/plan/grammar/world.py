@@ -145,6 +145,8 @@ class World:
         self.laterals: list[Edge] = []
         self.sided: list[Sided] = []
         self.arranged: list[Arranged] = []
+        self.over: list[tuple[Item, Item]] = []
+        """What is said to be over or to cover what, which a vessel turned over does around it."""
         self.steps: list[Step] = []
         """What an instruction asks for."""
         self.aside: list[str] = []
@@ -155,6 +157,8 @@ class World:
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What "to the left of" was last said of, and whether it was "on the left side of"."""
+        self.settled = 0
+        """Groups that the sentences before this one have named."""
         self.telling: list[Item] = []
         """Members of the group told of one by one that were not told of yet."""
 

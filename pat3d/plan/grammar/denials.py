@@ -1,0 +1,152 @@
+"""What a sentence says is not there, beside what is: "the green cup, not the red one", "neither box is empty".
+
+What is denied is set aside in a note; what the denial is said of is there ("neither of the two boxes").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.vocabulary import Nouns
+
+Told = tuple[list[Token], list[tuple[Token, Token]]]
+"""A sentence without its denials, and the first and the last token of each of these."""
+
+_NOTHING = frozenset({"nothing", "nobody"})
+_NO = frozenset({"neither", "none"})
+
+
+def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
+    """`tokens` of one sentence, which ends in a stop, without what they deny."""
+    words = [token.text for token in tokens]
+    for told in (_cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of):
+        if (found := told(tokens, words, nouns)) is not None:
+            kept, denied = found
+            rest, more = without_denials(kept, nouns)
+            return rest, [*denied, *more]
+    return list(tokens), []
+
+
+def _cleft(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "it is the red box, not the blue one, that has a lid" as "the red box, not the blue one, has a lid"."""
+    opens = words[:2] in (["it", "is"], ["it", "was"], ["it", "'s"])
+    that = next((n for n in range(3, len(words) - 2) if words[n] in ("that", "which", "who")), 0)
+    inside = [n for n in range(2, that) if words[n] == "," and words[n + 1] == "not"]
+    if not (opens and that and inside and words[that - 1] == "," and words[2] in lexicon.DETERMINERS):
+        return None
+    return [*tokens[2 : inside[0]], *tokens[that + 1 :]], [(tokens[inside[0] + 1], tokens[that - 2])]
+
+
+def _not_but(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "not a mug but a glass stands", "is not on the tray but under it", "in neither the box nor the bag but"."""
+    for at, word in enumerate(words[:-2]):
+        neither = word == "neither" or (word == "not" and words[at + 1] != "only")
+        if not neither:
+            continue
+        stop = next(n for n in range(at, len(words)) if tokens[n].mark and words[n] != ",")
+        but = next((n for n in range(at + 2, stop - 1) if words[n] == "but"), 0)
+        if not but or set(words[at:but]) & FINITE or words[but + 1] == "not":
+            continue
+        # "in neither the box nor the bag but under the table": the relation goes with it.
+        start = at - 1 if link_at(tokens, but + 1) and at and link_at(tokens, at - 1) == 1 else at
+        if "two" in words[but:stop] or {"it", "them"} & set(words[but:stop]):
+            named = [n for n in range(start, but) if nouns.match([words[n]])]
+            if len(named) != 1 or "it" not in words[but:stop]:
+                return None
+            # "not on the tray but next to it": next to the tray.
+            it = words.index("it", but)
+            owner = [replace(tokens[named[0] - 1], text="the"), tokens[named[0]]]
+            return [*tokens[:start], *tokens[but + 1 : it], *owner, *tokens[it + 1 :]], [
+                (tokens[start], tokens[but - 1])
+            ]
+        end = but - (words[but - 1] == ",")
+        return [*tokens[:start], *tokens[but + 1 :]], [(tokens[start], tokens[end - 1])]
+    return None
+
+
+def _rather(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a spoon rather than a fork lies on the plate", and "instead of a vase, ...", without the other thing."""
+    for at in range(len(words) - 3):
+        if words[at : at + 2] not in (["rather", "than"], ["instead", "of"]):
+            continue
+        if words[at + 2] not in lexicon.DETERMINERS:
+            continue
+        ends = (n for n in range(at + 3, len(words)) if tokens[n].mark or words[n] in FINITE or link_at(tokens, n))
+        end = next(ends, 0)
+        if end and not set(words[at + 3 : end]) & lexicon.DETERMINERS:
+            after = end + (words[end] == "," and not at)
+            return [*tokens[:at], *tokens[after:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _set_off(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "the green cup, not the red one, is", "a bag, but not its strap," and "touches it but not the other"."""
+    for at in range(1, len(words) - 2):
+        size = next((len(no) for no in (["but", "not"], ["and", "not"], ["not"]) if words[at : at + len(no)] == no), 0)
+        comma = words[at - 1] == ","
+        if not size or words[at - 1] in FINITE or not (comma or size == 2):
+            continue
+        end = next(n for n in range(at + size, len(words)) if tokens[n].mark or words[n] == "but")
+        inside = words[at + size : end]
+        linked = next((n for n in range(max(0, at - 4), at) if n + link_at(tokens, n) == at), -1)
+        if linked >= 0 and (other := link_at(tokens, at + size)):
+            # "next to but not touching the phone"
+            return [*tokens[:at], *tokens[at + size + other :]], [(tokens[at], tokens[at + size + other - 1])]
+        if not inside or set(inside) & FINITE or (words[end] == "but"):
+            continue
+        after = end + (comma and words[end] == ",")
+        return [*tokens[: at - comma], *tokens[after:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _none_behind(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "ten screws in a dish, and none on the table", "but none of them are red" without that."""
+    for at in range(2, len(words) - 2):
+        if words[at] not in _NO or words[at - 1] not in ("and", "but", ",", "with"):
+            continue
+        start = at - 1 - (words[at - 2] == ",")
+        end = next(n for n in range(at, len(words)) if tokens[n].mark)
+        kinds = any(word in lexicon.GENERICS for word in words[:start])
+        if (words[at - 1] == "with" and "nor" not in words[at:end]) or (kinds and set(words[at:end]) & FINITE):
+            # "three pieces of fruit, but none of them are pears"
+            return None
+        return [*tokens[:start], *tokens[end:]], [(tokens[at - (words[at - 1] != ",")], tokens[end - 1])]
+    return None
+
+
+def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "nothing is on the plate" as "there is the plate", and "nobody is there, only a cup" as "a cup"."""
+    if words[0] not in _NOTHING or words[1] in ("but", "else", "except", "other"):
+        return None
+    end = next(n for n in range(len(words)) if tokens[n].mark)
+    if words[end] == ",":
+        after = end + 1 + (words[end + 1] in ("only", "but"))
+        return (list(tokens[after:]), [(tokens[0], tokens[end - 1])]) if words[after] in lexicon.DETERMINERS else None
+    link = next((n for n in range(1, end - 1) if link_at(tokens, n)), 0)
+    the = max((n for n in range(link, end) if words[n] in lexicon.DETERMINERS | lexicon.POSSESSIVES), default=0)
+    if not link or not the or not nouns.match([words[end - 1]]):
+        return None
+    there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
+    return [*there, *tokens[the:]], [(tokens[0], tokens[end - 1])]
+
+
+def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "neither of the two boxes is empty" as "there are two boxes", and "neither chair has a cushion" the same."""
+    if words[0] not in _NO:
+        return None
+    start = 2 if words[1] == "of" else 1
+    stops = (n for n in range(start + 1, len(words)) if tokens[n].mark or words[n] in FINITE or words[n] == "has")
+    verb = next(stops)
+    end = next(n for n in range(verb, len(words)) if tokens[n].mark and (words[n] != "," or words[n + 1] == "but"))
+    named = words[start + (words[start] == "the") : verb]
+    if not named or not nouns.match(named[-1:]) or "nor" in named or words[start] in ("but", "them", "these", "those"):
+        return None
+    number = [] if set(named) & lexicon.NUMBERS.keys() or words[0] == "none" else [replace(tokens[0], text="two")]
+    there = [replace(tokens[0], text="there"), replace(tokens[0], text="are"), *number]
+    subject = tokens[start + (words[start] == "the" and bool(set(named) & lexicon.NUMBERS.keys())) : verb]
+    return [*there, *subject, *tokens[end:]], [(tokens[0], tokens[end - 1])]

@@ -1,0 +1,124 @@
+"""One more of a kind: "a tall vase and a short one" names two vases, "the smaller box on the larger one" two boxes.
+
+A phrase that ends in "one" speaks of a member where several were named without what it is told by, and names something
+new where what was named is told otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.vocabulary import Nouns
+
+SHAPES = lexicon.HONOURED - {"lit", "burning", "flickering", "landscape", "striped"}
+"""Adjectives of measure that a thing is told from its like by."""
+
+
+def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]) -> list[Chunk]:
+    """`chunks` with "a short one" as "a short vase" where a vase was named, there or among the `known`."""
+    made = list(chunks)
+    for at, piece in enumerate(chunks):
+        phrase = piece.phrase
+        if phrase is None or phrase.kind != "pieces" or phrase.said or not _told(phrase):
+            continue
+        told = [(n, one.phrase) for n, one in enumerate(made[:at]) if one.phrase is not None]
+        before = [(n, one) for n, one in told if one.kind == "object" and not one.cycle]
+        like = (_known_like if phrase.definite else _new_like)(phrase, before, known)
+        if like is None:
+            continue
+        n, one = like
+        whole = with_noun(replace(phrase, modifiers=measured(phrase.modifiers)), one, nouns)
+        made[at] = replace(piece, phrase=replace(whole, plural=whole.plural or piece.text.lower().endswith(" ones")))
+        if n is not None and phrase.definite:
+            made[n] = replace(made[n], phrase=replace(one, modifiers=measured(one.modifiers)))
+    return made
+
+
+def with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:
+    """`phrase`, which has no noun, with the noun of `owner`: the box of "a small box" for "a big one"."""
+    words = owner.said.split()
+    while len(words) > 1 and is_modifier(words[0]) and nouns.match(words[1:]):
+        words = words[1:]
+    found = nouns.match(words) if words != owner.said.split() else None
+    noun, said = (found.noun, found.said) if found else (owner.noun, owner.said)
+    plural = phrase.count is not None and phrase.count > 1
+    return replace(phrase, kind=owner.kind, noun=noun, said=said, head=owner.head, cycle=owner.cycle, plural=plural)
+
+
+def _told(phrase: Phrase) -> bool:
+    """Whether `phrase` describes: "a short one", "the largest", and not "one", "the red one", "the first one"."""
+    words = phrase.modifiers
+    ends = phrase.words.lower().split()[-1:] in (["one"], ["ones"]) or phrase.head in lexicon.SUPERLATIVES
+    where = {*words.adjectives} & (lexicon.POSITIONS.keys() | lexicon.LEVELS.keys())
+    return ends and not words.colours and not where and bool(_property(words)) and phrase.superlative == Modifiers()
+
+
+def _property(words: Modifiers) -> str:
+    """By what `words` tell a thing from its like: its size, its material, its looks; nothing where they do not."""
+    if words.size_word or {lexicon.SUPERLATIVES.get(word, (word, 1.0))[0] for word in words.adjectives} & SHAPES:
+        return "size"
+    if {*words.adjectives} & lexicon.SUPERLATIVES.keys():
+        return "size"
+    return "material" if words.material else "looks" if words.adjectives or words.postures else ""
+
+
+def _value(words: Modifiers) -> set[str]:
+    """The size, the material or the looks that `words` give, superlatives as their adjectives."""
+    named = {words.size_word, words.material, *words.adjectives, *words.postures}
+    return {lexicon.SUPERLATIVES.get(word, (word, 1.0))[0] for word in named if word}
+
+
+def _several(phrase: Phrase) -> bool:
+    return phrase.plural or (phrase.count or 1) > 1
+
+
+def _new_like(
+    phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
+) -> tuple[int, Phrase] | None:
+    """What "a short one" is one more of; None where it is one of what was named, or that cannot be told."""
+    kind, value = _property(phrase.modifiers), _value(phrase.modifiers)
+    alike = [(n, one) for n, one in before if _property(one.modifiers) == kind]
+    first = [(n, one) for n, one in before[:1] if not known]
+    n, one = next(iter([*reversed(alike), *first]), (0, None))
+    if one is None or (_several(one) and (not _property(one.modifiers) or _value(one.modifiers) & value)):
+        return None
+    return n, one
+
+
+def _known_like(
+    phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
+) -> tuple[int | None, Phrase] | None:
+    """What "the larger one" is told from: of its kind there is nothing but what is told by its size too."""
+    if _property(phrase.modifiers) != "size":
+        return None
+    named: list[tuple[int | None, Phrase]] = [*((None, one) for one in known), *before]
+    told = [(n, one) for n, one in named if one.definite and _property(one.modifiers) == "size"]
+    if not told:
+        return None
+    n, one = told[-1]
+    alike = [other for _, other in named if other.noun == one.noun]
+    apart = all(not _several(other) and _property(other.modifiers) == "size"
+                and not _value(other.modifiers) & _value(phrase.modifiers) for other in alike)  # fmt: skip
+    return (n, one) if apart else None
+
+
+def measured(words: Modifiers) -> Modifiers:
+    """`words` with "largest" as a size and "tallest" as "tall"."""
+    told = [lexicon.SUPERLATIVES[word] for word in (*words.adjectives, words.size_word) if word in lexicon.SUPERLATIVES]
+    kept = tuple(word for word in words.adjectives if word not in lexicon.SUPERLATIVES)
+    size = words.size_word if words.size_word not in lexicon.SUPERLATIVES else ""
+    scale = words.scale
+    for word, factor in told:
+        if word in lexicon.SIZES:
+            size, scale = word, factor
+        else:
+            kept = (*kept, word)
+    if size and size not in lexicon.SIZES:
+        # "The tallest" is tall as the catalogue makes what is tall.
+        size, kept = "", (*kept, size)
+    return replace(words, size_word=size, scale=scale, adjectives=tuple(dict.fromkeys(kept)))
