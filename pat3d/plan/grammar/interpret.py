@@ -107,6 +107,7 @@ class Interpreter(Placing):
         if len(world.subject) == 1 and world.subject[0].group.multiplied:
             # "A mug stands at each end of the shelf. Between them ..."
             world.subject = list(world.subject[0].group.items)
+        world.subjects = list(dict.fromkeys([*self._said.ref_all(self._said.clauses[last]), *world.subject]))
         world.landmark = self._relating.landmark
         world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:

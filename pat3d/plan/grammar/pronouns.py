@@ -87,7 +87,7 @@ class Pronouns:
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
         before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
-        before += [self._world.subject]
+        before += [self._world.subjects if plural else self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
             together = [item for each in reversed(before) for item in each if item not in other]

@@ -153,6 +153,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.subjects: list[Item] = []
+        """The same with all that is named with it: what "them" means."""
         self.front: list[Item] = []
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
