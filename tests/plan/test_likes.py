@@ -68,6 +68,8 @@ def test_a_name_that_refers_back_makes_nothing_new(planner: GrammarPlanner, prom
         ("Put the cups (red, green, white) on the tray.", ["red cup", "green cup", "white cup"]),
         ("Place the boxes of three different colors (red, orange, blue) on the table.",
          ["red box", "orange box", "blue box"]),
+        ("Two cubes (red, white) and two matching colored cups (red, white).",
+         ["red cube", "white cube", "red cup", "white cup"]),
         ("The mugs (one red, two black) are on the shelf.", ["red mug", "black mug 1", "black mug 2"]),
         ("Two vases, white and blue, stand on a table.", ["white vase", "blue vase"]),
         ("Three balls are orange, red and green.", ["orange ball", "red ball", "green ball"]),
