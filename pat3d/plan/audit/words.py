@@ -219,7 +219,8 @@ flank flanks share shares fill fills
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
 _DEEDS = """
-moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
+moved returned brought carried
+unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
 robot robotic gripper away back close pass hand
 """
