@@ -24,7 +24,7 @@ def broken(it: Compared, claim: Claim) -> str | None:
     turned = not around and any(each.kind == "upside_down" for each in it.plan.postures)
     if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
-    whose = whose_of(it, claim)
+    whose = set() if fronted(it, claim) else whose_of(it, claim)
     if whose and not all(
         _holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])
     ):
@@ -67,7 +67,16 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
 
 def _opens(it: Compared, claim: Claim) -> bool:
     """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
-    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+    opening = claim.at == 0 or it.said.words[claim.at - 1] in OPENING
+    return opening or fronted(it, claim) or not it.said.words[claim.at - 1][0].isalnum()
+
+
+def fronted(it: Compared, claim: Claim) -> bool:
+    """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
+    return any(
+        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        for one in it.said.claims
+    )
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:

@@ -7,6 +7,9 @@ from pat3d.plan.grammar.judging import HEADLESS, Judging
 from pat3d.plan.grammar.links import Link
 from pat3d.scene.relations import SUPPORT_KINDS
 
+_AT_HOME = 0.35
+"""Cost of what something has below which that is where people keep it."""
+
 
 class Having(Judging):
     """The rule for what an object has."""
@@ -48,6 +51,10 @@ class Having(Judging):
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
+                lone = len(fact[2]) == 1 or self._link(fact[1]).kind in SUPPORT_KINDS
+                if not lone and self._likely.having(link, self._noun(owners[0]), self._noun(fact[2][0])) < _AT_HOME:
+                    # "A plate with a bun and a cup beside it": the bun is on the plate.
+                    cost += 0.7
                 placed |= set(fact[2])
             facts.append(fact)
         having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}

@@ -193,8 +193,9 @@ class Placing:
         return fit[-1:] or meant
 
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
-        """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""
-        items = self._said.ref(at - 1) if at and self._chunks[at - 1].kind == "noun" else []
+        """What the noun phrase right before chunk `at`, and its list, speak of, where it is none of `besides`."""
+        listed = next((sorted(had) for _, had in self._said.related if at - 1 in had), [at - 1])
+        items = self._said.ref_all(listed) if at and self._chunks[at - 1].kind == "noun" else []
         return items if items and not set(items) & set(besides) else []
 
     def _alike(self, children: list[Item]) -> None:
