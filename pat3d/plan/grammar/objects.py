@@ -275,7 +275,11 @@ def tell_colours(world: World, group: Group, told: Modifiers) -> None:
     shared = told.palette or told.colours
     group.modifiers = group.modifiers.marked_as(told)
     count = len(group.items)
-    coloured = count > 1 and not group.modifiers.palette and all(item.colours or group.modifiers.colours for item in group.items)
+    coloured = (
+        count > 1
+        and not group.modifiers.palette
+        and all(item.colours or group.modifiers.colours for item in group.items)
+    )
     if not shared or coloured:
         # "Four red and four blue blocks: sort the blocks by colour": they have theirs.
         return
