@@ -77,7 +77,7 @@ class Placing:
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
-            elif not parents and chunk.link.kind == "in" and (inner := self._just_named(at, children)):
+            elif not parents and chunk.text in ("inside", "on top") and (inner := self._just_named(at, children)):
                 # "a microwave on a counter with a bowl inside"
                 self._relating.relate(inner, chunk.link, children)
             elif not parents:
