@@ -62,12 +62,19 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
     near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
     child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
     child |= {obj.name for mention in _before(it, claim.at)[-1:] if mention.end == claim.at for obj in it.of(mention)}
+    # "A cup and a bowl are on a table. A spoon is between them."
+    near |= {obj.name for mention in _before(it, claim.at) if mention.part < claim.part for obj in it.of(mention)}
     return set(names) <= near and not set(names) & child
 
 
 def _opens(it: Compared, claim: Claim) -> bool:
     """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
-    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+    words = it.said.words
+    if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
+        return True
+    # "On the desk next to the laptop is a mug"
+    ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
+    return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
@@ -106,7 +113,10 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
             own = {obj.name for obj in it.which(owner)}
             led = any(each.of is owner for each in it.said.claims)
             here = own | {a for a, _, b in it.edges if b in own and led} | (set() if own else here)
-        return not (owner or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
+        beside = {tuple(it.above(name)[:1]) for name in here} & {tuple(it.above(name)[:1]) for name in of} - {()}
+        # "A plate with a fork on a tray": both are on the tray.
+        joined = any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
+        return not (owner or claim.whose) or joined or bool(owner and beside)
     if claim.place == "holding":
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
@@ -128,6 +138,8 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         return any(kind in kinds and {a, b} & here for a, kind, b in it.edges)
     if claim.said.startswith(("on the left", "on the right")):
         kinds |= {"on"}
+    if "middle of" in claim.said and len(of) > 1:
+        kinds |= {"between"}
     if claim.said.startswith("off ") and not (it.tasks.strip() or it.undone or "is read as the scene" in it.quoted):
         kinds = {"next_to", "far_from", "hangs_from"}
     if claim.of.noun in CLOSED and claim.place in ("in", "from"):

@@ -234,6 +234,9 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         start = next((mention for mention in it.said.mentions if mention.end == at - 2), None)
         if words[at - 2 : at] != ["in", "the"] or words[at + 1 : at + 2] == ["of"] or start is None:
             continue
+        if any(mention.first <= at < mention.end for mention in it.said.mentions):
+            # "the fork in the middle drawer"
+            continue
         own = {obj.name for obj in it.which(start)}
         rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]
         held = {name for one in rows or it.plan.arrangements for name in _middle(one)}
@@ -241,6 +244,7 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         told = [mention.start for obj in it.plan.objects if obj.name in owners
                 for mention in it.said.mentions if mention.noun == obj.noun]  # fmt: skip
         late = bool(told) and min(told) > at
+        held |= {name for name in own if it.above(name) and any(name in it.above(obj.name) for obj in it.plan.objects)}
         if own and (late or not held & own) and words[at] not in it.quoted:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
 

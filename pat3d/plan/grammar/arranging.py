@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from itertools import pairwise
 
 from pat3d.plan.grammar import covers, lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
@@ -60,6 +62,24 @@ def settle(world: World, prompt: str) -> None:
             world.note(f"not arranged: {each.otherwise}")
             if each.kind == "under":
                 world.beside(each.items, "next_to", each.of)
+
+
+def in_order(world: World, row: Sequence[Item]) -> None:
+    """Let the objects of a row stand in the order of `row` from left to right."""
+    own, group = set(row), row[0].group
+    for each in world.arranged:
+        if each.kind in _LINES and set(each.items) == own:
+            each.items = list(row)
+    world.laterals = [
+        edge
+        for edge in world.laterals
+        if not ({edge.child, edge.parent} <= own and edge.kind in ("left_of", "right_of"))
+    ]
+    if set(group.items) == own and not group.cycle:
+        group.items = list(row)
+    else:
+        for left, right in pairwise(row):
+            world.beside([left], "left_of", [right])
 
 
 def rows_of(world: World, group: Group) -> list[list[Item]]:

@@ -122,4 +122,4 @@ class Contrast(Pronouns):
         listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
         if len(listed) > 1:
             return [item for head in listed for item in self.known[head]]
-        return list(plural[0].items) if plural else list(self._world.subject)
+        return list(plural[0].items) if plural else list(self._world.together)

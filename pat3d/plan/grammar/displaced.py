@@ -36,7 +36,9 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a bed, next to which there is a rug" as "a bed, and next to the bed is a rug"."""
     made = list(tokens)
-    if sum(token.text == "which" for token in tokens) > 1:
+    joined = any(one.text == "and" and link_at(tokens, at + 1) and tokens[at + 1 + link_at(tokens, at + 1)].text == "which"
+                 for at, one in enumerate(tokens[:-2]))  # fmt: skip
+    if joined and sum(token.text == "which" for token in tokens) > 1:
         # "A plate, to the left of which is a fork and to the right of which a knife": both of the plate.
         return made
     for at in range(len(tokens) - 3, 0, -1):
@@ -269,8 +271,21 @@ def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def fronted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
+    tokens = _places_ahead(tokens)
     verb = next((n for n, token in enumerate(tokens) if token.text in ("is", "are")), 0)
     if verb < 3 or tokens[0].text not in ("stacked", "piled") or not link_at(tokens, 1):
         return list(tokens)
     end = next(n for n in range(verb, len(tokens)) if tokens[n].mark)
     return [*tokens[1:end], replace(tokens[0], text="stacked"), *tokens[end:]]
+
+
+def _places_ahead(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "on the desk, next to the clock, is a cup" as "on the desk, next to the clock is a cup"."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, 0)
+    verb = next((n for n, word in enumerate(words) if word in _FINITE or word == "there"), 0)
+    first = words.index(",") if "," in words else 0
+    place = tuple(words[first + 1 : first + 1 + link_at(tokens, first + 1)]) in LINKS
+    if size and size < first < verb - 2 and words[verb - 1] == "," and place:
+        return [*tokens[: verb - 1], *tokens[verb:]]
+    return tokens

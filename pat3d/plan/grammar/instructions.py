@@ -14,7 +14,9 @@ from itertools import pairwise
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
+from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
@@ -48,6 +50,8 @@ _VERBS: dict[str, Manner] = {
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
 """Verbs that are never nouns or adjectives, so that a bare noun may follow."""
+_CHOOSING = frozenset({"hold", "choose", "select", "identify", "find"})
+"""Verbs of what is picked that take it nowhere."""
 _FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
@@ -97,7 +101,7 @@ class Clause:
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     """The clauses of one sentence, which ends in a stop."""
-    tokens = commanded(tokens)
+    tokens = commanded(errands(tokens))
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)
@@ -134,13 +138,34 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         while body and (body[-1].text in (",", "and", "then") or body[-1].text in _PARTICLES - {"on", "off"}):
             body.pop()
         stop = tokens[-1]
+        stays = len(starts) > 1 or len(left_alone(body)) < len(body)
+        if word in ("leave", "keep") and stays and body and body[0].text in lexicon.DEFINITE:
+            # "Leave the mug on the table and move the plate": the mug is there.
+            made.append(Clause(tokens=(*left_alone(body), stop)))
+            continue
         manner = _VERBS.get(word, "other")
         body, turned = end_state(body, word, manner)
         aside = (*aside, *((text[turned.start : turned.end],) if turned is not None else ()))
         begun = max(start, 0)
-        said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
+        said = text[tokens[begun].start : max(token.end for token in tokens[begun:end])].lstrip(", ")
+        said = said.removeprefix("and ").removeprefix("then ")
+        if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
+            # "Take the cup to the table"
+            manner = "move"
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
+
+
+def _leads_to_goal(tokens: Sequence[Token]) -> bool:
+    """Whether `tokens` say where something is taken: "to the table", "into the box"."""
+    at = 1
+    while at < len(tokens):
+        size = link_at(tokens, at)
+        link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
+        if link is not None and link.manner == "goal" and link.kind in SUPPORT_KINDS:
+            return True
+        at += size or 1
+    return False
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:
@@ -371,7 +396,11 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "stack":
         # "Stack the three cubes on the tray": the second on the first.
         return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + _tower(moved, names)
-    return [f"{kind}:{names[item]}:{names[goal]}" for item in moved]
+    alike = [item for item in step.goal if item in names and item.group is goal.group]
+    # "Put the two cups on the two plates": one on each.
+    goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
+    pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
+    return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
 
 
 def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:

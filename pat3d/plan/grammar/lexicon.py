@@ -280,6 +280,9 @@ COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler",
     "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
     "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
 """Vessels that, upside down, stand around what they cover."""
+MAIN_DISHES = ("burger", "sandwich", "steak", "fish", "hot dog", "sausage", "pizza", "burrito")
+SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag")
+"""What lies beside a main dish that is "with" it."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import arranging, lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
@@ -16,7 +16,7 @@ from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.shapes import grid_rows
-from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.grammar.world import UNUSUAL, Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
@@ -102,8 +102,10 @@ class Placing:
         if owners:
             world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
             level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
-            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
-                world.place(children, world.containment(owners[0]), owners, weak=True)
+            child, owner = children[0], owners[0]
+            stays = not world.on_floor(child) or world.likely.on(world.noun(child), world.noun(owner)) < UNUSUAL
+            if level and world.support(child) is None and stays:
+                world.place(children, world.containment(owner), owners, weak=True)
             return
         before = max((head for head in self._landmarks if head < at), default=None)
         last = self._relating.landmark if before is None else self._landmarks[before]
@@ -312,6 +314,10 @@ class Placing:
                 world.beside([right], "next_to", [left])
         else:
             ordered = items[::-1] if chunk.text == "reverse" else items
+            if any(each.kind == "row" and set(each.items) == set(items) for each in world.arranged):
+                # "In a row from right to left"
+                arranging.in_order(world, ordered)
+                return
             world.arrange("row", ordered)
             for left, right in zip(ordered, ordered[1:], strict=False):
                 world.beside([left], "left_of", [right])
@@ -334,9 +340,19 @@ class Placing:
         for group in groups:
             if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
                 group.height = len(group.items)
+                self._off_the_ground(group.items[0], group.items[1:])
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
+                self._off_the_ground(groups[0].items[0], upper.items)
                 self._world.place(upper.items, "on", lower.items)
+
+    def _off_the_ground(self, lowest: Item, upper: Sequence[Item]) -> None:
+        """Let `upper`, which are stacked on `lowest`, no longer stand on what that stands on."""
+        supports, below = self._world.supports, self._world.supports.get(lowest)
+        for item in upper:
+            own = supports.get(item)
+            if own is not None and below is not None and own.parent is below.parent:
+                del supports[item]
 
     def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
         for group in dict.fromkeys(item.group for item in owners):

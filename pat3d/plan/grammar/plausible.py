@@ -74,6 +74,8 @@ class Plausible:
             return 0.7
         if self.level(parent):
             return 0.0
+        if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
+            return 1.5
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
         if self.is_a(parent, _SUPPORTING):
@@ -145,6 +147,8 @@ class Plausible:
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
+        if self.is_a(child, lexicon.SEATS[-4:]) and self.is_a(parent, lexicon.SEATS[:6]):
+            return 0.1
         if self.floor(child):
             return 0.7
         inside = self.within(child, parent) if self.hollow(parent) or self.closet(parent) else 9.0
