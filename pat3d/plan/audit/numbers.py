@@ -58,7 +58,7 @@ def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
         return
     for at, word in enumerate(words[:-1]):
         count = NUMBERS.get(word, 0) if word not in ("a", "an", "another", "single", "dozen", "one", "both") else 0
-        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or")):
+        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or", "but")):
             continue
         behind = at + 1
         if words[behind : behind + 2] in _OF_THEM:

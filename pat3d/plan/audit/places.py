@@ -106,6 +106,10 @@ def _mate_is_told(it: Compared, obj: PlannedObject, part: set[str]) -> bool:
         if any(a in names and (own is other or (kind != "under" and not it.above(b))) for a, kind, b in it.edges):
             return True
     # Of likes told of one by one, and of what something is said to have.
+    likes = [like for like in it.plan.objects if like.noun == obj.noun and like.phrase != obj.phrase]
+    if any(not it.above(like.name) for like in likes):
+        # "A jar with a spoon in it and an empty jar": where the others are.
+        return False
     if obj.noun not in it.furniture and any(_had(it, mention) for mention in mentions if obj in it.which(mention)):
         return True
     return any(it.above(like.name) for like in it.plan.objects if like.phrase == obj.phrase)
@@ -240,6 +244,9 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         own = {obj.name for obj in it.which(start)}
         rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]
         held = {name for one in rows or it.plan.arrangements for name in _middle(one)}
+        held |= {name for name in own for kind in ("left_of", "in_front_of") if not rows
+                 and any(b == name and k == kind for _, k, b in it.edges)
+                 and any(a == name and k == kind for a, k, _ in it.edges)}  # fmt: skip
         owners = {name for one in it.plan.arrangements if own & set(one.objects) for name in one.of}
         told = [mention.start for obj in it.plan.objects if obj.name in owners
                 for mention in it.said.mentions if mention.noun == obj.noun]  # fmt: skip
@@ -330,10 +337,12 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
         if own:
             # "a fork beside each plate", "each plate holds a bun"
-            owners, things = it.which(own[0]), _led(it, own[0], at, before, behind[1:])
+            owners, things = it.which(own[0])[: own[0].number], _led(it, own[0], at, before, behind[1:])
         else:
             plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
-            owners, things = (it.which(plural[-1]) if plural else []), _listed(it, behind)
+            led = next((claim for claim in it.said.claims if claim.end == at + 1), None)
+            told = [mention for mention in before if led is not None and mention.end == led.at and not mention.plural]
+            owners, things = (it.which(plural[-1]) if plural else []), told or _listed(it, behind)
             for mention, last in reversed(list(pairwise(plural))):
                 if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
                     break
@@ -376,6 +385,9 @@ def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
 def _fewer(it: Compared, at: int, things: Sequence[Mention], wanted: int, said: str) -> Iterator[tuple[int, str]]:
     for thing in things:
         there = len(it.which(thing))
+        if said.split()[-1] in ENDS and 1 < there == thing.number:
+            # "two plants on either side of the door"
+            continue
         if thing.new and 0 < there < wanted * (thing.number or 1) and not it.named(thing.text):
             yield at, f'not as said: "{said}" wants {wanted * (thing.number or 1)} of "{thing.text}"; there are {there}'
 

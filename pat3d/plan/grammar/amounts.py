@@ -16,9 +16,16 @@ _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
 _ABOUT = frozenset({"about", "approximately", "roughly", "around", "exactly"})
 
 
+_SURROUNDING = frozenset({
+    "circle", "ring", "stand", "stands", "standing", "sit", "sits", "sitting", "lie", "lies", "lying", "placed", "set",
+    "arranged", "gathered", "grouped", "seated", "scattered", "all",
+})  # fmt: skip
+"""Words behind which "around" says where."""
+
+
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
-    whole = _some_of(_any_of(_rounded(_of_whole(tokens))))
+    whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
     return _of_each(_equal(_shares(_on_sides(whole), nouns), nouns), nouns)
 
 
@@ -31,12 +38,17 @@ def _is_number(word: str) -> bool:
     return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
 
 
-def _rounded(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "about ten" as "ten"."""
+def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "about ten" as "ten"; what stands, or is formed, "around two vases" surrounds them."""
     single = ("a", "an", "one", "both")
-    follows = zip(tokens, [*tokens[1:], tokens[-1]], strict=True)
-    return [token for token, after in follows
-            if not (token.text in _ABOUT and _is_number(after.text) and after.text not in single)]  # fmt: skip
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        about = token.text in _ABOUT and at + 1 < len(tokens) and _is_number(tokens[at + 1].text)
+        before = tokens[at - 1].text if at and not tokens[at - 1].mark else ""
+        place = token.text == "around" and (before in _SURROUNDING or nouns.match([before]) is not None)
+        if place or not about or tokens[at + 1].text in single:
+            made.append(token)
+    return made
 
 
 def _value(word: str) -> int:

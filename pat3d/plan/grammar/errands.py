@@ -30,7 +30,8 @@ _HAVING_TO = tuple(tuple(said.split()) for said in (
     "ought to be", "be",
 ))  # fmt: skip
 _WHERE_IT_IS = (("where", "it", "is"), ("where", "it", "lies"), ("where", "it", "stands"), ("where", "they", "are"),
-                ("where", "they", "lie"), ("where", "they", "stand"), ("as", "it", "is"), ("as", "they", "are"))  # fmt: skip
+                ("where", "they", "lie"), ("where", "they", "stand"), ("as", "it", "is"),
+                ("as", "they", "are"))  # fmt: skip
 
 
 def errands(tokens: Sequence[Token]) -> list[Token]:

@@ -176,7 +176,8 @@ def _is_deed(word: str, nouns: Nouns) -> bool:
 def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     """Whether "to scrub the bowl" or "while placing the pear" at token `at` names what was not named before it."""
     word, verb = tokens[at].text, tokens[at + 1].text
-    doing = word in _WHILE and verb.endswith("ing") and not link_at(tokens, at + 1) and nouns.match([verb]) is None
+    linked = word != "without" and link_at(tokens, at + 1)
+    doing = word in _WHILE and verb.endswith("ing") and not linked and nouns.match([verb]) is None
     deed = word == "to" and _is_deed(verb, nouns) and verb not in _PURPOSES and tokens[at - 1].text not in _OWING
     if not deed and not (doing and base_verb(verb) is not None):
         return False
@@ -263,6 +264,12 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         "put",
         "push",
     ):
+        return at
+    behind = tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS
+    if follower in _PARTICLES and base in ("open", "close", "pull", "fold", "roll") and behind:
+        return at
+    turns = base in ("turn", "walk", "go", "step") and follower in ("left", "right", "around", "straight", "forward")
+    if turns and (not opening or tokens[at].number == 1):
         return at
     noun = not tokens[at + 1].mark and (is_modifier(follower) or nouns.match([follower]) is not None)
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None

@@ -18,6 +18,9 @@ _WISHES = (
     "you can see", "we can see", "i can see", "you see", "we see", "i need", "we need", "i see", "imagine", "picture",
     "i would like", "i'd like", "we would like", "we'd like", "i want", "we want", "show me", "give me", "can i have",
     "may i have", "could i have", "let us have", "let's have", "this is", "it is", "it's", "it shows",
+    "make sure there are", "make sure there is", "make sure that there are", "make sure that there is",
+    "ensure there are", "ensure there is", "ensure that there are", "ensure that there is",
+    "the robot should find", "the robot finds", "the robot will find",
     "this shows", "the picture shows", "the image shows", "the photo shows", "the scene shows",
 )  # fmt: skip
 _TOLD = tuple(sorted((tuple(said.split()) for said in _WISHES), key=len, reverse=True))

@@ -52,6 +52,7 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
     "so that it is", "so that it stands", "so that they are", "so that they stand",
+    "seen from above", "viewed from above", "seen from the side", "seen from the front", "as seen from above",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
@@ -93,23 +94,6 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
-
-
-def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
-    """`sentences` with "there are three plates" before the "every plate" of which it gives the number."""
-    made = list(sentences)
-    for at, sentence in enumerate(made):
-        words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
-            continue
-        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
-        for before in range(at):
-            told = [token.text for token in made[before]]
-            follows = (two for one, two in zip(told, told[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
-                made.insert(before, made.pop(at))
-                break
-    return made
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:

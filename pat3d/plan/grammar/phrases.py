@@ -244,7 +244,8 @@ class PhraseReader:
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
-        if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
+        closing = head in lexicon.ON_RIMS and not self._definite
+        if len(words) > 1 and head in lexicon.DETACHED and not closing and self._nouns.match(words[-2:]) is None:
             # "the top dresser drawer", "the cabinet shelf"
             whole = self._simple(run[:-1], count)
             inside = head not in lexicon.STORAGE_PARTS or self._nouns.of_class(whole.noun, lexicon.STORAGE)

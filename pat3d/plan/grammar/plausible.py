@@ -67,7 +67,8 @@ class Plausible:
         if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
             return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 1.2
         if self.floor(child):
-            return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
+            seated = self.is_a(child, ("floor cushion",)) and self.is_a(parent, lexicon.SEATS)
+            return 0.4 if seated or self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
             return 0.1 if self._fits_dish(child) else 0.9
         if self.is_a(parent, _SOFT) and self.hollow(child) and not self.is_a(child, lexicon.LARGE_VESSELS):

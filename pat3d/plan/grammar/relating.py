@@ -95,10 +95,14 @@ class Relating:
                 world.arrange(
                     "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
                 )
-            if link.says == "circle":
+            together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
+            if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
             others = list({item.group: item for item in parents[1:] if item.group is not parents[0].group}.values())
+            if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
+                # A ring around several things is around none of them alone.
+                return
             if link.kind == "around":
                 parents = self._centre(children, parents)
             for other in others if len(children) == 1 and link.kind != "around" else ():

@@ -7,7 +7,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import Cursor
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.grammar.shapes import GRID, PLACES, RINGS, refuse, shape_said
+from pat3d.plan.grammar.shapes import GRID, PLACES, RINGS, grid_size, refuse, shape_said
 from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
@@ -103,7 +103,7 @@ class RelationWords(Cursor):
         if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
             return False
         # Verbs that are also nouns ("bears", "houses") open no clause.
-        plain = ("has", "have", "contains", "holds")
+        plain = ("has", "have", "contains", "holds", "carries", "supports")
         if link.finite and len(key) == 1 and self._opens and key[0] not in plain:
             return False
         if self._names(key[-1], self._word(size)) and size == 1 and link.finite:
@@ -146,6 +146,8 @@ class RelationWords(Cursor):
             PromptError: objects stand in a shape that no plan expresses.
         """
         words = self._words(3)
+        if self._grid():
+            return True
         shape = shape_said(words[-1])
         if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
             return False
@@ -163,6 +165,19 @@ class RelationWords(Cursor):
         if self._tokens[after].text in ("around", "surrounding"):
             return False
         self._add("form", 3, text="circle")
+        return True
+
+    def _grid(self) -> bool:
+        """Read "in a 2x3 grid", "in a 2 by 3 grid"."""
+        words = self._words(6)
+        if words[0] not in ("in", "into", "as") or words[1] not in ("a", "an"):
+            return False
+        apart = words[3] == "by" and words[2].isdecimal() and words[4].isdecimal()
+        size = 4 + 2 * apart
+        sides = grid_size([f"{words[2]}x{words[4]}" if apart else words[2], words[size - 1]])
+        if sides is None:
+            return False
+        self._add("form", size, text="rows", size=sides[0], each=sides[1])
         return True
 
     def _several(self) -> bool:

@@ -98,7 +98,8 @@ class Grammar(Goals):
             cost += (0.0 if len(objects.heads) <= 2 else 0.2) if plural and whole else 1.5
             # "between two dolls, a ball at its feet": the two are the neighbours.
             cost += 0.8 * (len(objects.heads) > 1 and self._phrase(objects.heads[0]).count == 2)
-        if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
+        ring = said.says == "circle" and set(objects.joints) <= {"&", ","}
+        if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
         flags = frozenset({"finite"} if said.finite else ()) | (objects.flags & {"trailing"})

@@ -46,6 +46,7 @@ PLACES = frozenset({"wall", "fan", "star", "fort", "castle", "bridge", "arch", "
 """Shapes that things may also be in or on: "a clock in a wall"."""
 RINGS = frozenset({"circle", "ring"})
 """What objects "around" something form anyway."""
+_BUILDING = frozenset({"build", "make", "create", "construct", "form", "assemble"})
 _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assembled", "consisting"})
 
 
@@ -113,6 +114,11 @@ def of_what(tokens: Sequence[Token]) -> list[Token]:
         head = shape_said(before) or next(
             (one for one in (before, *singulars(before)) if one in lexicon.STACK_NOUNS), ""
         )
+        asked = any(token.text in _BUILDING for token in kept[:3])
+        if head and tokens[at].text == "using" and asked:
+            kept.append(replace(tokens[at], text="of"))
+            at += 1
+            continue
         if head and tokens[at].text in _MADE:
             after = at + 2 if tokens[at + 1].text == "out" else at + 1
             if tokens[min(after, len(tokens) - 1)].text in ("of", "from"):
