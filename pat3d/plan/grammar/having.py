@@ -50,7 +50,9 @@ class Having(Judging):
             if (
                 fact[0] == "rel"
                 and set(fact[2]) <= set(modifier.heads)
-                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
+                and (
+                    self._one_of(fact[3], owners) or self._each_of(fact[3], owners) or self._each_else(fact[3], owners)
+                )
             ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
