@@ -113,10 +113,7 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
             own = {obj.name for obj in it.which(owner)}
             led = any(each.of is owner for each in it.said.claims)
             here = own | {a for a, _, b in it.edges if b in own and led} | (set() if own else here)
-        beside = {tuple(it.above(name)[:1]) for name in here} & {tuple(it.above(name)[:1]) for name in of} - {()}
-        # "A plate with a fork on a tray": both are on the tray.
-        joined = any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
-        return not (owner or claim.whose) or joined or bool(owner and beside)
+        return not (owner or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
     if claim.place == "holding":
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
         named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}

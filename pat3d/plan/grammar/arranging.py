@@ -71,7 +71,9 @@ def in_order(world: World, row: Sequence[Item]) -> None:
         if each.kind in _LINES and set(each.items) == own:
             each.items = list(row)
     world.laterals = [
-        edge for edge in world.laterals if not ({edge.child, edge.parent} <= own and edge.kind in ("left_of", "right_of"))
+        edge
+        for edge in world.laterals
+        if not ({edge.child, edge.parent} <= own and edge.kind in ("left_of", "right_of"))
     ]
     if set(group.items) == own and not group.cycle:
         group.items = list(row)

@@ -35,8 +35,8 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a bed, next to which there is a rug" as "a bed, and next to the bed is a rug"."""
     made = list(tokens)
-    joined = any(one.text == "and" and link_at(tokens, at + 1) and tokens[at + 1 + link_at(tokens, at + 1)].text == "which"
-                 for at, one in enumerate(tokens[:-2]))  # fmt: skip
+    again = (at + 1 for at, token in enumerate(tokens[:-2]) if token.text == "and" and link_at(tokens, at + 1))
+    joined = any(tokens[at + link_at(tokens, at)].text == "which" for at in again)
     if joined and sum(token.text == "which" for token in tokens) > 1:
         # "A plate, to the left of which is a fork and to the right of which a knife": both of the plate.
         return made

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from pat3d.plan.grammar.chart import Node
-from pat3d.plan.grammar.lexicon import DISHES, SLENDER
 from pat3d.plan.grammar.judging import HEADLESS, Judging
+from pat3d.plan.grammar.lexicon import DISHES, SLENDER
 from pat3d.plan.grammar.links import Link
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 

@@ -11,7 +11,17 @@ from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import ALONG, OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.matching import (
+    ALONG,
+    OPPOSITE,
+    PLACES,
+    SAME,
+    colours_of,
+    line_up,
+    position,
+    same_head,
+    same_noun,
+)
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase

@@ -128,13 +128,18 @@ class Relating:
         odd = world.likely.on(world.noun(children[0]), world.noun(owner)) >= _HARDLY_CARRIED
         if link.manner == "surround":
             world.beside(children, "around", self._centre(children, owners))
-        elif link.manner == "hold" and odd and not world.has_inside(owner) and not world.is_a(children[0], lexicon.ON_RIMS):
+        elif (
+            link.manner == "hold"
+            and odd
+            and not world.has_inside(owner)
+            and not world.is_a(children[0], lexicon.ON_RIMS)
+        ):
             # "A statue holding a cup"
             said = f'"{owner.group.words}" holding "{children[0].group.words}"'
             world.note(f"not arranged: {said}, which is placed next to it")
             world.beside(children, "next_to", owners)
         elif weak and world.is_a(children[0], lexicon.SIDE_DISHES) and world.is_a(owner, lexicon.MAIN_DISHES):
-            world.beside(children, "next_to", owners, weak=True)
+            world.beside(children, "next_to", owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
         elif weak and world.is_a(owner, lexicon.DEVICES):
