@@ -39,6 +39,10 @@ def held(plan: ScenePlan) -> set[str]:
         ("A bench with a box at each corner.", {"box 1, box 2, box 3, box 4 in_corners bench"}),
         ("Three cans are in the corners of a desk.", {"can 1, can 2, can 3 in_corners desk"}),
         ("Four dice, one in each corner of a tray.", {"dice 1, dice 2, dice 3, dice 4 in_corners tray"}),
+        # around several
+        ("Seven cans stand in a ring around a vase and a lamp on a desk.",
+         {"can 1, can 2, can 3, can 4, can 5, can 6, can 7 circle vase, lamp"}),
+        ("Five mugs form a circle around two cans.", {"mug 1, mug 2, mug 3, mug 4, mug 5 circle can 1, can 2"}),
         # under, several at once
         ("A stool and a box are under a desk.", {"stool, box under desk"}),
         ("A bowl in the middle of the table.", {"bowl in_middle table"}),

@@ -16,9 +16,17 @@ _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
 _ABOUT = frozenset({"about", "approximately", "roughly", "around", "exactly"})
 
 
+_SURROUNDING = frozenset({
+    "circle", "ring", "stand", "stands", "standing", "sit", "sits", "sitting", "lie", "lies", "lying", "placed", "set",
+    "arranged", "gathered", "grouped", "seated", "scattered", "all",
+})  # fmt: skip
+"""Words behind which "around" says where."""
+
+
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
-    return _of_each(_equal(_shares(_on_sides(_some_of(_any_of(_rounded(tokens)))), nouns), nouns), nouns)
+    whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
+    return _of_each(_equal(_shares(_on_sides(whole), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -30,12 +38,17 @@ def _is_number(word: str) -> bool:
     return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
 
 
-def _rounded(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "about ten" as "ten"."""
+def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "about ten" as "ten"; what stands, or is formed, "around two vases" surrounds them."""
     single = ("a", "an", "one", "both")
-    follows = zip(tokens, [*tokens[1:], tokens[-1]], strict=True)
-    return [token for token, after in follows
-            if not (token.text in _ABOUT and _is_number(after.text) and after.text not in single)]  # fmt: skip
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        about = token.text in _ABOUT and at + 1 < len(tokens) and _is_number(tokens[at + 1].text)
+        before = tokens[at - 1].text if at and not tokens[at - 1].mark else ""
+        place = token.text == "around" and (before in _SURROUNDING or nouns.match([before]) is not None)
+        if place or not about or tokens[at + 1].text in single:
+            made.append(token)
+    return made
 
 
 def _value(word: str) -> int:
@@ -157,6 +170,21 @@ def _some_of(tokens: Sequence[Token]) -> list[Token]:
         return list(tokens)
     colon, them = replace(tokens[0], text=":", mark=True), replace(tokens[2], text="them")
     return [*tokens[3:end], colon, *tokens[:2], them, *tokens[end:]]
+
+
+def _of_whole(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "of three cups, one is red" as "one of three cups is red"."""
+    words = [token.text for token in tokens]
+    first = 1 + (words[1:2] == ["the"])
+    if words[:1] != ["of"] or not _value(words[min(first, len(words) - 1)]):
+        return list(tokens)
+    at = next((n for n in range(first + 2, min(first + 6, len(words) - 1)) if _is_number(words[n])), 0)
+    if not at or words[at + 1] not in FINITE:
+        return list(tokens)
+    end = at - (words[at - 1] == ",")
+    # It is quoted from the first word on.
+    number = replace(tokens[at], start=tokens[0].start, end=tokens[0].end)
+    return [number, *tokens[:end], *tokens[at + 1 :]]
 
 
 def _on_sides(tokens: Sequence[Token]) -> list[Token]:

@@ -10,10 +10,11 @@ from pat3d.plan.grammar import covers, lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
 from pat3d.plan.grammar.world import Arranged, Edge, Group, Item, World
 from pat3d.scene.arrangements import ARRANGEMENTS
-from pat3d.scene.relations import Relation
+from pat3d.scene.relations import Relation, RelationKind
 
-_SHARED = ("far_from", "under")
-"""Kinds that have both on the same support and no lateral relation that says so."""
+_SHARED: dict[str, RelationKind] = {"far_from": "next_to", "under": "next_to", "circle": "around"}
+"""Kinds that have both on the same support as this relation does, and no lateral relation that says so: a circle
+around several."""
 
 
 _LINES = ("row", "side_by_side")
@@ -29,9 +30,9 @@ def together(world: World) -> list[Edge]:
     What is under something may stand on a dish with it.
     """
     return [
-        Edge(child=child, kind="next_to", parent=parent, weak=each.kind == "under")
+        Edge(child=child, kind=_SHARED[each.kind], parent=parent, weak=each.kind == "under")
         for each in world.arranged
-        if each.kind in _SHARED
+        if each.kind in _SHARED and (each.kind != "circle" or len(each.of) > 1)
         for child in each.items
         for parent in each.of
     ]
@@ -48,6 +49,10 @@ def settle(world: World, prompt: str) -> None:
             rows = -(-len(group.items) // _ROW)
             for at in range(rows):
                 world.arrange("row", group.items[len(group.items) * at // rows : len(group.items) * (at + 1) // rows])
+    ringed = [{*each.items} for each in world.arranged if each.kind == "circle" and each.of]
+    world.arranged = [
+        each for each in world.arranged if each.kind != "circle" or each.of or {*each.items} not in ringed
+    ]
     for each in world.arranged:
         if each.kind in _LINES:
             # Of stacks in a row the lowest stand in it.
@@ -171,6 +176,8 @@ def _holds(world: World, each: Arranged) -> bool:
     everything = {*each.items, *each.of}
     supports = {world.support(item) for item in everything}
     kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
+    if each.kind == "circle" and len(each.of) > 1 and len(supports) > 1:
+        return False
     if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
         return False
     over = each.kind != "under" or world.is_a(each.of[0], lexicon.OVERHANGING)

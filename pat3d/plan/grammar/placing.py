@@ -38,6 +38,8 @@ class Placing:
         self._maker = maker
         self._relating = Relating(world)
         self._said = References(world, chunks, maker, self._relating)
+        self._landmarks: dict[int, tuple[list[Item], bool]] = {}
+        """What the sentence has said a side of, by the relation that says it."""
 
     def _placed(self, at: int, heads: Sequence[int], owner_heads: Sequence[int]) -> None:
         """Read "a plate with a fork on the left", "a mug, and a bowl nearby"."""
@@ -105,19 +107,19 @@ class Placing:
             if level and world.support(child) is None and stays:
                 world.place(children, world.containment(owner), owners, weak=True)
             return
-        landmark, surface = (
-            self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
-        )
+        before = max((head for head in self._landmarks if head < at), default=None)
+        last = self._relating.landmark if before is None else self._landmarks[before]
+        landmark, surface = last if last[0] else ([], False) if begun else world.landmark
         if landmark and side == "other" and not surface:
             # "On one side of the plate is a fork, on the other a knife."
             side = "right"
         if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
             sides = [edge.child for edge in self._world.laterals if edge.parent in landmark]
-            before = [item for item in sides if item not in (*landmark, *children)]
-            if before and {"its", "their"} & set(chunk.words):
+            rivals = [item for item in sides if item not in (*landmark, *children)]
+            if rivals and {"its", "their"} & set(chunk.words):
                 world.note(
                     f'"{" ".join(chunk.words)}" is said of "{landmark[0].group.words}"; it may be said of '
-                    f'"{before[0].group.words}" too.'
+                    f'"{rivals[0].group.words}" too.'
                 )
             half = surface or side == "centre"
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
@@ -190,14 +192,18 @@ class Placing:
             return meant
         fit = [item for item in world.items() if item is not child and (
             world.is_a(item, tuple(lexicon.OPENED))
-            or (world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN)
+            or ((world.likely.hollow(world.noun(item)) or world.likely.closet(world.noun(item)))
+                and within(item) < _HARDLY_IN)
         )]  # fmt: skip
         return fit[-1:] or meant
 
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
-        """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""
-        items = self._said.ref(at - 1) if at and self._chunks[at - 1].kind == "noun" else []
-        return items if items and not set(items) & set(besides) else []
+        """What stands right before chunk `at`, with the list that something has and that it ends; none of `besides`."""
+        if not at or self._chunks[at - 1].kind != "noun":
+            return []
+        had = (things for owners, things in self._said.related if at - 1 in things and min(owners) < min(things))
+        items = self._said.ref_all(sorted(next(had, {at - 1})))
+        return items if not set(items) & set(besides) else []
 
     def _alike(self, children: list[Item]) -> None:
         """Put `children` where the thing named before them is."""
@@ -329,15 +335,19 @@ class Placing:
         for group in groups:
             if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
                 group.height = len(group.items)
-                first = self._world.supports.get(group.items[0])
-                for item in group.items[1:]:
-                    # "Two crates are on a cart. They are stacked.": of the two only the lowest is on it.
-                    edge = self._world.supports.get(item)
-                    if first is not None and edge is not None and edge.parent is first.parent:
-                        del self._world.supports[item]
+                self._off_the_ground(group.items[0], group.items[1:])
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
+                self._off_the_ground(groups[0].items[0], upper.items)
                 self._world.place(upper.items, "on", lower.items)
+
+    def _off_the_ground(self, lowest: Item, upper: Sequence[Item]) -> None:
+        """Let `upper`, which are stacked on `lowest`, no longer stand on what that stands on."""
+        supports, below = self._world.supports, self._world.supports.get(lowest)
+        for item in upper:
+            own = supports.get(item)
+            if own is not None and below is not None and own.parent is below.parent:
+                del supports[item]
 
     def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
         for group in dict.fromkeys(item.group for item in owners):

@@ -13,7 +13,6 @@ from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.amounts import worked_out
-from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_both_sides
@@ -26,16 +25,15 @@ from pat3d.plan.grammar.instructions import Clause, clauses, known_verb, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
-from pat3d.plan.grammar.links import FINITE, LINKS
-from pat3d.plan.grammar.modifiers import is_colour_word
 from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.objects import Maker
-from pat3d.plan.grammar.paraphrase import plainer, reordered
+from pat3d.plan.grammar.paraphrase import plainer
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.remarks import Remarks, Span
 from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rules import Grammar
+from pat3d.plan.grammar.sentences import sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.variants import varied
@@ -103,8 +101,7 @@ class GrammarPlanner:
         _check_language(text)
         tokens = worked_out(chessmen(tokenise(text)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        sentences = reordered(_sentences(tokens, self._nouns))
-        told = [clause for sentence in sentences for clause in self._clauses(text, sentence)]
+        told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         world.notes += [f'not modelled: "{said}"' for said in beside_robot]
@@ -370,43 +367,6 @@ def _known(world: World) -> dict[str, str]:
 
 def _copied(world: World) -> World:
     return copy.deepcopy(world, {id(world.likely): world.likely})
-
-
-def _sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
-    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other.
-
-    So is "The left box holds a ball, the right box is empty", where the right box is not held.
-    """
-    made: list[list[Token]] = [[]]
-    for at, token in enumerate(tokens):
-        words = [each.text for each in tokens[at + 1 : at + 5]]
-        # "Two buckets: the green one holds three balls, the red one is empty."
-        clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
-        told = token.text == "," and any(each.text in FINITE for each in made[-1])
-        begins = clause and (token.text == ":" or told)
-        begins = begins or (_tells_state(tokens, at, nouns) and any(_holds(each) for each in made[-1]))
-        made[-1].append(replace(token, text=".", mark=True) if begins else token)
-        if token.text == "." or begins:
-            made.append([])
-    return [sentence for sentence in made if len(sentence) > 1]
-
-
-def _holds(token: Token) -> bool:
-    link = LINKS.get((token.text,))
-    return link is not None and link.finite and link.inverse
-
-
-def _tells_state(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
-    """Whether "the right box is empty" follows a comma or "and" at token `at`."""
-    first = at + 1 + (tokens[at].text == "," and tokens[at + 1].text in ("and", "but", "while"))
-    words = [token.text for token in tokens[first : first + 7]]
-    verb = next((n for n, word in enumerate(words) if word in ("is", "are")), 0)
-    if tokens[at].text not in (",", "and", "but", "while") or verb < 2 or verb > len(words) - 3:
-        return False
-    named = words[0] in lexicon.DETERMINERS and nouns.match([words[verb - 1]]) is not None
-    plain = not any(tokens[n].mark or link_at(tokens, n) for n in range(first, first + verb))
-    state = words[verb + 1] == "empty" or is_colour_word(words[verb + 1])
-    return named and plain and state and tokens[first + verb + 2].mark
 
 
 def _trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:

@@ -12,7 +12,7 @@ from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
-from pat3d.scene.relations import OPPOSITE
+from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE
 
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
@@ -87,7 +87,7 @@ class Pronouns:
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
-        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
+        before = [[i for head in each if head < at for i in self.ref(head) if i not in other] for each in heads]
         groups = {item.group for item in other}
         together = [item for item in self._world.together if item.group not in groups]
         before += [together if plural and len(together) > 1 else self._world.subject]
@@ -124,7 +124,7 @@ class Pronouns:
                 edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals
             )
             # "A lamp is left of the sofa and a plant right of it": across the sofa from the lamp.
-            candidates.append((-0.6 if across and aside else -0.15 if aside else 0.1, landmark))
+            candidates.append((-0.6 if across and aside else 0.3 if child else -0.15 if aside else 0.1, landmark))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
@@ -150,6 +150,11 @@ class Pronouns:
                 world = self._world
                 pair = (items[0], other[0]) if child else (other[0], items[0])
                 cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
+                if link.kind in LATERAL_KINDS and (
+                    world.support(pair[0]) is pair[1] or world.support(pair[1]) is pair[0]
+                ):
+                    # "A glass of juice and, next to it, a plate": nothing is beside what it carries.
+                    cost += 1.0
             if best is None or cost < best[0]:
                 if best is not None and set(best[1]) != set(items):
                     rival = best

@@ -95,10 +95,14 @@ class Relating:
                 world.arrange(
                     "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
                 )
-            if link.says == "circle":
+            together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
+            if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
             others = list({item.group: item for item in parents[1:] if item.group is not parents[0].group}.values())
+            if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
+                # A ring around several things is around none of them alone.
+                return
             if link.kind == "around":
                 parents = self._centre(children, parents)
             for other in others if len(children) == 1 and link.kind != "around" else ():
@@ -139,7 +143,7 @@ class Relating:
             world.note(f"not arranged: {said}, which is placed next to it")
             world.beside(children, "next_to", owners)
         elif weak and world.is_a(children[0], lexicon.SIDE_DISHES) and world.is_a(owner, lexicon.MAIN_DISHES):
-            world.beside(children, "next_to", owners)
+            world.beside(children, "next_to", owners, weak=True)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
         elif weak and world.is_a(owner, lexicon.DEVICES):

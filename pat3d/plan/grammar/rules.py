@@ -98,7 +98,8 @@ class Grammar(Goals):
             cost += (0.0 if len(objects.heads) <= 2 else 0.2) if plural and whole else 1.5
             # "between two dolls, a ball at its feet": the two are the neighbours.
             cost += 0.8 * (len(objects.heads) > 1 and self._phrase(objects.heads[0]).count == 2)
-        if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
+        ring = said.says == "circle" and set(objects.joints) <= {"&", ","}
+        if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
         flags = frozenset({"finite"} if said.finite else ()) | (objects.flags & {"trailing"})
@@ -154,7 +155,7 @@ class Grammar(Goals):
             cost += 0.4
         if "finite" in named.flags & modifier.flags and (len(named.heads) > 1 or modifier.cat == "M"):
             # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
-            cost += 0.5
+            cost += 0.5 if modifier.cat == "CM" else 1.5
         if "finite" in modifier.flags:
             alone = len(named.heads) == 1 and self._phrase(named.heads[0]).kind == "pieces"
             cost += (1.8 if alone else 0.5) * self._disagrees(named.heads, modifier.start)
@@ -178,6 +179,7 @@ class Grammar(Goals):
             kind == "link"
             and (self._link(at).manner == "of" or self._link(at).filling)
             and not modifier.flags & {"finite", "which"}
+            and not (modifier.cat == "CM" and "finite" in named.flags)
             and named.heads != (at - 1,)
         ):
             # "a bowl of oranges": of what stands directly before.
@@ -345,6 +347,10 @@ class Grammar(Goals):
         if whole is None:
             return None
         first = modifier.heads[:1] if link is not None else ()
+        if link is not None and link.kind in SUPPORT_KINDS and len(named.heads) > 1:
+            # "On the bench are a vise, a drill and six screws in a dish": the bench carries the vise.
+            inner = (f for f in named.facts if f[0] == "rel" and f[2] == named.heads)
+            cost += 0.25 * any(self._link(f[1]).kind in SUPPORT_KINDS for f in inner)
         facts = (*whole.facts, ("subject", named.heads, modifier.start), *((("front", first),) if first else ()))
         if named.cat == "CL" and not named.joints.startswith(":"):
             facts = (*facts, ("comma front", modifier.start))
