@@ -12,7 +12,7 @@ from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.identity import confused
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
@@ -135,7 +135,7 @@ def _shapes(it: Compared) -> frozenset[str]:
     return (
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles"} if stacked else ())
+        | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
     )
@@ -149,6 +149,8 @@ class _Auditor(Compared):
             if find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects):
                 continue
             place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
+            if self._listed(mention):
+                continue
             if (place or not mention.owned) and not self.of(mention) and not self._is_part(mention):
                 made.append((mention.start, f'not in the scene: "{mention.text}"'))
         made += self._miscounted()
@@ -202,6 +204,10 @@ class _Auditor(Compared):
         said = self.said.words[len(words) : at]
         several = words[-1:] in (["are"], ["were"]) and ("both" in said or "all" in said)
         landmarks = [claim.of for claim in self.said.claims]
+        listed = self.said.words[at + 1 : at + 3]
+        if listed[:1] == ["and"] or (listed[:1] == [","] and find_colour(listed[-1])):
+            # "The cups are red, yellow and blue."
+            return 1, self.plan.objects
         subject = [mention for mention in self.said.mentions
                    if mention.end == len(words) - 1 and mention not in landmarks]  # fmt: skip
         if several or not subject or words[-1:] not in (["is"], ["was"], ["are"], ["were"]):
@@ -219,7 +225,7 @@ class _Auditor(Compared):
     def _miscounted(self) -> list[tuple[int, str]]:
         made: list[tuple[int, str]] = []
         nouns: dict[str, list[Mention]] = {}
-        for mention in self.said.mentions:
+        for mention in (one for one in self.said.mentions if not self._listed(one)):
             nouns.setdefault(mention.noun, []).append(mention)
         for noun, mentions in nouns.items():
             counts = {sum(obj.noun == noun for obj in self.plan.objects),
@@ -242,6 +248,7 @@ class _Auditor(Compared):
             least = max(least, listed if listed > 1 else 0)
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
+            endless = endless or any(had_by_each(self, mention) for mention in mentions)
             members = [mention for mention in known if self._member(mention, mentions)]
             # "An apple in one and a pear in the other": one of each.
             endless = endless and not any(self.said.words[m.end : m.end + 2] in (["in", "one"], ["on", "one"]) and
@@ -255,6 +262,25 @@ class _Auditor(Compared):
         """Whether what `mention` names is counted in bottles: the soap of "three bottles of soap"."""
         before = self.said.words[max(mention.first - 2, 0) : mention.first]
         return before[1:] == ["of"] and bool({before[0], *singulars(before[0])} & (PACKETS | PIECES | {"bunch"}))
+
+    def _listed(self, mention: Mention) -> bool:
+        """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""
+        words = self.said.words
+        if not mention.plural:
+            return False
+        stop = next((at for at in range(mention.end, len(words)) if words[at] in (":", ".", ";")), len(words))
+        behind = words[mention.end : mention.end + 1] == ["("] and ")" in words[mention.end :]
+        start, end = mention.end + 1, words.index(")", mention.end) if behind else len(words)
+        if not behind and (stop == len(words) or words[stop] != ":" or mention.number is None):
+            return False
+        if not behind:
+            start = stop + 1
+            end = next((at for at in range(start, len(words)) if words[at] in (".", ";", ":")), len(words))
+        listed = re.split(r" ?, and | ?, | and ", " ".join(words[start:end]))
+        heads = [one.split()[-1] for one in listed if one]
+        counted = {*words[start:end]} & (NUMBERS.keys() - {"a", "an"})
+        alone = not counted and not all(map(find_colour, heads)) and len(heads) > 1
+        return alone and not {"one", "ones"} & {*heads} and mention.number in (None, len(heads))
 
     def _member(self, mention: Mention, mentions: Sequence[Mention]) -> bool:
         """Whether `mention` is one of those that stand behind it: "the third book in a row of five books"."""

@@ -130,7 +130,8 @@ def _numbered(it: Compared) -> Iterator[str]:
         said = {word for phrase in phrases for word in phrase.split()}
         vague = said & {"lot", "lots", "number", "few", "several", "many"}
         counted = not vague and any(word in NUMBERS or word.isdecimal() or _TENS.fullmatch(word) for word in said)
-        counted = counted or mention.number is not None or mention.noun in SINGLE or not mention.plural
+        listed = it.said.words[mention.end : mention.end + 1] == ["("] or "colors" in it.said.words
+        counted = counted or listed or mention.number is not None or mention.noun in SINGLE or not mention.plural
         if counted or len(several) < 2 or len(phrases) != 1 or any(word in REPEATS for word in it.said.words):
             continue
         if not any(phrase in it.quoted for phrase in phrases) and mention.text not in it.quoted:

@@ -67,9 +67,16 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
 def _stacked(words: Sequence[str]) -> bool:
     """Whether a word says that likes stand on one another, or something on one of which the noun is not said."""
     upon = (at for at, word in enumerate(words) if word in _UPON)
-    return bool(_STACKING & set(words)) or any(
-        _ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon
+    return (
+        bool(_STACKING & set(words))
+        or {"bottom", "top"} <= set(words)
+        or any(_ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon)
     )
+
+
+def _from_below(words: Sequence[str]) -> bool:
+    """Whether the sentence says who is at the bottom and who on top."""
+    return any(each <= set(words) for each in ({"bottom", "top"}, {"from", "top", "down"}, {"from", "bottom", "up"}))
 
 
 def _told_of(it: Compared, claim: Claim) -> set[str]:
@@ -139,7 +146,7 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
 def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
-    if inside or not {child, parent} <= named:
+    if inside or (kind == "on" and _from_below(it.said.words)) or not {child, parent} <= named:
         return True
     for claim in it.said.claims:
         below, above = _landmarks(it, claim), _said_of(it, claim)
@@ -156,6 +163,12 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         taken = claim.place == "far" and bool(it.tasks.strip())
         kinds = ("on", "in") if claim.place == "with" or taken else it.kinds(claim)
         if kind in kinds and parent in below and child in above:
+            return True
+    had = [claim.end for claim in it.said.claims if claim.place in ("with", "holding")]
+    for one, other in pairwise(it.said.mentions):
+        # "The tray holds a cup and the plate a bun": the verb is left out.
+        gap = one.end == other.first and any(end <= one.first for end in had)
+        if gap and parent in _names(it, [one]) and child in _names(it, [other]):
             return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
         before, behind = ([mention for mention in it.said.mentions if (mention.start < at) is first]

@@ -235,6 +235,7 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         told = [mention.start for obj in it.plan.objects if obj.name in owners
                 for mention in it.said.mentions if mention.noun == obj.noun]  # fmt: skip
         late = bool(told) and min(told) > at
+        held |= {name for name in own if it.above(name) and any(name in it.above(obj.name) for obj in it.plan.objects)}
         if own and (late or not held & own) and words[at] not in it.quoted:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
 

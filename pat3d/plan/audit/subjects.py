@@ -11,7 +11,7 @@ import re
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, POSED, SILENT
+from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, HAS, POSED, PRONOUNS, SILENT
 
 _CHECKED = frozenset({"on", "on top", "in", "beside", "left", "right", "front", "behind", "under", "above", "against"})
 """Places of which one thing is said to be at one other."""
@@ -143,6 +143,9 @@ def listed(it: Compared, last: Mention) -> list[Mention]:
         if not set(between) <= _JOINTS:
             break
         leading = next((claim for claim in it.said.claims if claim.of is mention), None)
+        if leading is not None and it.said.words[leading.at] in HAS and it.said.words[leading.at - 1] not in PRONOUNS:
+            # "A tray holds a cup, and a spoon lies on the mat": a clause of its own.
+            return made
         if leading is not None:
             owner = _ending(it, leading.at) if leading.place in ("with", "holding") else None
             return [*(listed(it, owner) if owner is not None else ()), *made]

@@ -193,6 +193,9 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
+        # "the left one pencils": the pencils of the left one.
+        number = None
     if _elliptic(words, ahead) or SOME & lead:
         number, plural = None, True
     return Mention(

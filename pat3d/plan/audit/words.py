@@ -122,6 +122,8 @@ FINITE = frozenset({
     "sat", "stood", "lay",
 })  # fmt: skip
 """Verbs that say where the subject of a clause is."""
+HAS = frozenset({"has", "have", "holds", "hold", "contains", "contain", "carries", "carry", "supports", "bears"})
+"""Verbs that say what the subject of a clause has."""
 POSED = FINITE | frozenset({
     "sitting", "standing", "lying", "resting", "placed", "located", "positioned", "situated", "set", "laid", "seated",
     "hanging", "leaning", "perched", "balanced", "displayed", "arranged", "just", "right", "directly", "also",
@@ -217,12 +219,13 @@ another own same which who one ones and or but then while so as also too plus he
 being has have had do does of to at by in on with for from into onto up down out off over next side sides row rows line
 stack pile top middle center centre edge corner end left right front back first second third last nothing showing
 complete featuring including objects items things everything others exactly about well together somewhere what shown
-seen should must need i'd give following features color immediate amidst belongs goes go upside upright head facing
+seen should must need i'd give following features color immediate amidst belongs belong leave keep needs need goes go
+upside upright head facing
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like want see imagine show create make corners he she they namely whereas itself themselves himself herself now still
-already image possible sure ensure find finds generate remaining
+like several animals want see imagine show create make corners he she they namely whereas itself themselves himself
+herself now still already image possible sure ensure find finds generate remaining
 yesterday today currently simply form forms forming appears appear x count slightly
 """
 _POSTURES = """
@@ -235,7 +238,8 @@ flank flanks share shares fill fills sandwiched perches split evenly equally div
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
 _DEEDS = """
-unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
+moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean
+bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
 robot robotic gripper away back close pass hand relocate reposition shift drag
 """

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
+from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.unmade import base_verb, is_quality
@@ -88,7 +89,7 @@ class Clause:
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     """The clauses of one sentence, which ends in a stop."""
-    tokens = commanded(tokens)
+    tokens = commanded(errands(tokens))
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)
@@ -125,6 +126,11 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         while body and (body[-1].text in (",", "and", "then") or body[-1].text in _PARTICLES - {"on", "off"}):
             body.pop()
         stop = tokens[-1]
+        stays = len(starts) > 1 or len(left_alone(body)) < len(body)
+        if word in ("leave", "keep") and stays and body and body[0].text in lexicon.DEFINITE:
+            # "Leave the mug on the table and move the plate": the mug is there.
+            made.append(Clause(tokens=(*left_alone(body), stop)))
+            continue
         begun = max(start, 0)
         said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
         manner = _VERBS.get(word, "other")

@@ -11,11 +11,12 @@ from pat3d.plan.grammar.account import holds_already, learned, miscounted, words
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
+from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
 from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
-from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell
+from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell, tell_colours
 from pat3d.plan.grammar.placing import Placing
 from pat3d.plan.grammar.world import Item, Step, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -50,7 +51,8 @@ class Interpreter(Placing):
             if fact[0] == "extra":
                 where = " ".join(self._chunks[at].text for at in (fact[1], *fact[2]))
                 self._world.note(f'not modelled: "{where}"')
-                self._clause = replace(self._clause, manner="other")
+                if not self._ends_on_something(facts):
+                    self._clause = replace(self._clause, manner="other")
         self._said.bound = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
         clauses = {fact[2]: fact[1] for fact in facts if fact[0] == "subject"}
         self._said.clauses = {**clauses} or {0: reading.heads}
@@ -113,6 +115,13 @@ class Interpreter(Placing):
             self._relating.cost += self._loose()
         self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
+        """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
+        links = [self._chunks[fact[1]].link for fact in facts if fact[0] == "goal"]
+        return all(
+            link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
+        )
 
     def _form(self, at: int, heads: Sequence[int]) -> None:
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
@@ -196,7 +205,7 @@ class Interpreter(Placing):
                 phrase is not None
                 and phrase.determined
                 and not phrase.definite
-                and phrase.kind in ("object", "unknown")
+                and (phrase.kind in ("object", "unknown") or phrase.words.lower().startswith(("a ", "an ")))
                 and not phrase.superlative.size_word
                 for phrase in phrases
             )
@@ -259,7 +268,10 @@ class Interpreter(Placing):
             self._world.note(f'not understood: how "{said}" is described')
         for group in dict.fromkeys(item.group for item in items):
             self._maker.note_adjectives(self._world, group.phrase, told)
-            if all(item in items for item in group.items):
+            shared = len(told.colours) > 2 or 1 < len(told.colours) == len(group.items)
+            if shared and len(group.items) > 1 and all(item in items for item in group.items):
+                tell_colours(self._world, group, told)
+            elif all(item in items for item in group.items):
                 describe(group, told)
             else:
                 for item in items:
@@ -315,11 +327,17 @@ class Interpreter(Placing):
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
-        several = self._said.speaks_of_each(child_heads) or self._said.speaks_of_each(parent_heads, carrying=True)
+        having = self._is_had(at, parent_heads)
+        of_all = self._said.speaks_of_each(parent_heads, carrying=True)
+        had = share(self._world, link, parents, children, all_of=of_all, having=having)
+        if had == "each" and (having or link.kind in SUPPORT_KINDS):
+            self._relating.relate(for_each(self._world, parents, children), link, parents)
+            return
+        several = self._said.speaks_of_each(child_heads) or (of_all and had != "together")
         one_each = phrase is not None and (phrase.possessive or not phrase.definite) and phrase.kind != "pronoun"
         if self._said.speaks_of_each(child_heads) and one_each and len(parents) < len(children):
             parents = multiply(self._world, parents, len(children) // len(parents))
-        elif self._said.for_each(parent_heads, children, parents) or (
+        elif (had != "together" and self._said.for_each(parent_heads, children, parents)) or (
             several and len(children) < len(parents) and not set(children) & set(parents)
         ):
             whole_group = group.counted and len(group.items) == len(parents) and len(children) == 1
@@ -332,6 +350,14 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+
+    def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
+        """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
+        if not all(head in self._said.bound for head in parent_heads):
+            return False
+        owners = [inner for head in parent_heads for inner in self._said.bound[head]]
+        links = [chunk.link for chunk in self._chunks[max(owners) : at]]
+        return any(link is not None and link.finite and link.inverse for link in links)
 
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
@@ -392,14 +418,13 @@ class Interpreter(Placing):
             else:
                 self._relating.flanked(children, owners, sides)
             return
-        every = self._said.speaks_of_each(owner_heads) and not any(item.group.multiplied for item in children)
-        every = every and not any(phrase is not None and phrase.definite for _, phrase in ordered)
-        if (each and len(children) < len(owners)) or every:
-            multiply(world, children, len(owners))
+        had = share(world, link, owners, children, all_of=each, having=link.manner == "hold" or link.finite)
+        if had == "each":
+            for_each(world, owners, children)
             for head in things:
-                self._said.known[head] = [
-                    item for group in dict.fromkeys(i.group for i in self._said.ref(head)) for item in group.items
-                ]
+                self._said.known[head] = all_like(self._said.ref(head))
+        elif hand_out(self._relating, link, owners, children, had):
+            return
         for head in things:
             items = [item for item in self._said.ref(head) if item not in owners]
             if items:

@@ -23,6 +23,8 @@ from pat3d.plan.grammar.displaced import (
     in_place,
     stateless,
 )
+from pat3d.plan.grammar.enumerated import enumerated
+from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
@@ -32,6 +34,7 @@ from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
+from pat3d.plan.grammar.towers import from_below, of_things
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _MIDDLES = ("centre", "center", "middle")
@@ -52,7 +55,23 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
-_MANY_COLOURED = frozenset({"different", "differently", "colored", "coloured", "colorful", "colourful"})
+_MANY_COLOURED = frozenset(
+    {
+        "rainbow-coloured",
+        "rainbow-colored",
+        "rainbow",
+        "multicolored",
+        "multicoloured",
+        "different",
+        "differently",
+        "colored",
+        "coloured",
+        "colorful",
+        "colourful",
+    }
+)
+_NUMBER_WORDS = {count: word for word, count in lexicon.NUMBERS.items() if count > 1 and word.isalpha()
+                 and word not in ("both", "pair", "couple", "trio", "dozen")}  # fmt: skip
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
@@ -62,16 +81,17 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
+    tokens = enumerated(text, of_things(from_below(tokens, nouns), nouns), nouns)
     tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
+    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
 
 
 def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
@@ -141,12 +161,18 @@ def _in_colours(tokens: Sequence[Token], colours: Sequence[Token], nouns: Nouns)
     """`tokens`, which end in "three boxes of different colors", as "three red, blue and green boxes"; else empty."""
     words = [token.text for token in tokens]
     end = len(words) - 3 if words[-3:-1] == ["of", "different"] else len(words)
-    size = next((n for n in (3, 2, 1) if n < end and nouns.match(words[end - n : end])), 0)
+    size = next((n for n in (3, 2, 1) if n <= end and nouns.match(words[end - n : end])), 0)
     first = end - size
-    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in ("differently", "different")):
+    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in _MANY_COLOURED):
         first -= 1
     number = words[first - 1] if first else ""
-    if not size or str(lexicon.NUMBERS.get(number, number)) != str(len(colours)):
+    told = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
+    alone = not first or tokens[first - 1].mark or number in ("the", "stack", "pile", "place", "put", "and", "with")
+    if size and not told and alone and singulars(words[end - 1]) and len(colours) in _NUMBER_WORDS:
+        # "blocks (red, blue, green)"
+        number_word = replace(tokens[end - size], text=_NUMBER_WORDS[len(colours)])
+        return _in_colours([*tokens[:first], number_word, *tokens[first:]], colours, nouns)
+    if not size or told != len(colours):
         return []
     listed = [token for colour in colours for token in (colour, replace(colour, text=",", mark=True))][:-1]
     kept = [token for token in tokens[first : end - size] if token.text not in _MANY_COLOURED]
@@ -279,26 +305,6 @@ def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
                 size, head = size + 1, head[:-1]
             return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
-    return list(tokens)
-
-
-def _kinds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "three cans: soup, tuna and corn" as "a soup can, a tuna can and a corn can"."""
-    words = [token.text for token in tokens]
-    for colon in (n for n in range(2, len(words)) if words[n] == ":"):
-        count, noun = lexicon.NUMBERS.get(words[colon - 2], 0), tokens[colon - 1]
-        end = next((n for n in range(colon, len(words)) if tokens[n].mark and words[n] not in (",", ":")), len(words))
-        inside = list(tokens[colon + 1 : end])
-        kinds = [token for token in inside if token.text not in (",", "and")]
-        single = next((guess for guess in singulars(noun.text) if nouns.match([guess])), None)
-        if not 2 <= count == len(kinds) or single is None or "and" not in words[end - 2 : end]:
-            continue
-        if all(nouns.match([kind.text, single]) for kind in kinds):
-            article = replace(tokens[colon - 2], text="a")
-            for kind in kinds:
-                at = inside.index(kind)
-                inside[at : at + 1] = [article, kind, replace(noun, text=single)]
-            return [*tokens[: colon - 2], *inside, *tokens[end:]]
     return list(tokens)
 
 

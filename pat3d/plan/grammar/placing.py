@@ -323,9 +323,19 @@ class Placing:
         for group in groups:
             if group.height == 1 and (tall or all(len(each.items) > 1 for each in groups)):
                 group.height = len(group.items)
+                self._off_the_ground(group.items[0], group.items[1:])
         if tall or any(len(each.items) == 1 for each in groups):
             for lower, upper in zip(groups, groups[1:], strict=False):
+                self._off_the_ground(groups[0].items[0], upper.items)
                 self._world.place(upper.items, "on", lower.items)
+
+    def _off_the_ground(self, lowest: Item, upper: Sequence[Item]) -> None:
+        """Let `upper`, which are stacked on `lowest`, no longer stand on what that stands on."""
+        supports, below = self._world.supports, self._world.supports.get(lowest)
+        for item in upper:
+            own = supports.get(item)
+            if own is not None and below is not None and own.parent is below.parent:
+                del supports[item]
 
     def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
         for group in dict.fromkeys(item.group for item in owners):

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
+from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
@@ -37,6 +38,8 @@ class References(Contrast):
         world = self._world
         if phrase.each:
             self.each.add(at)
+        elif says_all(phrase):
+            self.all.add(at)
         if phrase.kind in ("object", "unknown"):
             if at in self.bound:
                 # "Tools: a hammer and a saw": the two are the tools.
@@ -63,8 +66,8 @@ class References(Contrast):
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
         elif phrase.kind == "pieces":
-            self._note_adjectives(phrase)
             self.known[at] = self._members(at, phrase)
+            self._note_adjectives(replace(phrase, noun=next((i.group.noun for i in self.known[at]), "")))
             shape = tuple(word for word in phrase.modifiers.adjectives if word in lexicon.HONOURED)
             for item in self.known[at]:
                 told = item.told.marked_as(phrase.modifiers)
@@ -295,7 +298,10 @@ class References(Contrast):
         return list(whole.items[:count])
 
     def _another(self, at: int, phrase: Phrase) -> list[Item]:
-        """One more of what was named first in the sentence, else last."""
+        """The next of those that are told of one by one, or one more of what was named first in the sentence."""
+        if self._world.telling and phrase.words.lower() in ("another", "another one"):
+            # "Four mugs, one of which holds a pen and another a spoon"
+            return [self._world.telling.pop(0)]
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
         groups = [named[0][0].group] if named else self._world.groups[-1:]
         if (alike := self._carrier_like(at)) is not None:

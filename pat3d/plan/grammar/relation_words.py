@@ -145,7 +145,7 @@ class RelationWords(Cursor):
         count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
         kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
         kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
-        if preposition not in ("in", "into") or count < 1 or kind is None:
+        if preposition not in ("in", "into", "as") or count < 1 or kind is None:
             return False
         tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
         of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())

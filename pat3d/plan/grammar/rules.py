@@ -151,7 +151,7 @@ class Grammar(Goals):
             cost += 0.4
         if "finite" in named.flags & modifier.flags and (len(named.heads) > 1 or modifier.cat == "M"):
             # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
-            cost += 0.5
+            cost += 0.5 if modifier.cat == "CM" else 1.5
         if "finite" in modifier.flags:
             alone = len(named.heads) == 1 and self._phrase(named.heads[0]).kind == "pieces"
             cost += (1.8 if alone else 0.5) * self._disagrees(named.heads, modifier.start)
