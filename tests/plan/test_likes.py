@@ -57,3 +57,29 @@ def test_two_names_of_one_sentence_are_two_things(planner: GrammarPlanner):
 )
 def test_a_name_that_refers_back_makes_nothing_new(planner: GrammarPlanner, prompt: str):
     assert len(planner.plan(prompt).objects) == 3
+
+
+@pytest.mark.parametrize(
+    ("prompt", "expected"),
+    [
+        ("All the fruits (a fig, a pear and a plum) are in the bowl.", ["fig", "pear", "plum"]),
+        ("Two tools (hammer, saw) lie on the bench.", ["hammer", "saw"]),
+        ("Two jars stand on a shelf: jam and honey.", ["jam jar", "honey jar"]),
+        ("Put the cups (red, green, white) on the tray.", ["red cup", "green cup", "white cup"]),
+        ("Place the boxes of three different colors (red, orange, blue) on the table.",
+         ["red box", "orange box", "blue box"]),
+        ("The mugs (one red, two black) are on the shelf.", ["red mug", "black mug 1", "black mug 2"]),
+        ("Two vases, white and blue, stand on a table.", ["white vase", "blue vase"]),
+        ("Three balls are orange, red and green.", ["orange ball", "red ball", "green ball"]),
+        ("Two orange and two green balls lie on a mat.",
+         ["orange ball 1", "orange ball 2", "green ball 1", "green ball 2"]),
+        ("A blue, an orange and a white cup are on a tray.", ["blue cup", "orange cup", "white cup"]),
+        ("Two oranges and a green cup are on a tray.", ["orange 1", "orange 2", "green cup"]),
+        ("A wine glass and glass bowl are on the table.", ["wine glass", "glass bowl"]),
+    ],
+)  # fmt: skip
+def test_what_is_listed_is_what_was_counted(planner: GrammarPlanner, prompt: str, expected: list[str]):
+    plan = planner.plan(prompt)
+    assert [obj.name for obj in plan.objects][: len(expected)] == expected
+    assert len(plan.objects) <= len(expected) + 1
+    assert not any("counted otherwise" in note or "not in the scene" in note for note in plan.notes)

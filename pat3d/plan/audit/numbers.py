@@ -9,6 +9,7 @@ from itertools import pairwise
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.text import Mention
 from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, CORNERS, EACH, ENDS, NUMBERS, POSED, RELATIONS
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
@@ -37,6 +38,19 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _held_by_other(it)
 
 
+def had_by_each(it: Compared, mention: Mention) -> bool:
+    """Whether several things have one each of what `mention` names: "two trays hold a burger"."""
+    verbs = [
+        claim.at
+        for claim in it.said.claims
+        if claim.place in ("with", "holding") and claim.end <= mention.end and claim.part == mention.part
+    ]
+    owned = [one for one in it.said.mentions if one.plural and verbs and one.end <= verbs[-1]]
+    owners = {obj.name for obj in it.which(owned[-1])} if owned else set()
+    of = [{b for a, _, b in it.edges if a == obj.name and b in owners} for obj in it.of(mention)]
+    return len(of) > 1 and all(len(by) == 1 for by in of) and len({min(by) for by in of}) == len(of)
+
+
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
     """Shares of a number: "ten books: six on the shelf, four on the floor"."""
     words = it.said.words
@@ -44,7 +58,7 @@ def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
         return
     for at, word in enumerate(words[:-1]):
         count = NUMBERS.get(word, 0) if word not in ("a", "an", "another", "single", "dozen", "one", "both") else 0
-        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or")):
+        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or", "but")):
             continue
         behind = at + 1
         if words[behind : behind + 2] in _OF_THEM:

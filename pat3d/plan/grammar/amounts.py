@@ -25,7 +25,8 @@ _SURROUNDING = frozenset({
 
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
-    return _of_each(_equal(_shares(_on_sides(_some_of(_any_of(_rounded(tokens, nouns)))), nouns), nouns), nouns)
+    whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
+    return _of_each(_equal(_shares(_on_sides(whole), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -169,6 +170,21 @@ def _some_of(tokens: Sequence[Token]) -> list[Token]:
         return list(tokens)
     colon, them = replace(tokens[0], text=":", mark=True), replace(tokens[2], text="them")
     return [*tokens[3:end], colon, *tokens[:2], them, *tokens[end:]]
+
+
+def _of_whole(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "of three cups, one is red" as "one of three cups is red"."""
+    words = [token.text for token in tokens]
+    first = 1 + (words[1:2] == ["the"])
+    if words[:1] != ["of"] or not _value(words[min(first, len(words) - 1)]):
+        return list(tokens)
+    at = next((n for n in range(first + 2, min(first + 6, len(words) - 1)) if _is_number(words[n])), 0)
+    if not at or words[at + 1] not in FINITE:
+        return list(tokens)
+    end = at - (words[at - 1] == ",")
+    # It is quoted from the first word on.
+    number = replace(tokens[at], start=tokens[0].start, end=tokens[0].end)
+    return [number, *tokens[:end], *tokens[at + 1 :]]
 
 
 def _on_sides(tokens: Sequence[Token]) -> list[Token]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.plan.grammar import covers, lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
@@ -74,6 +76,24 @@ def _one_by_one(world: World, each: Arranged) -> list[Arranged]:
     if each.kind != "leaning_against" or len(each.items) < 2 or not (each.of and world.on_floor(each.of[0])):
         return [each]
     return [replace(each, items=[item]) for item in each.items]
+
+
+def in_order(world: World, row: Sequence[Item]) -> None:
+    """Let the objects of a row stand in the order of `row` from left to right."""
+    own, group = set(row), row[0].group
+    for each in world.arranged:
+        if each.kind in _LINES and set(each.items) == own:
+            each.items = list(row)
+    world.laterals = [
+        edge
+        for edge in world.laterals
+        if not ({edge.child, edge.parent} <= own and edge.kind in ("left_of", "right_of"))
+    ]
+    if set(group.items) == own and not group.cycle:
+        group.items = list(row)
+    else:
+        for left, right in pairwise(row):
+            world.beside([left], "left_of", [right])
 
 
 def rows_of(world: World, group: Group) -> list[list[Item]]:

@@ -9,6 +9,7 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexicon import SIZES
 from pat3d.plan.grammar.likes import likes_named, with_noun
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
+from pat3d.plan.grammar.parallels import told_alike
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -22,7 +23,7 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] =
     `known` are the phrases of what was named before them.
     """
     told = likes_named(_from_below(_described(_gapped(_full(chunks)))), nouns, known)
-    return _towers(_alike(_with_nouns(told, nouns)))
+    return _towers(_alike(told_alike(_with_nouns(told, nouns), nouns)))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:

@@ -148,7 +148,8 @@ class Judging:
         if phrase.definite and not place:
             # "The red one" tells which.
             return not any(head in fact[2] for fact in facts if len(fact) > 2)
-        told = words.colours or words.palette or words.size_word or words.material or set(words.adjectives) - place
+        told = words.colours or words.palette or words.size_word or words.material or words.postures
+        told = told or set(words.adjectives) - place
         return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
 
     def _only_background(self, heads: tuple[int, ...]) -> bool:

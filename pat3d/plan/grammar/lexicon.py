@@ -124,6 +124,7 @@ PARTS = frozenset({"head", "top", "back", "edge", "side", "middle", "center", "c
     "flesh", "flap", "pedal", "brim", "prong", "seam", "strap", "zipper", "hinge", "crust",
     "rind", "stalk", "fin", "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot",
     "stitching", "engraving", "bite", "residue", "component", "earpiece",
+    "gripper", "effector", "manipulator",
     "yolk", "condensation", "droplet", "underside", "outline", "hue", "highlight", "reflection"})  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal",
@@ -138,8 +139,9 @@ DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"}
 COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful",
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
-    "kinds", "types", "bit"})  # fmt: skip
-ROWS = frozenset({"row", "line", "series"})
+    "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
+    "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""
@@ -280,6 +282,9 @@ COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler",
     "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
     "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
 """Vessels that, upside down, stand around what they cover."""
+MAIN_DISHES = ("burger", "sandwich", "steak", "fish", "hot dog", "sausage", "pizza", "burrito")
+SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag")
+"""What lies beside a main dish that is "with" it."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
@@ -324,7 +329,8 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
 PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
-    "jam": "jam jar", "shampoo": "shampoo",
+    "jam": "jam jar", "shampoo": "shampoo", "trash": "trash can", "garbage": "trash can", "rubbish": "trash can",
+    "tap": "faucet",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {

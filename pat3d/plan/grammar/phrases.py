@@ -244,7 +244,8 @@ class PhraseReader:
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
-        if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
+        closing = head in lexicon.ON_RIMS and not self._definite
+        if len(words) > 1 and head in lexicon.DETACHED and not closing and self._nouns.match(words[-2:]) is None:
             # "the top dresser drawer", "the cabinet shelf"
             whole = self._simple(run[:-1], count)
             inside = head not in lexicon.STORAGE_PARTS or self._nouns.of_class(whole.noun, lexicon.STORAGE)
@@ -326,7 +327,7 @@ class PhraseReader:
         if head in lexicon.PICTURES:
             return None
         rows = any(word in lexicon.ROWS for word in singular)
-        if rows and plural and head != "series":
+        if rows and plural:
             number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
             return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
