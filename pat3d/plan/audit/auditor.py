@@ -137,6 +137,7 @@ def _shapes(it: Compared) -> frozenset[str]:
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
+        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
         | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())

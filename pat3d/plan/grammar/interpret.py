@@ -140,6 +140,8 @@ class Interpreter(Placing):
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
         phrases = [self._chunks[head].phrase for head in heads]
         meant = all(phrase is not None and (phrase.definite or phrase.kind == "pronoun") for phrase in phrases)
+        if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
+            return
         if self._clause.manner is not None and meant:
             self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
         else:

@@ -281,6 +281,10 @@ class PhraseReader:
         if any(word in lexicon.SUBSTANCES for word in singular):
             return replace(base, kind="background", substance=head)
         if any(word in lexicon.PARTS for word in singular):
+            whole = self._nouns.match(words[:-1]) if len(words) > 2 and self._definite else None
+            if whole is not None:
+                # "the stand mixer head"
+                return replace(base, kind="object", noun=whole.noun, said=whole.said, part=head)
             return replace(base, kind="part", said=singular[-1])
         stuff = words in _STUFF and count is None and not self._definite
         if all(is_modifier(word) for word in words) and not stuff:
