@@ -170,8 +170,15 @@ class _Auditor(Compared):
                    if mention.end == len(words) - 1 and mention not in landmarks]  # fmt: skip
         if several or not subject or words[-1:] not in (["is"], ["was"], ["are"], ["were"]):
             return 2 if several else 1, self.plan.objects
-        own = self.which(subject[0])
-        return (len(own) if words[-1] in ("are", "were") and "and" not in words else 1), own or self.plan.objects
+        own, all_of_them = self.which(subject[0]), words[-1] in ("are", "were") and "and" not in words
+        least = min(len(own), self._told(subject[0]) or len(own)) if all_of_them else 1
+        return least, own or self.plan.objects
+
+    def _told(self, subject: Mention) -> int:
+        """How many of `subject` are spoken of at least: "two of the four cups", "the other cups"; 0 for all."""
+        before = self.said.words[max(subject.first - 3, 0) : subject.first]
+        share = NUMBERS.get(before[0], 0) if before[1:] == ["of", "the"] else 0
+        return share or subject.number or int("other" in subject.lead)
 
     # Objects
 
@@ -187,6 +194,7 @@ class _Auditor(Compared):
             if not counts or any(self.named(said) for said in (noun, *(mention.text for mention in mentions))):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
+            least = max(least, *(mention.number or 1 for mention in mentions))
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [mention for mention, before in zip(mentions, leads, strict=True)

@@ -208,7 +208,7 @@ seen should must need i'd give following features color immediate amidst belongs
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like want see imagine show create make corners
+like want see imagine show create make corners except
 """
 _POSTURES = """
 hidden else cover
