@@ -227,7 +227,7 @@ upper topmost leftmost rightmost lower pieces piece very quite just really only 
 like several animals want see imagine show create make build corners he she they namely whereas itself themselves
 himself herself now still
 already image possible sure ensure find finds generate remaining
-yesterday today currently simply form forms forming appears appear x count slightly
+yesterday today currently simply form forms forming appears appear x count slightly except
 """
 _POSTURES = """
 hidden else cover
